@@ -46,8 +46,8 @@ class Case:
     def measure(self, runner):
         """The first of two specimens: of one alone nothing scatters."""
         name = self.title.replace(" ", "_")
-        runner.once(name, {**self.settings, **self.cell, **self.seeds, **self.truth}, f"config/{self.method}.yaml",
-                    ["--specimens", "2"])
+        runner.run(name, {**self.settings, **self.cell, **self.seeds, **self.truth}, f"config/{self.method}.yaml",
+                   ["--specimens", "2"])
         return os.path.join(runner.folder, name, "specimen_001", "curve.csv")
 
     def fit(self, runner, fit):

@@ -73,8 +73,8 @@ def report(runner, materials):
 
 def run_all(runner, folder, base, variants, method):
     """Name -> run."""
-    return {name: runner.run(f"{folder}/{name.replace(', ', '_').replace(' ', '_').replace('/', '_')}", {**base, **settings}, method,
-                             times=2) for name, settings in variants.items()}
+    return {name: runner.least_of(2, f"{folder}/{name.replace(', ', '_').replace(' ', '_').replace('/', '_')}", {**base, **settings},
+                                  method) for name, settings in variants.items()}
 
 
 def overhand(runner, scenes):

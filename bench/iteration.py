@@ -19,7 +19,7 @@ def report(runner, materials):
                   {f"twist {twist}": (OVERHAND, {"physics.twist": twist}) for twist in ("off", "on")}}
     tables = []
     for title, columns in scenes.items():
-        each = [min((runner.bench_tool("iteration_cost_bench", [method] + words_of("--set", settings)) for _ in range(ROUNDS)),
+        each = [min((runner.bench_tool("iteration_cost_bench", [method] + words_of(settings)) for _ in range(ROUNDS)),
                     key=lambda found: found.get("iteration", math.inf)) for method, settings in columns.values()]
         table = Table(title, list(columns))
         table.add("nodes", "-", [found.get("nodes") for found in each])

@@ -18,6 +18,7 @@
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
+#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
@@ -87,11 +88,14 @@ class Matrix {
     contact_.evaluate(position, position, dt_);
     matrix_.locate(contact_.contacts());
     matrix_.set_zero_beyond_band();
-    centreline_.set_stiffness(diagonal_, matrix_);
+    LinearSystem<D> system{step, position, matrix_, force, turns_, {}, nullptr};
+    centreline_.add_stiffness(system);
+    for (int i = 0; i < static_cast<int>(rod_.nodes()); ++i)
+      for (int k = 0; k < 3; ++k) matrix_.band(i, 0, 0).column[k][k] += diagonal_[at(i)];
     if constexpr (D == 4) {
       frames_.begin(step);
       frames_.add_forces(step, position, force);
-      frames_.add_stiffness(matrix_);
+      frames_.add_stiffness(system);
       matrix_.values().set_identity_row(static_cast<int>(rod_.nodes()) - 1, Lanes{1.0, 1.0, 1.0, 0.0});
     }
     contact_.linearise({}, dt_, models_);
@@ -109,6 +113,7 @@ class Matrix {
   CentrelineTerms centreline_;
   FrameTerms frames_;
   StepMatrix<D> matrix_;
+  RollerTurns turns_;
   double dt_;
   std::vector<double> diagonal_;
   std::vector<ContactModel> models_;

@@ -8,17 +8,17 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 
-def row_of_axes(titles, width, height, rows=1):
-    figure, all_axes = plt.subplots(rows, len(titles), figsize=(width * len(titles), height), squeeze=False)
-    for axes, title in zip(all_axes[0], titles):
+def row_of_axes(titles, width, height):
+    figure, all_axes = plt.subplots(1, len(titles), figsize=(width * len(titles), height), squeeze=False)
+    for axes, title in zip(all_axes, titles):
         axes.set_title(title, fontsize="small")
-    return figure, all_axes
+    return figure, all_axes[0]
 
 
 def panels(file, curves, x_label, y_label):
     """One panel a group of curves. `curves`: group -> name -> (x, y)."""
     figure, all_axes = row_of_axes(curves, 4.6, 4.2)
-    for axes, lines in zip(all_axes[0], curves.values()):
+    for axes, lines in zip(all_axes, curves.values()):
         for name, (x, y) in lines.items():
             axes.plot(x, y, label=name, linewidth=0.9)
         logarithmic(axes, [value for _, y in lines.values() for value in y])
@@ -31,7 +31,7 @@ def ratios(file, groups, x_label, y_label, band):
     """One panel a group of points that should all be one. `groups`: group -> name -> (x, ratios); `band` shows how far
     off they may be."""
     figure, all_axes = row_of_axes(groups, 4.6, 3.6)
-    for axes, points in zip(all_axes[0], groups.values()):
+    for axes, points in zip(all_axes, groups.values()):
         axes.axhspan(1.0 - band, 1.0 + band, color="0.92")
         for (name, (x, y)), marker in zip(points.items(), "o^sv"):
             axes.plot(x, y, marker, label=name, markerfacecolor="none")
@@ -44,7 +44,7 @@ def strips(file, groups, label):
     """One panel a group: every value over its name, beside it their mean and its standard error. `groups`: group ->
     name -> values."""
     figure, all_axes = row_of_axes(groups, 3.4, 3.8)
-    for axes, columns in zip(all_axes[0], groups.values()):
+    for axes, columns in zip(all_axes, groups.values()):
         for place, values in enumerate(columns.values()):
             axes.plot([place - 0.1] * len(values), values, "o", color="tab:blue", markersize=4, alpha=0.6)
             if deviation(values) is not None:
@@ -58,7 +58,7 @@ def work_precision(file, scenes):
     """Cost over error, one panel a scene. `scenes`: title -> {"points": {name: (error, cost)},
     "others": the same, of other simulators}."""
     figure, all_axes = row_of_axes(scenes, 5.6, 6.8)
-    for axes, scene in zip(all_axes[0], scenes.values()):
+    for axes, scene in zip(all_axes, scenes.values()):
         marked = [(name, point, "o") for name, point in scene["points"].items()]
         marked += [(name, point, "s") for name, point in scene.get("others", {}).items()]
         for i, (name, (error, cost), marker) in enumerate(marked):
@@ -70,20 +70,16 @@ def work_precision(file, scenes):
     save(figure, file)
 
 
-def statuses(file, colours, maps, histograms, linear=()):
-    """Above, runs over two values of each, coloured by status; below, how readings are spread. `maps`: (x label, y
-    label) -> status -> points; `histograms`: label -> values; `linear`: y labels of axes that are not logarithmic."""
-    figure, all_axes = row_of_axes([""] * len(maps), 4.6, 8.0, rows=2)
-    for axes, ((x_label, y_label), groups) in zip(all_axes[0], maps.items()):
+def statuses(file, colours, maps, linear=()):
+    """Runs over two values of each, coloured by status. `maps`: (x label, y label) -> status -> points; `linear`: y labels of axes
+    that are not logarithmic."""
+    figure, all_axes = row_of_axes([""] * len(maps), 4.6, 4.0)
+    for axes, ((x_label, y_label), groups) in zip(all_axes, maps.items()):
         for status, points in groups.items():
             axes.plot(*zip(*points), "o", markersize=4, alpha=0.8, color=colours[status],
                       label=f"{status} ({len(points)})")
         axes.set(xscale="log", yscale="linear" if y_label in linear else "log", xlabel=x_label, ylabel=y_label)
-    all_axes[0][0].legend(fontsize="x-small")
-    for axes, (label, values) in zip(all_axes[1], histograms.items()):
-        decades = [math.log10(value) for value in values if value]
-        axes.hist(decades, 40)
-        axes.set(xlabel=f"log10 of {label}", ylabel="runs")
+    all_axes[0].legend(fontsize="x-small")
     save(figure, file)
 
 
@@ -91,7 +87,7 @@ def error_against_difference(file, panels_of):
     """Error given over true difference, one panel a reading: what lies above the line holds. `panels_of`: title ->
     [(difference, error, whether it holds)]."""
     figure, all_axes = row_of_axes(panels_of, 4.6, 4.2)
-    for axes, points in zip(all_axes[0], panels_of.values()):
+    for axes, points in zip(all_axes, panels_of.values()):
         both = [(difference, error, holds) for difference, error, holds in points if difference and error]
         for difference, error, holds in both:
             axes.plot([difference], [error], "o", markersize=4, color="tab:blue" if holds else "tab:red")

@@ -1,12 +1,12 @@
 """The closed references: what the tests held against them, as one table."""
 import json
-import math
 import os
 import re
 import subprocess
 import tempfile
+from dataclasses import dataclass
 
-from table import text_of
+from table import Gate, Table
 
 NUMBERED = re.compile(r"(?:.*/)?([KR]\d+)")
 PROPERTY = "reference: "  # of a test's report, written by test/reference.hpp
@@ -29,79 +29,30 @@ def numbers_in(document):
         return {number_of(line[2:]) for line in text if line.startswith("| ")} - {None}
 
 
+@dataclass(frozen=True)
 class Row:
-    """One result. Without numbers, `remark` says what is wrong."""
+    """One result. Where `ours` is None the text says what is wrong."""
 
-    def __init__(self, what, reference=None, ours=None, gate=None, is_bound=False, remark=""):
-        self.what, self.reference, self.ours, self.gate = what, reference, ours, gate
-        self.is_bound, self.remark = is_bound, remark
-        self.number = number_of(what)
+    what: str
+    reference: object = ""
+    ours: float = None
+    difference: object = ""  # relative to the reference where that is not zero
+    gate: Gate = Gate("a value", lambda value: True)
 
-    def difference(self):
-        """Relative to the reference where that is not zero; None of a bound."""
-        if self.is_bound or self.ours is None:
-            return None
-        away = abs(self.ours - self.reference)
-        return away / abs(self.reference) if self.reference else away
+    @property
+    def number(self):
+        return number_of(self.what)
 
     def passes(self):
-        if self.ours is None or not math.isfinite(self.ours):
-            return False
-        if self.is_bound:
-            return 0.0 <= self.ours < self.reference
-        return abs(self.ours - self.reference) <= self.gate * abs(self.reference)
-
-    def cells(self):
-        if self.ours is None:
-            return [self.what, "", self.remark, "", "", "FAIL"]
-        difference = self.difference()
-        return [self.what, ("< " if self.is_bound else "") + text_of(self.reference, ".7g"),
-                text_of(self.ours, ".7g"), "" if difference is None else percent(difference),
-                "" if self.is_bound else percent(self.gate) if self.gate else "exact",
-                "pass" if self.passes() else "FAIL"]
+        return self.ours is not None and self.gate.test(self.ours)
 
 
-def percent(share):
-    return "0" if share == 0 else f"{100 * share:.2g} %"
-
-
-class References:
-    """The table that a report (table.py) is made of."""
-
-    CSV_HEADER = ["reference", "value", "ours", "difference", "gate", "verdict"]
-    HEADER = ["Reference", "Value", "Ours", "Difference", "Gate", "Verdict"]
-
-    def __init__(self, rows, missing):
-        """`missing`: numbers of which no test left anything."""
-        none = [Row(number, remark="no test left a value") for number in missing]
-        self.rows = sorted(rows + none, key=lambda row: order(row.number))
-
-    def text(self):
-        lines = [self.HEADER] + [row.cells() for row in self.rows]
-        widths = [max(len(line[k]) for line in lines) for k in range(len(self.HEADER))]
-        return "".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() + "\n"
-                       for line in lines)
-
-    def markdown(self):
-        lines = [self.HEADER, ["---"] * len(self.HEADER)] + [row.cells() for row in self.rows]
-        return "".join("| " + " | ".join(line) + " |\n" for line in lines)
-
-    def csv_rows(self):
-        for row in self.rows:
-            difference = row.difference()
-            yield [row.what, "" if row.reference is None else row.reference,
-                   row.remark if row.ours is None else row.ours, "" if difference is None else difference,
-                   "bound" if row.is_bound else "" if row.gate is None else row.gate,
-                   "pass" if row.passes() else "FAIL"]
-
-    def failed(self):
-        lines = []
-        for row in self.rows:
-            what, reference, ours, difference, gate, _ = row.cells()
-            if not row.passes():
-                lines.append(f"{what}: {ours}" + (f", must be {reference}" if reference else "") +
-                             (f", off by {difference}, gate {gate}" if difference else ""))
-        return lines
+def table_of(rows, missing):
+    """`missing`: numbers of which no test left anything."""
+    table = Table("References", ["value", "ours", "difference"])
+    for row in sorted(rows + [Row(f"{number}: no test left a value") for number in missing], key=lambda row: order(row.number)):
+        table.add(row.what, "-", [row.reference, row.ours, row.difference], [None, row.gate, None], ".7g")
+    return table
 
 
 def rows_of(report):
@@ -114,15 +65,20 @@ def rows_of(report):
             rows += held
             # Where something else than a value that was held made it fail, the table must not pass over it.
             if test.get("failures") and all(row.passes() for row in held):
-                rows.append(Row(name, remark="the test failed" if held else "the test failed, no value"))
+                rows.append(Row(name + ": the test failed"))
     return rows
 
 
 def row_of(what, numbers):
-    words = numbers.split()
-    if words[0] == "<":
-        return Row(what, float(words[1]), float(words[2]), is_bound=True)
-    return Row(what, *(float(word) for word in words))
+    """`numbers`: "REFERENCE OURS GATE", the gate relative to the reference, or "< BOUND OURS"."""
+    first, second, third = numbers.split()
+    if first == "<":
+        bound = float(second)
+        return Row(what, f"< {bound:g}", float(third), "", Gate("from 0", lambda value: 0.0 <= value < bound))
+    reference, ours, gate = float(first), float(second), float(third)
+    away = abs(ours - reference)
+    return Row(what, reference, ours, away / abs(reference) if reference else away,
+               Gate(f"+/- {100 * gate:g} %" if gate else "exact", lambda value: abs(value - reference) <= gate * abs(reference)))
 
 
 def tests_of(tool, chosen):
@@ -155,5 +111,5 @@ def run(tool, chosen, core):
                 return rows_of(json.load(report))
         except (OSError, ValueError):
             print(done.stdout[-2000:])
-            return [Row(number, remark=f"{os.path.basename(tool)} ended with {done.returncode}, no report")
+            return [Row(f"{number}: {os.path.basename(tool)} ended with {done.returncode}, no report")
                     for number in {number_of(name) for name in names}]

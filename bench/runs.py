@@ -33,24 +33,18 @@ class Runner:
         self.root, self.tool, self.core, self.folder, self.overrides = root, tool, core, folder, overrides
         self.verbose = verbose
 
-    def run(self, name, settings, method=METHOD, times=1):
-        """`settings`: dotted key -> value, on top of which come those of the command line. Of several `times`, whose
-        readings are the same, the one of the least CPU time: what other work on the machine adds is no part of it."""
-        runs = [self.once(name, settings, method) for _ in range(times)]
-        return min(runs, key=lambda run: run.cpu_time)
-
     def run_all(self, todo, jobs=JOBS, cpu_limit=None, made_of=lambda place, run: run):
         """The runs of [(name, settings)] or [(name, settings, method)] in their order, some at a time on any core.
         `made_of`: what is kept of each, at its place among them."""
         runner = Runner(self.root, self.tool, None, self.folder, self.overrides, self.verbose)
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            return list(pool.map(lambda place, one: made_of(place, runner.once(*one, cpu_limit=cpu_limit)),
+            return list(pool.map(lambda place, one: made_of(place, runner.run(*one, cpu_limit=cpu_limit)),
                                  range(len(todo)), todo))
 
-    def once(self, name, settings, method=METHOD, more=(), cpu_limit=None):
-        """`more`: further words of the command line; `cpu_limit` [s]: more, and the run is ended by SIGXCPU, however
-        busy the machine."""
-        words = words_of("--set", settings, self.overrides) + list(more)
+    def run(self, name, settings, method=METHOD, more=(), cpu_limit=None):
+        """`settings`: dotted key -> value, on top of which come those of the command line; `more`: further words of it.
+        `cpu_limit` [s]: more, and the run is ended by SIGXCPU, however busy the machine."""
+        words = words_of(settings, self.overrides) + list(more)
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
@@ -67,6 +61,10 @@ class Runner:
         self.say(f"{name}: exit {run.exit_code} after {run.cpu_time:.1f} s of CPU time" +
                  (f": {run.said}" if run.said else ""))
         return run
+
+    def least_of(self, times, name, settings, method=METHOD):
+        """Of several runs, whose readings are the same, the one of the least CPU time: what other work adds is no part of it."""
+        return min((self.run(name, settings, method) for _ in range(times)), key=lambda run: run.cpu_time)
 
     def bench_tool(self, tool, arguments):
         """What a small executable beside tensile_test prints as YAML."""
@@ -91,10 +89,10 @@ def confine(core, cpu_limit=None):
         resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
 
 
-def words_of(option, settings, more=()):
-    """Of a command line, with the option before each; JSON is YAML too."""
-    entries = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + list(more)
-    return [word for entry in entries for word in (option, entry)]
+def words_of(settings, overrides=()):
+    """Of a command line; JSON is YAML too."""
+    settings = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + list(overrides)
+    return [word for setting in settings for word in ("--set", setting)]
 
 
 class Run:
@@ -127,19 +125,10 @@ class Run:
     def nodes(self):
         return len(self.shape["x"]) if self.shape else None
 
-    def phase(self, name):
-        """Rows of curve_full.csv in a phase, as columns, and with them the true force on the lower grip."""
-        rows = [i for i, phase in enumerate(self.curve.get("phase", [])) if phase == name]
-        columns = {key: [column[i] for i in rows] for key, column in self.curve.items()}
-        if "load_lower" in columns:
-            balanced = columns.get("balance_offset", [0.0] * len(rows))
-            columns["lower_force"] = [load + offset for load, offset in zip(columns["load_lower"], balanced)]
-        return columns
-
     def pulled(self, *keys):
         """Columns of the pull: extension and load, or those named."""
-        pull = self.phase("pull")
-        return tuple(pull.get(key, []) for key in keys or ("extension", "load"))
+        rows = [i for i, phase in enumerate(self.curve.get("phase", [])) if phase == "pull"]
+        return tuple([self.curve[key][i] for i in rows] if key in self.curve else [] for key in keys or ("extension", "load"))
 
     def slope_of_knot_distance(self):
         """de/ds: what result.yaml says of knots that slide, else by least squares over the whole pull."""

@@ -72,7 +72,7 @@ class Machine:
         os.environ.update(launch.environment)
         # They take the master's address when they are loaded.
         import rospy
-        from knot_utm.msg import Crosshead, RecorderStatus, TestStatus
+        from knot_utm.msg import RecorderStatus, TestStatus
         from rosgraph_msgs.msg import Clock
         from knot_utm.srv import StartTest
         from std_srvs.srv import Trigger

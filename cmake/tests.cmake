@@ -43,7 +43,7 @@ endforeach()
 knot_utm_tests(rooms_test quick test/rooms_test.cpp)
 add_custom_target(core_tests DEPENDS ${room_tests} rooms_test)
 
-# What stands on lanes, for processors without AVX2. What it costs there is measured by `scripts/bench registers`.
+# What stands on lanes, for processors without AVX2.
 if(KNOT_UTM_X86_64_V3)
   knot_utm_tests(narrow_lanes_tests quick test/numeric/lanes_test.cpp)
   target_compile_options(narrow_lanes_tests PRIVATE -mno-avx)

@@ -1,18 +1,65 @@
-"""One run of tensile_test: made, and read."""
+"""One run of tensile_test, and a batch: several specimens of one method. Made, and read."""
 import csv
+import functools
 import os
 import subprocess
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import pandas as pd
 
-from knot_utm import tool
+from knot_utm import spelling, tool
 from knot_utm.errors import RunFailed, RunWarning, WrongInput
-from knot_utm.readings import Readings, plot_curve, shown
 from knot_utm.yaml_text import load
 
+PULLS = ("pull", "cycle", "follow")  # the phases of curve.csv in which the specimen is pulled
 OF_A_RUN = ("result.yaml", "statistics.yaml", "samples.csv")  # where one of them is, tensile_test takes another folder
+STATISTICS = "statistics.yaml"
+
+
+class Readings(Mapping):
+    """A dict of readings that is only read. What derives from it has `_readings`, a pandas object with the keys as its index."""
+
+    def __getitem__(self, key):
+        if key not in self._readings.index:
+            raise KeyError(f"there is no reading {key!r}{spelling.hint(key, self._readings.index)}")
+        return self._readings.loc[key]
+
+    def __iter__(self):
+        return iter(self._readings.index)
+
+    def __len__(self):
+        return len(self._readings.index)
+
+    def __getattr__(self, name):
+        # Called for names that are not there. What copies an object asks for some before it has any of its own.
+        if name.startswith("_"):
+            raise AttributeError(name)
+        near = spelling.hint(name, dir(self)) or (f"; it is a reading: [{name!r}]" if name in self._readings.index else "")
+        raise AttributeError(f"{type(self).__name__} has no attribute {name!r}{near}")
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other):
+        return self is other
+
+
+def plot_curve(curve, axes=None, **style):
+    """Draws load [N] over extension [mm] of the pulls of a curve, into new axes unless some are given. Returns the axes."""
+    if axes is None:
+        from matplotlib import pyplot
+        axes = pyplot.subplots(layout="constrained")[1]
+        axes.set_xlabel("extension [mm]")
+        axes.set_ylabel("load [N]")
+    pulled = curve[curve["phase"].isin(PULLS)]
+    axes.plot(1e3 * pulled["extension"], pulled["load"], **style)
+    return axes
+
+
+def shown(value, unit):
+    """With four digits."""
+    return "none" if value is None or value != value else f"{value:.4g} {unit}".removesuffix(" -")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -113,3 +160,73 @@ def read_table(path):
         names, units = (row for _, row in zip(range(2), csv.reader(file)))
     table.attrs["units"] = dict(zip(names, units))
     return table
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Batch(Readings):
+    """What a batch left in its folder (doc/results.md). `statistics`: a row for each reading with mean, sd, cv, low, high,
+    minimum, maximum and n over the specimens that count; `specimens`: a row for each of them with what was drawn, how it ended
+    and its readings. Both have their units in `.attrs["units"]`, by reading and column. `rejected`: {specimen: why}.
+
+    A batch is a dict of its statistics, too: batch["peak_force"]["mean"]."""
+
+    folder: str
+    method: dict
+    statistics: pd.DataFrame
+    specimens: pd.DataFrame
+    rejected: dict
+
+    @functools.cached_property
+    def runs(self):
+        """[Run] of all specimens, in order."""
+        return [read(os.path.join(self.folder, f"specimen_{number:03d}")) for number in self.specimens.index]
+
+    @property
+    def _readings(self):
+        return self.statistics
+
+    @property
+    def warnings(self):
+        """{specimen: [text]} of what the tests of specimens warned of, without those that had nothing to warn of."""
+        return {number: run.warnings for number, run in zip(self.specimens.index, self.runs) if run.warnings}
+
+    def plot(self, axes=None, **style):
+        """Draws load over extension of all specimens that count. Returns the axes of Matplotlib."""
+        for run, rejected in zip(self.runs, self.specimens["rejected"]):
+            if not rejected:
+                axes = run.plot(axes, **style)
+        return axes
+
+    def __repr__(self):
+        count = len(self.specimens)
+        peak = shown(self.statistics.loc["peak_force", "mean"], self.statistics.attrs["units"]["peak_force"])
+        return f"<Batch {self.folder}: {count - len(self.rejected)} of {count} specimens count, mean largest load {peak}>"
+
+
+def batch(method, out, specimens=8, jobs=None, overwrite=False, **overrides):
+    """Tests so many specimens of a method's file, or of a shipped method by its name, and reads what they left in `out`.
+
+    How they scatter, the method's key `specimens` says (doc/method.md). `jobs`: tests at a time, unless given as many as there are
+    cores; the numbers are the same. `overwrite`, `overrides`, warnings and what it raises: as `run`; it raises RunFailed where no
+    specimen counts."""
+    if specimens < 2:
+        raise WrongInput(f"specimens is {specimens}, but a batch has at least 2: knot_utm.run tests one")
+    made = make(method, out, specimens, overrides, overwrite, *(["--jobs", str(jobs)] if jobs is not None else []))
+    left = read_batch(out) if made.has(STATISTICS) else None
+    for line in made.said if left else ():
+        warnings.warn(line, RunWarning, stacklevel=2)
+    made.require_success(left)
+    return left
+
+
+def read_batch(folder):
+    """The batch in a folder, whoever made it. Raises WrongInput where there is none that has ended."""
+    folder = os.path.abspath(folder)
+    told = load(os.path.join(folder, STATISTICS))
+    rejected = {one["specimen"]: one["reason"] for one in told["rejected"]}
+    units = {row["key"]: row["unit"] for row in tool.result_keys()}
+    statistics = pd.DataFrame.from_dict({key: told[key] for key in units if "mean" in (told.get(key) or ())}, orient="index",
+                                        dtype=float).astype({"n": int})
+    statistics.attrs["units"] = {key: units[key] for key in statistics.index}
+    specimens = read_table(os.path.join(folder, "specimens.csv")).set_index("specimen")
+    return Batch(folder, load(os.path.join(folder, "method.yaml")), statistics, specimens, rejected)

@@ -1,18 +1,13 @@
-# What the scripts in bash do with their command line before they set up or build anything. Sourced.
-
-# Answers --help and -h, wherever they stand, with the comment at the head of the script, and ends it.
-answer_help() {
-  local word
-  for word in "$@"; do
-    case $word in
-      -h | --help)
-        sed -n '2,$ { /^#/!q; s/^# \{0,1\}//p }' "$0"
-        if declare -F more_help >/dev/null; then more_help; fi
-        exit 0
-        ;;
-    esac
-  done
-}
+# What the scripts in bash do with their command line before they set up or build anything. Sourced; it sets `root`, and answers
+# --help and -h, wherever they stand, with the comment at the head of the script, and with what more_help prints.
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+case " $* " in
+  *" --help "* | *" -h "*)
+    sed -n '2,$ { /^#/!q; s/^# \{0,1\}//p }' "$0"
+    if declare -F more_help >/dev/null; then more_help; fi
+    exit 0
+    ;;
+esac
 
 # Ends the script: its words are wrong.
 refuse() {
@@ -32,4 +27,13 @@ refuse_options() {
 run_module() {
   local module=$1
   exec env -u PYTHONHOME PYTHONPATH="$root/python" OPENBLAS_NUM_THREADS=1 /usr/bin/python3 -sPB -m "knot_utm.$module" "${@:2}"
+}
+
+# Installs what is missing, with the packages of one kind (scripts/setup), and builds the targets named: prepare KIND [TARGET...].
+# Nothing where KNOT_UTM_SKIP_BUILD is set.
+prepare() {
+  if [ -n "${KNOT_UTM_SKIP_BUILD:-}" ]; then return; fi
+  declare -g "knot_utm_$1=1"
+  . "$root/scripts/setup"
+  if [ $# -gt 1 ]; then "$root/scripts/build" "${@:2}" || exit 1; fi
 }

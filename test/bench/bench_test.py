@@ -3,27 +3,20 @@
 import math
 import os
 import re
-import statistics
 import subprocess
 import sys
 import tempfile
 import unittest
 
-import numpy as np
-
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
 
-import convergence  # noqa: E402
-import front  # noqa: E402
 import lengths  # noqa: E402
 import readings  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
-import scaling  # noqa: E402
 import sizes  # noqa: E402
 import specimens  # noqa: E402
-import strangers  # noqa: E402
 import tighten  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
 
@@ -49,23 +42,10 @@ class Gates(unittest.TestCase):
             self.assertIn("missing", table.markdown())
             self.assertEqual(table.failed(), [])
 
-    def test_a_gate_for_each_run(self):
-        table = Table("table", ["first", "second"])
-        table.add("quantity", "N", [5.0, 5.0], [None, at_most(1.0)])
-        self.assertEqual(len(table.failed()), 1)
-        self.assertIn("second", table.failed()[0])
-
 
 class Specimens(unittest.TestCase):
     def test_are_the_same_however_many_are_drawn(self):
         self.assertEqual(specimens.specimens(20)[:12], specimens.specimens(12))
-
-    def test_scatter_as_is_said(self):
-        drawn = specimens.specimens(2000)
-        for key, (mean, share) in specimens.SCATTER.items():
-            values = [each[key] for each in drawn]
-            self.assertAlmostEqual(statistics.fmean(values) / mean, 1.0, delta=0.1 * share)
-            self.assertAlmostEqual(statistics.stdev(values) / mean, share, delta=0.1 * share)
 
     def test_the_change_of_a_mean_may_lie_as_far_beyond_the_bound_as_its_standard_error(self):
         reference = [4.0] * 4
@@ -73,9 +53,6 @@ class Specimens(unittest.TestCase):
                                ([4.1, 4.3, 4.1, 4.3], False), ([3.9, 3.7, 3.9, 3.7], False), ([4.0, None, 4.0, 4.0], False)):
             change = specimens.Change(values, reference)
             self.assertEqual(change.gate().test(change.relative), passes, values)
-
-    def test_of_one_specimen_there_is_no_change_to_speak_of(self):
-        self.assertIsNone(specimens.Change([4.0], [4.0]).relative)
 
 
 class Runs(unittest.TestCase):
@@ -94,7 +71,7 @@ class Runs(unittest.TestCase):
         run = self.run_of("motion_pattern: sliding\nplateau_slope: -1.95\nsimulated_time: 60\n", rows)
         self.assertEqual(run.slope_of_knot_distance(), -1.95)
         self.assertEqual(run.real_time_factor(), 30.0)
-        self.assertEqual(len(run.phase("tie")["time"]), 1)
+        self.assertEqual(run.pulled("time"), ([1.0],))
 
     def test_slope_of_all_others_is_that_of_the_whole_pull(self):
         rows = [(0, 0, 0, 0.5, 0.25, 0, "tie")]
@@ -107,28 +84,6 @@ class Runs(unittest.TestCase):
         self.assertIsNone(run.value("peak_force"))
         self.assertIsNone(run.real_time_factor())
         self.assertIsNone(run.slope_of_knot_distance())
-
-    def test_relative_change(self):
-        self.assertAlmostEqual(runs.relative_change(1.1, 1.0), 0.1)
-        self.assertIsNone(runs.relative_change(None, 1.0))
-        self.assertIsNone(runs.relative_change(1.0, None))
-
-    def test_mean_relative_difference_is_over_what_both_have(self):
-        reference = ([0.0, 1.0, 2.0], [1.0, 2.0, 3.0])
-        self.assertAlmostEqual(runs.mean_relative_difference(([0.0, 2.0], [1.1, 3.3]), reference), 0.1)
-        short, reference = ([0.0, 1.0], [2.0, 2.0]), ([0.5, 9.0], [1.0, 1.0])
-        self.assertAlmostEqual(runs.mean_relative_difference(short, reference), 1.0)
-        self.assertIsNone(runs.mean_relative_difference(short, ([2.0, 3.0], [1.0, 1.0])))
-        self.assertIsNone(runs.mean_relative_difference(([], []), reference))
-
-    def test_what_swings_about_the_same_mean_differs_point_by_point_alone(self):
-        x = [k / 1000.0 for k in range(1001)]
-        reference = (x, [2.0] * len(x))
-        swings = (x, [2.0 + math.sin(2.0 * math.pi * 4.0 * at) for at in x])
-        self.assertGreater(runs.mean_relative_difference(swings, reference), 0.3)
-        self.assertLess(runs.mean_relative_difference(swings, reference, 4, 50), 1e-3)
-        higher = (x, [2.2] * len(x))
-        self.assertAlmostEqual(runs.mean_relative_difference(higher, reference, 4, 50), 0.1)
 
     def test_a_runs_memory_is_not_that_of_python(self):
         ballast = bytearray(400_000_000)
@@ -146,7 +101,7 @@ class Errors(unittest.TestCase):
     """When the error beside a reading holds (scripts/bench readings)."""
 
     def judged(self, result, fine_result, exit_code=0):
-        draw = strangers.Stranger(1, 0)
+        draw = readings.Stranger(1, 0)
         unit = draw.unit_of("plateau_force")
         both = []
         for values, code in ((result, exit_code), (fine_result, 0)):
@@ -172,22 +127,16 @@ class Errors(unittest.TestCase):
 
     def test_the_same_seed_draws_the_same_loops_and_coils_clear_the_rollers(self):
         for number in range(200):
-            draw = strangers.Stranger(19, number)
-            self.assertEqual(draw.settings, strangers.Stranger(19, number).settings)
+            draw = readings.Stranger(19, number)
+            self.assertEqual(draw.settings, readings.Stranger(19, number).settings)
             specimen = draw.settings
             gap = specimen["specimen.end_to_end"] - specimen["specimen.knot_distance"]
             self.assertGreaterEqual(gap, 25.99 * draw.radius)
             self.assertLessEqual(draw.preload, draw.values["stretching"])
-        self.assertNotEqual(strangers.Stranger(19, 0).settings, strangers.Stranger(20, 0).settings)
+        self.assertNotEqual(readings.Stranger(19, 0).settings, readings.Stranger(20, 0).settings)
 
 
 class Studies(unittest.TestCase):
-    def test_at_equal_error_this_program_is_five_times_as_fast_as_its_peers(self):
-        rows = {row[0]: row[2] for row in front.side_by_side().rows}
-        cost, error = rows.pop("ours, normal")
-        least = min(other for name, (other, its_error) in rows.items() if its_error <= error and "ours" not in name)
-        self.assertAlmostEqual(least / cost, 5.1, 1)  # as doc/developers/performance.md says
-
     def test_loops_are_compared_at_the_same_distances_and_loads(self):
         run = runs.Run("/nowhere", 1.0, 0, "")
         run.result = {"lock_extension": 10.0}
@@ -204,16 +153,6 @@ class Studies(unittest.TestCase):
         self.assertIsNone(lengths.stretched_length(run, 100.0))
         run.result = {}
         self.assertIsNone(lengths.force_at_distances(run))
-
-    def test_a_row_of_knots_is_one_line_without_a_gap(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        file = os.path.join(folder.name, "row.csv")
-        scaling.row_of_knots({"x": [0.0, 1.0, 0.0], "y": [0.0, 0.0, 0.0], "z": [0.5, 1.0, 1.5]}, 3, file)
-        with open(file, encoding="utf-8") as text:
-            rows = [[float(cell) for cell in line.split(",")] for line in text.read().split()[1:]]
-        self.assertEqual(len(rows), 7)
-        self.assertEqual({round(b[2] - a[2], 9) for a, b in zip(rows, rows[1:])}, {round(0.5 * scaling.ROOM, 9)})
 
 
 class FakeRunner:
@@ -239,25 +178,6 @@ class Sizes(unittest.TestCase):
     SHIPPED = {"radius": 0.003, "density": 900.0, "stretching_stiffness": 4e4, "bending_stiffness": 1e-4,
                "twisting_stiffness": 8e-5, "friction_coefficient": 0.5, "tying_preload": 50.0}
 
-    def test_draws_spread_over_sizes_and_forces_independently(self):
-        diameters, forces = zip(*sizes.draws())
-        self.assertGreaterEqual(len(forces), 12)
-        self.assertEqual((min(diameters), max(diameters)), (0.00025, 0.04))
-        self.assertGreaterEqual(math.log10(max(forces) / min(forces)), 9.0)
-        self.assertLess(abs(np.corrcoef(np.log(diameters), np.log(forces))[0, 1]), 0.3)
-
-    def test_rods_have_the_groups_of_the_shipped_one(self):
-        def groups(rod):
-            force = rod["bending_stiffness"] / rod["radius"] ** 2
-            return [rod["stretching_stiffness"] / force, rod["tying_preload"] / force, rod["friction_coefficient"],
-                    rod["twisting_stiffness"] / rod["bending_stiffness"], rod["density"]]
-        for diameter, force in sizes.draws():
-            rod = sizes.settings_of(self.SHIPPED, diameter, force)["material"]
-            self.assertAlmostEqual(rod["radius"], diameter / 2.0)
-            self.assertAlmostEqual(sizes.bending_force(rod) / force, 1.0)
-            for own, shipped in zip(groups(rod), groups(self.SHIPPED)):
-                self.assertAlmostEqual(own / shipped, 1.0)
-
     def test_a_specimen_that_pulls_otherwise_or_takes_more_work_fails(self):
         def table(**changed):
             class Runner:
@@ -282,15 +202,6 @@ class Sizes(unittest.TestCase):
 class SpeedOverStarts(unittest.TestCase):
     def table(self, change=lambda name, result: 0):
         return tighten.over_starts(FakeRunner(change), ["polypropylene", "green_vps"], 5)
-
-    def test_the_slowest_start_counts_against_what_is_wanted_of_its_kind(self):
-        def change(name, result):
-            result["simulated_time"] = 24.0 if name == "green_vps_draft/3" else 60.0
-            return 0
-        rows = {row[0]: row[2] for row in self.table(change).rows}
-        self.assertEqual(rows["`normal`: real-time factor"], [30.0, 30.0])
-        self.assertEqual(rows["`draft`: real-time factor"], [30.0, 12.0])
-        self.assertEqual(rows["`draft`: over the 120 and 400 wanted"], [0.25, 0.03])
 
     def test_a_start_that_fails_fails_the_row(self):
         failed = self.table(lambda name, result: 1 if name == "polypropylene_normal/4" else 0).failed()
@@ -334,7 +245,7 @@ class Means(unittest.TestCase):
         for material, name in (("nylon", "kNormal"), ("pink_vps", "kStretchingNormal")):
             step, residual, contact_tolerance, presliding, _ = [
                 float(number) for number in re.search(name + r"\{(.*?)\}", text).group(1).split(",")]
-            variants = {**specimens.gated_variants(material), **convergence.others(material)}
+            variants = {**specimens.gated_variants(material), **specimens.tolerances(material)}
             for variant, changed in (("longest step x1/2", {"physics.max_step": step / 2}),
                                      ("residual /10", {"physics.residual": residual / 10}),
                                      ("contact tolerance x1/4", {"physics.contact.tolerance": contact_tolerance / 4}),
@@ -349,36 +260,25 @@ class References(unittest.TestCase):
     def verdicts(self, test):
         return [(row.what, row.passes()) for row in self.rows_of(test)]
 
-    def test_a_value_is_judged_at_its_gate(self):
-        for ours, passes in ((5.3, True), (5.26, False), (math.nan, False)):
-            self.assertEqual(self.verdicts({"reference: R8 capstan": f"5.319 {ours} 0.01"}), [("R8 capstan", passes)])
-
-    def test_a_value_is_judged_at_its_bound(self):
-        for ours, passes in ((0.0, True), (9e-7, True), (1e-6, False), (-1e-9, False), (math.nan, False)):
-            self.assertEqual(self.verdicts({"reference: R9 incline": f"< 1e-6 {ours}"}), [("R9 incline", passes)])
-        self.assertEqual(self.rows_of({"reference: R9 incline": "< 1e-6 3e-7"})[0].cells(),
-                         ["R9 incline", "< 1e-06", "3e-07", "", "", "pass"])
-
-    def test_a_reference_of_zero_is_exact(self):
-        self.assertEqual(self.verdicts({"reference: K7 linking": "0 0 0"}), [("K7 linking", True)])
-        self.assertEqual(self.verdicts({"reference: K7 linking": "0 1 0"}), [("K7 linking", False)])
+    def test_a_value_is_judged_at_its_gate_or_bound(self):
+        for numbers, values in (("5.319 {} 0.01", ((5.3, True), (5.26, False), (math.nan, False))), ("0 {} 0", ((0, True), (1, False))),
+                                ("< 1e-6 {}", ((0.0, True), (9e-7, True), (1e-6, False), (-1e-9, False), (math.nan, False)))):
+            for ours, passes in values:
+                self.assertEqual(self.verdicts({"reference: R8 capstan": numbers.format(ours)}), [("R8 capstan", passes)])
 
     def test_a_test_that_fails_without_a_failed_value_stands_in_the_table(self):
         failures = {"failures": [{"failure": "something else"}]}
-        row, = self.rows_of(failures)
-        self.assertEqual((row.what, row.remark, row.passes()), ("R8Capstan.Slides/T2", "the test failed, no value", False))
-        passed, failed = self.verdicts({"reference: R8 capstan": "1 1 0", **failures})
-        self.assertEqual((passed[1], failed), (True, ("R8Capstan.Slides/T2", False)))
+        alone = ("R8Capstan.Slides/T2: the test failed", False)
+        self.assertEqual(self.verdicts(failures), [alone])
+        self.assertEqual(self.verdicts({"reference: R8 capstan": "1 1 0", **failures}), [("R8 capstan", True), alone])
         self.assertEqual(self.verdicts({"reference: R8 capstan": "1 2 0", **failures}), [("R8 capstan", False)])
 
     def test_rows_are_sorted_by_number_and_what_is_missing_fails(self):
         rows = [references.row_of(f"{number} test", "1 1 0") for number in ("R11", "R2", "K7", "R1", "K1")]
-        table = references.References(rows, {"R10"})
-        self.assertEqual([row.number for row in table.rows], ["K1", "K7", "R1", "R2", "R10", "R11"])
+        table = references.table_of(rows, {"R10"})
+        self.assertEqual([row[0].split()[0] for row in table.rows], ["K1", "K7", "R1", "R2", "R10:", "R11"])
         line, = table.failed()
         self.assertIn("R10: no test left a value", line)
-        self.assertIn("no test left a value", table.text())
-        self.assertEqual(len(list(table.csv_rows())), len(table.rows))
 
     def test_numbers_of_the_document(self):
         document = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../doc/references.md")

@@ -89,7 +89,7 @@ class Readme(unittest.TestCase):
             self.assertAlmostEqual(float(error), result[key + "_error"] / UNITS[error_unit], delta=step(error), msg=key)
 
     def test_pictures_are_of_this_program(self):
-        """Each PNG carries what it was made of (knot_utm.report.picture_facts). The two of a test are of the run above."""
+        """Each PNG carries what it was made of (facts_of_run of knot_utm.report.picture). The two of a test are of the run above."""
         result, steps = self.result(), {key: step(value) * UNITS[unit] for key, value, unit, _, _ in self.rows()}
         seen = set()
         for name in sorted(os.listdir(IMAGES)):

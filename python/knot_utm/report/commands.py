@@ -1,6 +1,7 @@
-"""What the commands of reports have in common: how they read their words, and how they end."""
+"""What the commands of reports have in common: how they begin, read their words, and end."""
 import argparse
 import contextlib
+import importlib
 import os
 import stat
 import sys
@@ -58,3 +59,15 @@ def why_not(file, inputs, overwrite):
         if stat.S_ISCHR(mode) or stat.S_ISFIFO(mode):
             return None
     return None if overwrite else f"{file} exists already: give another name, or --overwrite"
+
+
+def start(program):
+    """One of them, by the name of its module. What that needs may not be installed, which is told in a line, too."""
+    with in_one_line(program):
+        importlib.import_module(f"knot_utm.report.{program}").main()
+
+
+if __name__ == "__main__":  # scripts/PROGRAM WORD...
+    from knot_utm.report import commands  # this module again, under the name by which all others know it
+
+    commands.start(sys.argv.pop(1))

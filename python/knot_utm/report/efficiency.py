@@ -4,7 +4,12 @@ import os
 import statistics
 import sys
 
+from scipy.stats import t
+
+from knot_utm.report.batch import read_specimens
 from knot_utm.report.commands import CannotReport, in_one_line, OneLineParser, refuse
+from knot_utm.report.quantities import is_number
+from knot_utm.report.run import read_yaml
 
 
 class Sample:
@@ -25,8 +30,6 @@ def ratio_of_means(a, b):
     The logarithm of the ratio has, to first order, the variance v = cv_a^2/n_a + cv_b^2/n_b. Its interval is Student's with
     the degrees of freedom of Welch (1947), v^2/((cv_a^2/n_a)^2/(n_a - 1) + (cv_b^2/n_b)^2/(n_b - 1)). So the interval has
     no end below 0, and the inverse ratio has the inverse interval."""
-    from scipy.stats import t
-
     ratio, parts = a.mean / b.mean, (a.share(), b.share())
     variance = sum(parts)
     if variance == 0.0:
@@ -41,8 +44,6 @@ def sample(folder, key):
     """The readings of the specimens that count, and their unit."""
     if not os.path.isfile(os.path.join(folder, "specimens.csv")):
         refuse("efficiency", f"{folder}: no folder of a batch that has ended: it has no specimens.csv")
-    from knot_utm.report.batch import read_specimens
-
     specimens, units = read_specimens(folder)
     counted = [one for one in specimens if not one.rejected]
     if key not in specimens[0].readings:
@@ -64,10 +65,6 @@ OF_THE_BREAK = ("peak_force", "true_peak_force", "break_extension", "elongation_
 
 def repeats_what_was_given(folder, key):
     """Whether the readings follow from material.breaking_force, at which the rod parts."""
-    from knot_utm.report.batch import read_specimens
-    from knot_utm.report.quantities import is_number
-    from knot_utm.report.run import read_yaml
-
     file = os.path.join(folder, "method.yaml")
     if key not in OF_THE_BREAK or not os.path.isfile(file):
         return False

@@ -12,10 +12,22 @@ import shutil
 import subprocess
 import sys
 
+import matplotlib.pyplot as plt
+import numpy as np
+
+from knot_utm.report.colours import colour_scales, UNITS
 from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_not
+from knot_utm.report.curve_figures import small_loads
+from knot_utm.report.curves import few_points
+from knot_utm.report.method_facts import knot_of
+from knot_utm.report.rod_pictures import draw_bar, draw_rod, draw_rollers, view
+from knot_utm.report.run import Run
+from knot_utm.report.shapes import pieces, series_of, Shape
+from knot_utm.report.style import BLUE, FAINT, INK, ORANGE, USUAL
 
 SIZE = (1920, 1080)
-NAMES = ("tension", "curvature", "twist", "contact_force")
+DPI = 120
+VIEWS = 12  # shapes of a test that the frame of its pictures is made for
 
 
 def asked():
@@ -24,7 +36,7 @@ def asked():
     parser.add_argument("--out", default="movie.mp4", help="the file [movie.mp4]")
     parser.add_argument("--seconds", type=float, default=12.0, help="that the movie takes [12]")
     parser.add_argument("--rate", type=int, default=25, help="pictures a second [25]")
-    parser.add_argument("--color", choices=NAMES, default="tension", help="what the colours show [tension]")
+    parser.add_argument("--color", choices=UNITS, default="tension", help="what the colours show [tension]")
     parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
     found = parser.parse_args()
     if len(found.runs) > 2:
@@ -44,14 +56,10 @@ def asked():
 
 
 def main():
-    arguments = asked()
-    with in_one_line("movie"):
-        make(arguments)
+    make(asked())
 
 
 def make(arguments):
-    from knot_utm.report.movie_frame import Stage
-
     if shutil.which("ffmpeg") is None:
         raise CannotReport("there is no ffmpeg: install Debian's package ffmpeg")
     stage = Stage(arguments.runs, arguments.color, SIZE)
@@ -68,7 +76,6 @@ def make(arguments):
 
 def encode(stage, times, rate, file):
     """All pictures in order, each as soon as a core has drawn it."""
-
     encoder = subprocess.Popen(
         ["ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba", "-s", f"{SIZE[0]}x{SIZE[1]}",
          "-r", str(rate), "-i", "-", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart",
@@ -88,5 +95,131 @@ def encode(stage, times, rate, file):
         raise CannotReport(f"{file}: ffmpeg: {said.decode(errors='replace')}")
 
 
+class Stage:
+    """One or two tests, with what all of their pictures have in common."""
+
+    def __init__(self, folders, name, size):
+        self.size = size
+        self.tests = [OneTest(folder) for folder in folders]
+        shapes = [shape for test in self.tests for shape in test.shapes]
+        first = self.tests[0].run
+        scales = {scale.name: scale for scale in colour_scales(shapes, first.method["material"]["radius"], first.units)}
+        if name not in scales:
+            raise CannotReport(f"{folders[0]}: --color {name}: it is not known, or nowhere different from zero; known are: "
+                               f"{', '.join(scales)}")
+        self.scale = scales[name]
+        self.extensions = joined(test.extension for test in self.tests)
+        self.loads = joined(test.load for test in self.tests)
+        small = [small_loads(test.run.value, test.tested["load"], test.run.units.force.scale) for test in self.tests]
+        self.small = (min(low for low, _ in small), max(high for _, high in small)) if all(small) else None
+
+    def times(self, count):
+        """Evenly spaced since the start of the pull [s]."""
+        return np.linspace(min(test.first() for test in self.tests), max(test.last() for test in self.tests), count)
+
+    def picture(self, time):
+        """Bytes, four a pixel."""
+        figure = plt.figure(figsize=(self.size[0] / DPI, self.size[1] / DPI), dpi=DPI)
+        try:
+            for column, test in enumerate(self.tests):
+                self.draw(figure, column, test, time)
+            draw_bar(figure.add_axes([0.35, 0.065, 0.3, 0.016]), self.scale, USUAL + 3)
+            figure.canvas.draw()
+            return bytes(figure.canvas.buffer_rgba())
+        finally:
+            plt.close(figure)
+
+    def draw(self, figure, column, test, time):
+        width = 1.0 / len(self.tests)
+        left, wide = column * width, width
+        shape = test.at(time)
+        rod = figure.add_axes([left + 0.01, 0.47, wide - 0.02, 0.42])
+        draw_rod(rod, shape, test.shapes[0], test.run.method["material"]["radius"], self.scale)
+        draw_rollers(rod, test.run, shape)
+        rod.set_xlim(*test.box[:2])
+        rod.set_ylim(*test.box[2:])
+        rod.set_aspect("equal")
+        rod.axis("off")
+        figure.text(left + 0.5 * wide, 0.945, test.title, ha="center", fontsize=USUAL + 7, weight="bold", color=INK)
+        figure.text(left + 0.5 * wide, 0.905, test.run.words_at(shape.time), ha="center", fontsize=USUAL + 4, color=INK)
+        margin = 0.06
+        if self.small:  # the peak hides the plateau: small loads again, above
+            axes = figure.add_axes([left + margin, 0.335, wide - margin - 0.02, 0.13])
+            self.draw_curve(axes, test, shape, self.small, "small loads")
+            axes.tick_params(labelbottom=False)
+        axes = figure.add_axes([left + margin, 0.17, wide - margin - 0.02, 0.13 if self.small else 0.28])
+        self.draw_curve(axes, test, shape, self.loads, "load")
+        axes.set_xlabel(f"extension [{test.run.units.length.name}]", fontsize=USUAL + 3)
+
+    def draw_curve(self, axes, test, shape, loads, name):
+        rows = few_points(test.extension, test.load)
+        axes.plot(test.extension[rows], test.load[rows], color=FAINT, lw=2.0)
+        if shape.time >= test.begin:
+            extension, load = test.until(shape.time)
+            rows = few_points(extension, load)
+            axes.plot(extension[rows], load[rows], color=BLUE, lw=2.4)
+            axes.plot(extension[-1], load[-1], "o", ms=9, color=ORANGE, clip_on=not loads[0] <= load[-1] <= loads[1], zorder=5)
+        axes.set_xlim(*self.extensions)
+        axes.set_ylim(loads[0], loads[1] + 0.05 * (loads[1] - loads[0]))
+        axes.set_ylabel(f"{name} [{test.run.units.force.name}]", fontsize=USUAL + 3)
+        axes.tick_params(labelsize=USUAL + 2)
+
+
+def joined(of_tests):
+    """The lowest and the highest value of all of them."""
+    values = [np.append(one, 0.0) for one in of_tests]
+    return min(one.min() for one in values), max(max(one.max() for one in values), 1e-9)
+
+
+class OneTest:
+    def __init__(self, folder):
+        self.run = run = Run(folder)
+        series, note = series_of(run)
+        self.tested = run.tested()
+        if note or len(series) < 2:
+            raise CannotReport(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
+        if not len(self.tested):
+            raise CannotReport(f"{folder}: the test ended before the specimen was pulled")
+        self.shapes = [series.shape(i) for i in range(len(series))]
+        self.seconds = series.times
+        self.begin = float(self.tested["time"][0])
+        self.extension = run.units.length.scale * self.tested["extension"]
+        self.load = run.units.force.scale * self.tested["load"]
+        self.title = f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}"
+        some = np.unique(np.linspace(0, len(self.shapes) - 1, VIEWS).astype(int))
+        views = np.array([view(run, self.shapes[i], run.method["material"]["radius"]) for i in some])
+        self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())
+
+    def first(self):
+        return self.seconds[0] - self.begin
+
+    def last(self):
+        return self.seconds[-1] - self.begin
+
+    def at(self, time):
+        """On the straight way between two shapes; a rod that parts between them is whole until the second."""
+        at = float(np.clip(time + self.begin, self.seconds[0], self.seconds[-1]))
+        i = min(int(np.searchsorted(self.seconds, at, side="right")) - 1, len(self.shapes) - 2)
+        before, after = self.shapes[i], self.shapes[i + 1]
+        part = (at - before.time) / (after.time - before.time)
+        if part >= 1.0:
+            return after
+        if len(pieces(after, self.shapes[0])) > len(pieces(before, self.shapes[0])):
+            return Shape(at, before.points, before.tension, before.twist, before.contact_force)
+        return Shape(at, *(between(getattr(before, name), getattr(after, name), part)
+                           for name in ("points", "tension", "twist", "contact_force")))
+
+    def until(self, time):
+        """Extension and load up to a time [s], in the units of the page."""
+        times = self.tested["time"]
+        past = times < time
+        return [np.append(values[past], np.interp(time, times, values)) for values in (self.extension, self.load)]
+
+
+def between(before, after, part):
+    return None if before is None or after is None else (1.0 - part) * before + part * after
+
+
 if __name__ == "__main__":
-    main()
+    with in_one_line("movie"):
+        main()

@@ -2,15 +2,14 @@
 """The report of a batch: every specimen, their mean curve with its band, the statistics, and the specimens that are rejected."""
 import os
 import re
-import subprocess
 import unittest
 
-from runs import FISHERMAN, ROOT, STRAIGHT, Folders, command_of, keys_on, page_of, read, row_of, script, tool, write
+from runs import FISHERMAN, STRAIGHT, Folders, command_of, keys_on, page_of, read, row_of, script, tool, write
 
 import numpy as np
 import yaml
 
-from knot_utm.report import batch_page, batch_tables, style
+from knot_utm.report import batch_page, style
 from knot_utm.report.batch import Batch
 from knot_utm.report.certificate import Check
 from knot_utm.report.curves import mean_curve
@@ -74,9 +73,7 @@ class PageByAStandard(unittest.TestCase):
                                 "Gauge length": number(0.25 / 0.0254) + " in",
                                 "Speed of the crosshead": number(60.0 * speed / 0.0254) + " in/min",
                                 "Specimens": "2 tested, 2 count, 0 discarded"})
-
-    def test_of_no_standard_the_head_is_empty(self):
-        self.assertEqual(head_of(html_of(rods)), {})
+        self.assertEqual(head_of(html_of(rods)), {}, "where no standard is named")
 
     def test_of_a_load_rate_there_is_no_speed(self):
         method = {"program": [{"pull": {"speed": 0.1, "load_rate": 5.0}}]}
@@ -184,16 +181,12 @@ class PageOfABatch(unittest.TestCase):
         self.assertEqual([row[place] for row in column if row[0] in ("Mean", "Standard deviation", "Coefficient of variation")],
                          ["31.00", "constant", ""])
 
-    def test_gives_no_spread_of_what_is_rounding(self):
-        tiny = {"mean": 8.9e-13, "sd": 4.9e-14, "cv": 0.05, "low": 8.1e-13, "high": 9.7e-13, "minimum": 8e-13, "maximum": 9e-13, "n": 2}
-        html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(inertia_share=tiny)))
-        self.assertEqual(row_of(html, "inertia_share")[1:], ["0", "", "constant", "", "2", ""])
 
-    def test_keeps_the_spread_of_readings_around_zero(self):
-        around = {"mean": 1e-13, "sd": 1.0, "cv": 1e13, "low": -9.0, "high": 9.0, "minimum": -0.7, "maximum": 0.7, "n": 2}
-        html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(balance_offset=around)))
-        mean, half, sd = row_of(html, "balance_offset")[1:4]
-        self.assertEqual((mean, half, sd), ("0", "9.0", "1.0"))
+    def test_gives_no_spread_of_what_is_rounding_and_keeps_that_of_readings_around_zero(self):
+        for key, mean, sd, shown in (("inertia_share", 8.9e-13, 4.9e-14, ["0", "", "constant"]), ("balance_offset", 1e-13, 1.0, ["0", "9.0", "1.0"])):
+            found = {"mean": mean, "sd": sd, "cv": sd / mean, "low": mean - 9.0 * sd, "high": mean + 9.0 * sd, "n": 2}
+            html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update({key: found})))
+            self.assertEqual(row_of(html, key)[1:4], shown)
 
 
 class CertificateOfABatch(unittest.TestCase):
@@ -201,9 +194,9 @@ class CertificateOfABatch(unittest.TestCase):
         good, bad = Check("deep", ["a"], "1", "at most 2", True), Check("deep", ["a"], "3", "at most 2", False)
         other, unlimited = Check("wide", ["b"], "1", "yes", True), Check("long", ["c"], "1", "no limit is set", None)
         checks = [(1, [good, other, unlimited]), (2, [bad]), (4, [bad, other])]
-        self.assertEqual([(check.words, check.value, check.verdict) for check in batch_tables.checks_of_all(checks)],
+        self.assertEqual([(check.words, check.value, check.verdict) for check in batch_page.checks_of_all(checks)],
                          [("deep; not so specimens 2 and 4", "1 of 3 specimens", "fail"), ("wide", "2 of 2 specimens", "pass")])
-        self.assertEqual(batch_tables.verdict_of_all(checks, "%s keep it."), ("1 of 3 specimens keep it.", False))
+        self.assertEqual(batch_page.verdict_of_all(checks, "%s keep it."), ("1 of 3 specimens keep it.", False))
 
     def test_is_of_the_results_of_the_specimens(self):
         folder = folders.copy(rods)
@@ -227,13 +220,13 @@ class CertificateOfABatch(unittest.TestCase):
 
 class Named(unittest.TestCase):
     def test_specimens_are_listed_as_in_a_sentence(self):
-        self.assertEqual(batch_tables.named([3]), "specimen 3")
-        self.assertEqual(batch_tables.named([5, 2]), "specimens 2 and 5")
-        self.assertEqual(batch_tables.named([1, 2, 3, 7, 9, 10]), "specimens 1 to 3, 7, 9 and 10")
+        self.assertEqual(batch_page.named([3]), "specimen 3")
+        self.assertEqual(batch_page.named([5, 2]), "specimens 2 and 5")
+        self.assertEqual(batch_page.named([1, 2, 3, 7, 9, 10]), "specimens 1 to 3, 7, 9 and 10")
 
     def test_no_table_is_wider_than_a_telephone(self):
-        self.assertEqual([len(some) for some in batch_tables.beside_each_other(list(range(11)))], [4, 4, 3])
-        self.assertEqual(batch_tables.beside_each_other([]), [])
+        self.assertEqual([len(some) for some in batch_page.beside_each_other(list(range(11)))], [4, 4, 3])
+        self.assertEqual(batch_page.beside_each_other([]), [])
 
 
 class TheMeanCurve(unittest.TestCase):
@@ -297,16 +290,6 @@ class FiguresOfABatch(unittest.TestCase):
         batch_page.draw(axes[0], [(s, s)] * 100, None, 1.0, 1.0)
         self.assertLessEqual(sum(len(line.get_xdata()) for line in axes[0].get_lines()), 1.1 * batch_page.IN_ALL)
         batch_page.as_svg(figure)
-
-
-class Efficiency(unittest.TestCase):
-    def test_is_the_ratio_of_the_means_of_both_batches(self):
-        done = subprocess.run([os.path.join(ROOT, "scripts/efficiency"), loops, rods, "--key", "locked_stiffness"],
-                              capture_output=True, text=True, check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        said, means = yaml.safe_load(done.stdout), [statistics(folder)["locked_stiffness"]["mean"] for folder in (loops, rods)]
-        self.assertEqual((said["knotted"]["n"], said["straight"]["n"]), (3, 2))
-        self.assertAlmostEqual(said["ratio"]["of_means"], means[0] / means[1], places=3)
 
 
 class Failures(unittest.TestCase):

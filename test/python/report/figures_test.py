@@ -1,13 +1,12 @@
 #!/usr/bin/python3
 """The figures of the report of a run: what is drawn, marked and named in them."""
 import base64
-import re
 import struct
 import unittest
 import warnings
 from types import SimpleNamespace
 
-from runs import OfValues, a_pull, html_of, read, row_of, two_runs, write
+from runs import OfValues, a_pull, html_of, read, two_runs, write
 
 import matplotlib.figure
 import matplotlib.text
@@ -226,12 +225,6 @@ class TheLargestLoad(unittest.TestCase):
         held.phase[51:] = "hold"
         found = marks.largest_load(OfValues(held, peak_force=0.05, ended_by="time"))
         self.assertEqual((found.is_peak, found.where), (False, "at 50 mm, where the pull ended"))
-
-    def test_is_called_so_on_the_page(self):
-        html = html_of(straight)
-        self.assertIn("The curve has no peak: its largest load", html)
-        self.assertRegex(row_of(html, "peak_force")[0], "^Largest load, at .* mm, (where|before) the test was stopped")
-        self.assertNotRegex(re.sub(r'"data:[^"]*"', "", html), ">Peak")
 
 
 class Figures(unittest.TestCase):

@@ -9,7 +9,7 @@ from runs import ROOT, STRAIGHT, Folders
 
 import numpy as np
 
-from knot_utm.report.movie_frame import OneTest, Stage
+from knot_utm.report.movie import OneTest, Stage
 
 MOVIE = os.path.join(ROOT, "scripts/movie")
 HIGH, WIDE = 1080, 1920

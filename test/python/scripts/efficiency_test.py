@@ -44,18 +44,6 @@ class TheRatio(unittest.TestCase):
         ratio, low, high = ratio_of_means(a, b)
         np.testing.assert_allclose(ratio_of_means(b, a), (1.0 / ratio, 1.0 / high, 1.0 / low))
 
-    def test_lies_in_its_interval_as_often_as_it_should(self):
-        random, draws = np.random.default_rng(20), 2000
-        for count_a, cv_a, count_b, cv_b in ((5, 0.15, 8, 0.05), (10, 0.1, 10, 0.1), (4, 0.02, 12, 0.2)):
-            held = 0
-            for _ in range(draws):
-                a = Sample(random.normal(0.6, 0.6 * cv_a, count_a).tolist())
-                b = Sample(random.normal(1.0, cv_b, count_b).tolist())
-                _, low, high = ratio_of_means(a, b)
-                held += low <= 0.6 <= high
-            # Four standard deviations of a count of draws; Welch's degrees of freedom are themselves an approximation.
-            self.assertAlmostEqual(held / draws, 0.95, delta=4.0 * math.sqrt(0.95 * 0.05 / draws))
-
 
 class TheScript(unittest.TestCase):
     def setUp(self):

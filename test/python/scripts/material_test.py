@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """scripts/material: what a rod that is known would show to a ruler and a scale gives that rod back. The sags are computed
-here in another way than there: as the least energy of a chain of straight links."""
+here in another way than there: as boundary value problems, by collocation."""
 import math
 import os
 import random
@@ -10,6 +10,7 @@ import unittest
 
 import numpy as np
 import yaml
+from scipy import integrate
 
 from knot_utm import material
 
@@ -18,56 +19,35 @@ TOOLS = os.environ.get("KNOT_UTM_TOOLS_DIR", os.path.join(ROOT, "build/devel/lib
 GRAVITY = 9.81
 
 
-def least_energy(angles, stiffness, weights, end, held=None):
-    """Newton's method on the angles of links below the level, the first of which follows a clamp at angle `end[0]`; where
-    `held`, the chain's other end follows `end[1]` and lies straight below the clamp. `weights`: what turns each link."""
-    count = len(angles)
-    bend = np.zeros((count, count))
-    load = np.zeros(count)
-    for i in range(count - 1):
-        bend[i:i + 2, i:i + 2] += stiffness * np.array([[1, -1], [-1, 1]])
-    bend[0, 0] += 2 * stiffness  # half a link to the clamp
-    load[0] += 2 * stiffness * end[0]
-    if held:
-        bend[-1, -1] += 2 * stiffness
-        load[-1] += 2 * stiffness * end[1]
-    pull = 0.0
-    for _ in range(200):
-        force = bend @ angles - load - weights * np.cos(angles)
-        stiff = bend + np.diag(weights * np.sin(angles))
-        if held:
-            force = force - pull * np.sin(angles)
-            stiff = stiff - np.diag(pull * np.cos(angles))
-            row = -np.sin(angles)
-            whole = np.block([[stiff, row[:, None]], [row[None, :], np.zeros((1, 1))]])
-            step = np.linalg.solve(whole, -np.append(force, np.cos(angles).sum()))
-            angles, pull = angles + step[:-1], pull + step[-1]
-        else:
-            step = np.linalg.solve(stiff, -force)
-            angles = angles + step * min(1.0, 0.3 / np.abs(step).max())
-        if np.abs(step).max() < 1e-12:
-            return angles
-    raise AssertionError("the chain found no rest")
+def solved(slopes, ends, s, y, p=None):
+    found = integrate.solve_bvp(slopes, ends, s, y, p, tol=1e-8, max_nodes=100000)
+    assert found.success, found.message
+    return found
 
 
-def drop_of_cantilever(bending, weight, overhang, links=200):
-    piece = overhang / links
-    hung = weight * piece * piece * (links - np.arange(links) - 0.5)  # beyond the middle of each link
-    angles = np.zeros(links)
-    for share in np.linspace(0.1, 1, 10):
-        angles = least_energy(angles, bending / piece, share * hung, (0.0,))
-    return piece * np.sin(angles).sum()
+def drop_of_cantilever(bending, weight, overhang):
+    def slopes(s, y):  # of the angle below the level, its slope, down
+        return np.array([y[1], -weight / bending * (overhang - s) * np.cos(y[0]), np.sin(y[0])])
+
+    s = np.linspace(0.0, overhang, 200)
+    return solved(slopes, lambda a, b: np.array([a[0], b[1], a[2]]), s, np.zeros((3, len(s)))).y[2, -1]
 
 
-def height_of_loop(bending, weight, length, links=200):
-    """Half of it: down from the clamp, level at the bottom, there straight below the clamp."""
-    piece = 0.5 * length / links
-    hung = weight * piece * piece * (links - np.arange(links) - 0.5)
-    s = (np.arange(links) + 0.5) / links
-    angles = math.pi / 2 - 0.9 * np.sin(math.pi * np.minimum(2 * s, 1)) + (s > 0.5) * (s - 0.5) * 2 * math.pi / 2
-    for share in np.linspace(0, 1, 12):
-        angles = least_energy(angles, bending / piece, share * hung, (math.pi / 2, math.pi), True)
-    return piece * np.sin(angles).sum()
+def height_of_loop(bending, weight, length):
+    """Half of it: down from the clamp, level at the bottom, there straight below the clamp, by a force across that holds it there."""
+    half = 0.5 * length
+    s = np.linspace(0.0, half, 200)
+    y = np.array([0.5 * math.pi - 0.9 * np.sin(math.pi * np.minimum(2.0 * s / half, 1.0)) + math.pi * np.maximum(s / half - 0.5, 0.0),
+                  0.0 * s, 0.0 * s, s])
+    force = [0.0]
+    for share in (0.0, 0.1, 0.3, 1.0):  # of its weight
+        def slopes(s, y, p):
+            moment = share * weight * (half - s) * np.cos(y[0]) + p[0] * np.sin(y[0])
+            return np.array([y[1], -moment / bending, np.cos(y[0]), np.sin(y[0])])
+
+        found = solved(slopes, lambda a, b, _: np.array([a[0] - 0.5 * math.pi, b[0] - math.pi, a[2], b[2], a[3]]), s, y, force)
+        s, y, force = found.x, found.y, found.p
+    return y[3, -1]
 
 
 class Rod:

@@ -2,15 +2,13 @@
 """The Python package knot_utm: a run, a batch and a sweep made by it and read by it, and its place among the messages of ROS.
 Skipped, with exit code 77, where a module is not installed."""
 import copy
-import csv
-import io
 import os
 import re
 import subprocess
 import sys
 import unittest
 
-from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, content, write
+from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, content, rows, write
 
 import matplotlib
 import numpy as np
@@ -22,10 +20,6 @@ from knot_utm.yaml_text import load
 matplotlib.use("Agg")  # with and without a display
 
 DRAFT = {"physics.accuracy": "draft"}
-
-
-def rows(text):
-    return list(csv.reader(io.StringIO(text.decode())))
 
 
 class Package(Sweeps):
@@ -164,14 +158,6 @@ class ABatch(Sweeps):
         self.assertEqual(list(batch.specimens["peak_force"]), [run.results["peak_force"] for run in batch.runs])
         self.assertEqual(list(batch.specimens["specimen.length"]), [run.method["specimen"]["length"] for run in batch.runs])
         self.assertAlmostEqual(batch.specimens["peak_force"].std(ddof=1), batch.statistics.loc["peak_force", "sd"])
-
-    def test_is_the_same_whatever_the_jobs_and_whoever_reads_it(self):
-        one, two = self.batch("one", jobs=1), self.batch("two", jobs=2)
-        readings = [name for name in one.specimens if one.specimens[name].dtype == float]
-        np.testing.assert_array_equal(one.specimens[readings], two.specimens[readings])
-        again = knot_utm.read_batch(self.path("one"))
-        self.assertTrue(again.specimens.equals(one.specimens))
-        self.assertTrue(again.statistics.equals(one.statistics))
 
     def test_tells_why_a_specimen_does_not_count(self):
         with self.assertRaisesRegex(knot_utm.RunFailed, "came undone") as raised, self.assertWarns(knot_utm.RunWarning):

@@ -2,7 +2,6 @@
 """scripts/sweep on small studies: what its table holds, what it does when it is cut short, and what it refuses. Skipped, with
 exit code 77, where a module is not installed."""
 import csv
-import io
 import json
 import os
 import re
@@ -12,21 +11,16 @@ import signal
 import subprocess
 import unittest
 
-from sweeps import CONFIG, LENGTHS, REAL, ROOT, Sweeps, content, write  # first: it finds the packages
+from sweeps import CONFIG, LENGTHS, REAL, ROOT, Sweeps, content, rows, write  # first: it finds the packages
 
 import numpy as np
 import pandas as pd
 
 import knot_utm
-from knot_utm import tool
 from knot_utm.plots import figure
 from knot_utm.yaml_text import load
 
 OF_THE_MACHINE = {"wall_time", "real_time_factor", "peak_memory"}
-
-
-def rows(text):
-    return list(csv.reader(io.StringIO(text.decode())))
 
 
 class TheTable(Sweeps):
@@ -71,11 +65,6 @@ class TheTable(Sweeps):
             units = json.loads(store.get_storer("runs").attrs.units)
         self.assertEqual(list(units.items()), list(zip(*rows(self.table("out"))[:2])))
 
-    def test_is_the_same_whatever_the_jobs(self):
-        self.sweep("one", "--jobs", "1")
-        self.sweep("two", "--jobs", "2")
-        self.assertEqual(self.table("one"), self.table("two"))
-
     def test_has_a_row_for_runs_that_fail_and_says_why(self):
         write(self.study, f"""
             method: {CONFIG}/tighten.yaml
@@ -87,22 +76,15 @@ class TheTable(Sweeps):
         self.assertEqual(run["error"], run["reason"])
         self.assertTrue(run["error"])
 
-    def test_has_a_row_for_runs_that_crash_which_are_tried_again(self):
-        self.sweep("out", KILL_AT=f"specimen.length={LENGTHS[1]}")
-        _, _, *runs = rows(self.table("out"))
-        self.assertEqual([run[2:4] for run in runs], [["0", ""], ["139", "killed by SIGSEGV"], ["0", ""], ["0", ""]])
-        self.sweep("out")
-        self.sweep("whole")
-        self.assertEqual(self.table("out"), self.table("whole"))
-        self.assertEqual(sorted(self.started()), sorted(2 * LENGTHS + LENGTHS[1:2]))
-
-    def test_has_a_row_for_runs_that_others_interrupt_which_are_tried_again(self):
-        self.sweep("out", "--jobs", "1", INTERRUPT_AT=f"specimen.length={LENGTHS[1]}")
-        _, _, *runs = rows(self.table("out"))
-        self.assertEqual([run[2:4] for run in runs], [["0", ""], ["1", "interrupted"], ["0", ""], ["0", ""]])
-        self.sweep("out")
-        self.sweep("whole")
-        self.assertEqual(self.table("out"), self.table("whole"))
+    def test_has_a_row_for_runs_that_crash_or_that_others_interrupt_which_are_tried_again(self):
+        self.sweep("whole", "--jobs", "2")
+        for how, row in (("KILL_AT", ["139", "killed by SIGSEGV"]), ("INTERRUPT_AT", ["1", "interrupted"])):
+            self.sweep(how, "--jobs", "1", **{how: f"specimen.length={LENGTHS[1]}"})
+            _, _, *runs = rows(self.table(how))
+            self.assertEqual([run[2:4] for run in runs], [["0", ""], row, ["0", ""], ["0", ""]])
+            self.sweep(how)
+            self.assertEqual(self.table(how), self.table("whole"))
+        self.assertEqual(sorted(self.started()), sorted(3 * LENGTHS + 2 * LENGTHS[1:2]))
 
     def test_has_a_row_a_point_where_points_are_the_same_run(self):
         write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{physics.accuracy: [draft], specimen.length: [0.2, 0.2]}}")
@@ -110,21 +92,6 @@ class TheTable(Sweeps):
         _, _, one, other = rows(self.table("out"))
         self.assertEqual(one, other)
         self.assertEqual(self.started(), [0.2])
-
-    def test_has_the_units_of_every_key(self):
-        units = tool.key_units(CONFIG + "/tighten.yaml", {})
-        fields = content(ROOT, "src/method/method_fields.hpp").decode()
-        checked = 0
-        for section, body in re.findall(r"^void (\w+)\(Fields& f(.*?)\n\}$", fields, re.MULTILINE | re.DOTALL):
-            where = {"load_cell": "machine.load_cell"}.get(section, section)
-            for key, unit in re.findall(r'\bf\.\w*(?:number|vector)\("(\w+)", [^;]*?Range\{[^,]+,[^,]+, "([^"]+)"\}', body):
-                if where not in ("step", "requirement"):
-                    self.assertEqual(units[f"{where}.{key}"], unit, key)
-                    checked += 1
-        self.assertGreater(checked, 40)
-        for key, unit in (("program.pull.until.extension", "m"), ("program.pull.speed", "m/s"), ("program.1.release.duration", "s"),
-                          ("physics.friction.presliding", "of the radius"), ("material", "-"), ("specimen.turns", "-")):
-            self.assertEqual(units.get(key, "-"), unit, key)
 
 
 class Plots(Sweeps):
@@ -162,17 +129,6 @@ class Plots(Sweeps):
             self.assertEqual((panel.get_xscale(), panel.get_yscale()), ("linear", "log"))
             np.testing.assert_allclose(panel.get_xlim(), (0.05, 0.35))
             np.testing.assert_allclose(panel.get_ylim(), (1e-5, 1e-1))
-
-    def test_of_points_anywhere_are_a_panel_a_number(self):
-        write(self.study, f"""
-            method: {CONFIG}/straight.yaml
-            design: sobol
-            runs: 8
-            vary: {{physics.accuracy: [draft], specimen.length: {{from: 0.1, to: 0.2}}, material.density: {{from: 900, to: 999}}}}""")
-        table = knot_utm.sweep(self.study, self.path("out"))
-        panels = figure(table, list(table.columns[:3]), "peak_force").axes
-        for panel, key in zip(panels, ("specimen.length", "material.density")):
-            np.testing.assert_array_equal(panel.get_lines()[0].get_xdata(), table[key])
 
     def test_of_what_is_no_number_are_refused(self):
         for name in ("reason", "peak"):
@@ -213,19 +169,12 @@ class CutShort(Sweeps):
                 os.remove(self.path(name))
 
     def test_by_a_full_disk_goes_on_when_there_is_room(self):
-        # As large as a file may become: enough for the method, too little for what is measured.
-        said = self.sweep("out", code=1, limit=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000)))
-        self.assertRegex(said, r"cannot write \S+: file too large, with 0 of 4 runs done; the same command goes on: ")
-        self.assertEqual(self.whole_runs("out"), [])
-        self.sweep("out")
-        self.sweep("whole")
-        self.assertEqual(self.table("out"), self.table("whole"))
-
-    def test_a_full_disk_keeps_the_runs_that_it_had_room_for(self):
         self.sweep("out", "--jobs", "1")
         write(self.study, content(self.study).decode().replace(str(LENGTHS[-1]), f"{LENGTHS[-1]}, 0.5"))
+        # As large as a file may become: enough for the method, too little for what is measured.
         said = self.sweep("out", code=1, limit=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000)))
-        self.assertIn("file too large", said)
+        self.assertRegex(said, r"cannot write \S+: file too large, with 4 of 5 runs done; the same command goes on: ")
+        self.assertEqual(len(self.whole_runs("out")), 4)
         self.sweep("out")
         self.assertEqual(self.started().count(LENGTHS[0]), 1)
         self.assertEqual([run[1] for run in rows(self.table("out"))[2:]], [str(length) for length in LENGTHS + [0.5]])
@@ -376,14 +325,6 @@ class Refused(Sweeps):
     def test_before_the_first_run_starts(self):
         write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2, 0.3, -1, -2]}}")
         self.refused("specimen.length=-1", "specimen.length is -1", "2 of 4 runs")
-
-    def test_an_unknown_key(self):
-        write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.lenght: [0.2]}}")
-        self.refused(self.study + ": vary.specimen.lenght is no key of a method; did you mean specimen.length?")
-
-    def test_a_wrong_study(self):
-        write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}\ndesign: star")
-        self.refused("design is star")
 
     def test_a_folder_with_a_table_of_another_kind(self):
         os.makedirs(self.path("out"))

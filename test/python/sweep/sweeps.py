@@ -1,4 +1,6 @@
 """Small sweeps for the tests, with a tensile_test that tells what it was asked for, and may be held, or killed, at one run."""
+import csv
+import io
 import os
 import subprocess
 import tempfile
@@ -32,6 +34,10 @@ case " $* " in
 esac
 exec "$REAL" "$@"
 """
+
+
+def rows(text):
+    return list(csv.reader(io.StringIO(text.decode())))
 
 
 class Sweeps(unittest.TestCase):
