@@ -218,7 +218,7 @@ class LooseKnot {
     settings_.drag = options_.drag * force_ / rod_.length();
     settings_.residual = options_.residual * force_;
     settings_.newton_cap = 0.5;
-    settings_.motion_limit = 2.0;
+    settings_.motion_limit = 1.0;
     settings_.overlap_limit = 0.5;
     settings_.candidate_margin = 1.0;
     settings_.max_iterations = 25;
@@ -229,7 +229,7 @@ class LooseKnot {
     StepControl::Options control_options;
     control_options.longest = std::max(1.0, 0.1 * duration);
     control_options.shortest = 1e-12;
-    control_options.motion = 1.0;
+    control_options.motion = 0.5;
     control_options.easy_iterations = 8;
     control_options.hard_iterations = 16;
     const Vec3 lower = lower_, upper = upper_;
