@@ -44,9 +44,7 @@ class Runner:
     def run(self, name, settings, method=METHOD, more=(), cpu_limit=None):
         """`settings`: dotted key -> value, on top of which come those of the command line; `more`: further words of it.
         `cpu_limit` [s]: more, and the run is ended by SIGXCPU, however busy the machine."""
-        # JSON is YAML too.
-        settings = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + self.overrides
-        words = [word for setting in settings for word in ("--set", setting)] + list(more)
+        words = words_of(settings, self.overrides) + list(more)
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
@@ -64,6 +62,21 @@ class Runner:
                  (f": {run.said}" if run.said else ""))
         return run
 
+    def least_of(self, times, name, settings, method=METHOD):
+        """Of several runs, whose readings are the same, the one of the least CPU time: what other work adds is no part of it."""
+        return min((self.run(name, settings, method) for _ in range(times)), key=lambda run: run.cpu_time)
+
+    def bench_tool(self, tool, arguments):
+        """What a small executable beside tensile_test prints as YAML."""
+        path = os.path.join(os.path.dirname(os.path.abspath(self.tool)), tool)
+        if not os.access(path, os.X_OK):
+            sys.exit(f"scripts/bench: {tool} is not built; configure with -DKNOT_UTM_BENCH=ON")
+        command = [path] + [str(word) for word in arguments]
+        self.say(" ".join([tool] + command[1:]))
+        done = subprocess.run(SHELLS_CHILD + command, cwd=self.root, stdout=subprocess.PIPE, text=True, check=False,
+                              preexec_fn=lambda: confine(self.core))
+        return (yaml.safe_load(done.stdout) or {}) if done.returncode == 0 else {}
+
     def say(self, line):
         if self.verbose:
             print(line, file=sys.stderr, flush=True)
@@ -74,6 +87,12 @@ def confine(core, cpu_limit=None):
         os.sched_setaffinity(0, {core})
     if cpu_limit is not None:
         resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
+
+
+def words_of(settings, overrides=()):
+    """Of a command line; JSON is YAML too."""
+    settings = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + list(overrides)
+    return [word for setting in settings for word in ("--set", setting)]
 
 
 class Run:
@@ -98,6 +117,10 @@ class Run:
     def real_time_factor(self):
         """Simulated over CPU time."""
         return divide(self.value("simulated_time"), self.cpu_time)
+
+    def cost(self):
+        """CPU time a simulated second."""
+        return divide(self.cpu_time, self.value("simulated_time"))
 
     def nodes(self):
         return len(self.shape["x"]) if self.shape else None
@@ -150,6 +173,19 @@ def standard_error(values):
 def relative_change(value, reference):
     """|value - reference|/|reference|"""
     return None if value is None or not reference else abs(value - reference) / abs(reference)
+
+
+def mean_relative_difference(curve, reference, parts=200, averaged=1):
+    """Mean of |y - y_ref|/|y_ref| over equal parts of x, as far as both curves go; y is the mean of so many places of a
+    part. Curves: (x, y), x rising."""
+    if not curve[0] or not reference[0]:
+        return None
+    low, high = max(curve[0][0], reference[0][0]), min(curve[0][-1], reference[0][-1])
+    if low >= high:
+        return None
+    x = low + (np.arange(parts * averaged) + 0.5) * (high - low) / (parts * averaged)
+    own, expected = (np.interp(x, *one).reshape(parts, averaged).mean(axis=1) for one in (curve, reference))
+    return float(np.mean(np.abs(own - expected) / np.abs(expected)))
 
 
 def read_yaml(file):

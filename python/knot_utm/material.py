@@ -208,7 +208,7 @@ def modulus(here):
 
 
 def questions(here):
-    """What no rod is like: most likely a slip of a unit. The limits are those of src/verdict/plausible_rod.cpp."""
+    """What no rod is like: most likely a slip of a unit. The limits are those of src/verdict/foreseen.cpp."""
     if not 150 <= here["density"] <= 12000:
         yield (f"the density is {here['density']:.3g} kg/m3, and cork has 200, water 1000, steel 7850: is weighed.mass in kg, and are "
                "weighed.length and the diameter in m?")

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/record/choice_names.hpp"
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "pull_integrals.hpp"
 
 namespace knot_utm {
 namespace {
-
-constexpr ChoiceNames<MotionPattern, 4> kPatternNames{{{MotionPattern::kNone, "none"},
-                                                       {MotionPattern::kSliding, "sliding"},
-                                                       {MotionPattern::kStretching, "stretching"},
-                                                       {MotionPattern::kUntangling, "untangling"}}};
 
 constexpr double kWindow = 0.03;            // of the first knot distance
 constexpr double kTurnover = 0.5;           // of rigid sliding: de/ds between sliding and stretching
@@ -71,7 +65,10 @@ double unit(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 0.0;
 
 }  // namespace
 
-const char* motion_pattern_name(MotionPattern pattern) { return name_of(kPatternNames, pattern); }
+const char* motion_pattern_name(MotionPattern pattern) {
+  constexpr const char* kNames[] = {"none", "sliding", "stretching", "untangling"};
+  return kNames[static_cast<std::size_t>(pattern)];
+}
 
 MotionPatternTracker::MotionPatternTracker(bool on_rollers)
     : on_rollers_(on_rollers), turnover_(kTurnover * rigid_sliding(on_rollers)) {}

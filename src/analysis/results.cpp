@@ -6,7 +6,6 @@
 #include "knot_utm/analysis/curve_row.hpp"
 #include "knot_utm/analysis/cycles.hpp"
 #include "knot_utm/analysis/pull_readings.hpp"
-#include "knot_utm/analysis/snap.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
@@ -121,7 +120,9 @@ Elongations elongations_of(const std::vector<Sample>& samples, const LastCycles&
   const auto at = [&](std::size_t i) { return samples.begin() + static_cast<std::ptrdiff_t>(cycles.origin + i); };
   const auto longest = std::max_element(at(last.begin), at(last.end) + 1,
                                         [](const Sample& a, const Sample& b) { return a.end_to_end < b.end_to_end; });
-  return elongations(gauge_length, longest->end_to_end, at(last.end)->end_to_end);
+  const double loaded = longest->end_to_end, unloaded = at(last.end)->end_to_end, back = loaded - unloaded;
+  return {(loaded - gauge_length) / gauge_length, (unloaded - gauge_length) / gauge_length, back / gauge_length,
+          back / unloaded};
 }
 
 /// To where the rod parts.
@@ -213,10 +214,6 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
   results.true_plateau_force = plateau(true_pull, end)->force;
   results.true_breakaway_force = breakaway_force(true_pull, end);
   results.plateau_slope = known(plateau(pull, end)->slope);
-}
-
-double stored_energy(const Sample& sample) {
-  return sample.stretching_energy + sample.bending_energy + sample.twisting_energy + sample.contact_energy;
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ struct TestingMachine::Impl {
     state.velocity = Points::Zero(3, nodes);
     const RodProperties rod = make_rod(material, rest);
     const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
-    if (takes_set || bends_on_frames(material)) state.natural_curvature.setZero(2, nodes - 2);
+    if (takes_set || bends_on_frames(material)) remember_bends(rod, &state);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
     StepSettings settings = step_settings(specimen, material, machine, physics);
     // A weight is that of the rod's own mass.

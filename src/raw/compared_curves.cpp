@@ -1,12 +1,10 @@
-#include "knot_utm/raw/compared_curves.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/raw/raw_zero.hpp"
+#include "knot_utm/raw/comparison.hpp"
 
 namespace knot_utm {
 namespace {
@@ -61,7 +59,7 @@ class Side {
  private:
   void require_readings() const {
     const std::size_t readings = pull_of(rows()).size();
-    if (readings < 2 && !rows().empty() && what_falls(rows()).extension)
+    if (readings < 2 && !rows().empty() && falls(rows(), &CurveRow::extension))
       throw InvalidInput::sentence("extension", "falls",
                                    "the extension falls from its first reading on, so that nothing is pulled: --invert "
                                    "turns its sign")

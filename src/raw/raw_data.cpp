@@ -42,7 +42,7 @@ class RawTable {
       : rows_(rows), head_(std::move(head)), end_(end), specimen_(specimen), options_(options), file_(file) {
     columns_ = head_.of_specimen(specimen);
     if (columns_[1]->place == columns_[2]->place)
-      throw InvalidInput(options.spelling.option("columns"), options.columns.extension + " and " + options.columns.load,
+      throw InvalidInput(options.spelling.option("columns"), options.columns[1] + " and " + options.columns[2],
                          "another column for the extension than for the load");
     while (head_.first < end_ && are_empty(cells(head_.first))) ++head_.first;
     find_units();
@@ -117,7 +117,7 @@ class RawTable {
     const RawColumn& column = *columns_[quantity];
     std::string out = "column " + std::to_string(column.place + 1);
     if (!column.label.empty()) out += " \"" + shown(column.label) + '"';
-    if (!column.unit || !text_of(options_.units, quantity).empty()) out += " in " + shown(unit_of(quantity, column));
+    if (!column.unit || !options_.units[quantity].empty()) out += " in " + shown(unit_of(quantity, column));
     return out;
   }
 
@@ -153,14 +153,14 @@ class RawTable {
 
   /// The unit of the column as the user or the file gives it; empty where nobody does.
   std::string unit_of(std::size_t quantity, const RawColumn& column) const {
-    const std::string& own = text_of(options_.units, quantity);
+    const std::string& own = options_.units[quantity];
     if (!own.empty()) return own;
     return column.unit.value_or(column.place < below_.size() ? without_brackets(below_[column.place]) : "");
   }
 
   double si(std::size_t quantity, const RawColumn& column) const {
     const RawQuantity& of = raw_quantities()[quantity];
-    const std::string unit = unit_of(quantity, column), own = text_of(options_.units, quantity);
+    const std::string unit = unit_of(quantity, column), own = options_.units[quantity];
     const std::string allowed = of.allowed,
                       key = own.empty()
                                 ? "the unit of " + (column.label.empty() ? "" : std::string("column ")) + name(quantity)
@@ -378,7 +378,7 @@ std::vector<CurveRow> read_raw_data(const std::string& content, const std::strin
   std::string nearest;
   const std::vector<std::string> meanings = meanings_of(content);
   for (const bool with_time : {true, false}) {
-    if (!with_time && (options.needs_time || !options.columns.time.empty())) break;
+    if (!with_time && (options.needs_time || !options.columns[0].empty())) break;
     for (const std::string& meaning : meanings) {
       const Rows rows = rows_of(meaning, file);
       const auto head = first_head(rows, options.columns, with_time);

@@ -139,7 +139,7 @@ RawHead head_of(const Cells& names, std::size_t index, char separator, const Raw
   head.first = index + 1;
   head.separator = separator;
   head.cells = names.size();
-  for (std::size_t i = 0; i < head.columns.size(); ++i) head.columns[i] = columns_in(i, text_of(given, i), names);
+  for (std::size_t i = 0; i < head.columns.size(); ++i) head.columns[i] = columns_in(i, given[i], names);
   return head;
 }
 
@@ -187,7 +187,7 @@ std::string missing_names(const RawHead& head, const RawColumns& given, const Ce
   std::string out;
   for (std::size_t i = with_time ? kTime : kExtension; i < head.columns.size(); ++i) {
     if (!head.columns[i].empty()) continue;
-    const std::string& own = text_of(given, i);
+    const std::string& own = given[i];
     out += (out.empty() ? "" : "; ") + std::string(raw_quantities()[i].name) + ", whose known names are ";
     out += own.empty() ? some_of(raw_quantities()[i].names, cells) : '"' + shown(own) + "\" alone";
   }
@@ -195,10 +195,6 @@ std::string missing_names(const RawHead& head, const RawColumns& given, const Ce
 }
 
 }  // namespace
-
-const std::string& text_of(const RawColumns& texts, std::size_t quantity) {
-  return quantity == kTime ? texts.time : quantity == kExtension ? texts.extension : texts.load;
-}
 
 std::string without_brackets(const std::string& text) {
   if (text.size() < 2) return text;
@@ -252,7 +248,7 @@ std::optional<RawHead> head_in(const std::string& row, std::size_t index, const 
 std::optional<RawHead> head_by_numbers(const std::vector<std::string>& rows, const RawColumns& given, bool with_time) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < raw_quantities().size(); ++i) {
-    const std::string& text = text_of(given, i);
+    const std::string& text = given[i];
     const auto number = number_in(text);
     if (i == kTime && text.empty() && !with_time) continue;
     if (!number || *number == 0) return std::nullopt;

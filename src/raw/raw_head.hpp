@@ -41,9 +41,6 @@ struct RawHead {
   std::vector<RawColumn> others(std::size_t quantity, std::size_t specimen) const;
 };
 
-/// The text for the unit of a quantity, of the three texts that a user gave.
-const std::string& text_of(const RawColumns& texts, std::size_t quantity);
-
 /// The unit without its brackets, "(mm)" or "[mm]"; otherwise the text itself.
 std::string without_brackets(const std::string& text);
 

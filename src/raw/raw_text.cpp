@@ -89,23 +89,26 @@ std::string without_padding(std::string text) {
 }  // namespace
 
 std::string why_no_text(const std::string& bytes) {
-  const auto begins = [&](std::string_view mark) { return bytes.compare(0, mark.size(), mark) == 0; };
-  constexpr const char* kSave = ": save its table as CSV (comma-separated text) and give that file";
+  constexpr std::string_view kSave = ": save its table as CSV (comma-separated text) and give that file";
+  struct Kind {
+    std::string_view mark, what, remedy;
+  };
+  constexpr Kind kKinds[] = {
+      {"PK\x03\x04", "is a workbook (xlsx, ods) or another zip archive, and no text", kSave},
+      {"\xD0\xCF\x11\xE0", "is an old workbook (xls), and no text", kSave},
+      {"%PDF", "is a PDF, and no table of text", kSave},
+      {"\x1F\x8B", "is compressed (gzip)", ": unpack it first, for example by gunzip"},
+      {"SQLite format 3", "is a data base (SQLite), and no text", kSave},
+      {"#ROSBAG", "is a bag, and no table of text",
+       ": give the curve.csv of its run, or the raw data. compare reads a bag whose name ends in .bag"}};
   if (bytes.find_first_not_of(" \r\n\t") == std::string::npos) return "the file is empty";
-  if (begins("PK\x03\x04"))
-    return std::string("the file is a workbook (xlsx, ods) or another zip archive, and no text") + kSave;
-  if (begins("\xD0\xCF\x11\xE0")) return std::string("the file is an old workbook (xls), and no text") + kSave;
-  if (begins("%PDF")) return std::string("the file is a PDF, and no table of text") + kSave;
-  if (begins("\x1F\x8B")) return "the file is compressed (gzip): unpack it first, for example by gunzip";
-  if (begins("SQLite format 3")) return std::string("the file is a data base (SQLite), and no text") + kSave;
-  if (begins("#ROSBAG"))
-    return "the file is a bag, and no table of text: give the curve.csv of its run, or the raw data. compare reads a "
-           "bag "
-           "whose name ends in .bag";
+  for (const Kind& kind : kKinds)
+    if (bytes.compare(0, kind.mark.size(), kind.mark) == 0)
+      return "the file " + std::string(kind.what) + std::string(kind.remedy);
   const std::string_view head = std::string_view(bytes).substr(0, 512);
   const std::size_t first = head.find_first_not_of(" \r\n\t\xEF\xBB\xBF");
   if (first != std::string_view::npos && head[first] == '<')
-    return std::string("the file is XML or HTML, as some programs write for a workbook, and no table of text") + kSave;
+    return "the file is XML or HTML, as some programs write for a workbook, and no table of text" + std::string(kSave);
   // A last line end of another kind, which an editor put there, changes nothing.
   const auto ends = [&](char c) { return std::count(bytes.begin(), bytes.end(), c); };
   if (ends('\r') > 2 * ends('\n') && bytes.find('\r') + 1 < bytes.size())

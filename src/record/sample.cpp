@@ -1,8 +1,34 @@
-#include "knot_utm/record/sample.hpp"
+#include <stdexcept>
+#include <string>
 
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 
 namespace knot_utm {
+
+PerKnot::PerKnot(std::initializer_list<double> values) : PerKnot(of(values)) {}
+
+PerKnot PerKnot::unknown(std::size_t knots) {
+  if (knots > kMost)
+    throw std::length_error(std::to_string(knots) + " knots in a specimen, but it may have " + std::to_string(kMost));
+  PerKnot out;
+  out.size_ = knots;
+  return out;
+}
+
+void PerKnot::state(Archive& archive) {
+  int knots = static_cast<int>(size_);
+  archive.number("knots", knots, 0, static_cast<int>(kMost));
+  if (archive.loads()) *this = unknown(static_cast<std::size_t>(knots));
+  for (std::size_t k = 0; k < size_; ++k) archive(values_[k]);
+}
+
+// In the order of a checkpoint: another one is another version of it.
+void Command::state(Archive& archive) {
+  archive(sequence, time, displacement, velocity, step);
+  archive.choice("phase", phase, last_of(phase));
+  archive(speed, duration, balance, read_cell);
+}
 
 void Sample::state(Archive& archive) {
   visit_sample_fields([&](const auto& field) {

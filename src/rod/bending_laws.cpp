@@ -14,6 +14,10 @@ bool remembers(const BendingLaws& law) {
   return std::visit([](const auto& of) { return of.kRemembers; }, law);
 }
 
+int own_numbers(const BendingLaws& law) {
+  return std::visit([](const auto& of) { return of.kOwn; }, law);
+}
+
 bool remembers_bends(const RodMaterial& material) { return remembers(bending_law_of(material)); }
 
 }  // namespace knot_utm

@@ -49,15 +49,20 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
   energy.stretching = stretching_energy(rod, state.position);
   if (!state.curved_at_rest()) energy.bending = isotropic_bending_energy(rod, state.position);
   if (!has_frame(state)) return energy;
-  const auto add_node = [&](const InnerNode& node, const auto& bending) {
+  const Eigen::Index own = own_numbers(rod.laws->bending);
+  const auto add_node = [&](const InnerNode& node, const double* remembered, const auto& bending) {
     energy.twisting += twisting_energy(node.twisting, node.twist);
     if (!state.curved_at_rest()) return;
     const Eigen::Vector2d bend = material_curvature(node.e, node.f, node.on_e, node.on_f);
-    energy.bending +=
-        bending.respond({node.bending.k_b, node.bending.voronoi_length, bend, node.bending.natural_curvature}).energy;
+    energy.bending += bending
+                          .respond({node.bending.k_b, node.bending.voronoi_length, bend, node.bending.natural_curvature,
+                                    0.0, remembered})
+                          .energy;
   };
   for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i)
-    std::visit([&](const auto& law) { add_node(inner_node(rod, state, i), law); }, rod.laws->bending);
+    std::visit(
+        [&](const auto& law) { add_node(inner_node(rod, state, i), state.bending_own.data() + own * (i - 1), law); },
+        rod.laws->bending);
   return energy;
 }
 

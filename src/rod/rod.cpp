@@ -64,6 +64,12 @@ void RodProperties::state(Archive& archive) {
   if (archive.loads()) laws = std::make_shared<const RodLaws>(own);
 }
 
+void remember_bends(const RodProperties& rod, RodState* state) {
+  const Eigen::Index inner = rod.nodes() - 2;
+  state->natural_curvature.setZero(2, inner);
+  state->bending_own.setZero(own_numbers(rod.laws->bending) * inner);
+}
+
 void require_fits(const RodProperties& rod, const RodState& state) {
   require_size("state.position", state.position.cols(), rod.nodes());
   const Eigen::Index inner = rod.nodes() - 2;
@@ -71,6 +77,7 @@ void require_fits(const RodProperties& rod, const RodState& state) {
     require_size("state.natural_curvature", state.natural_curvature.cols(), inner);
   else if (bends_on_frames(rod.laws->bending))
     throw InvalidInput("rod", "one without a memory of bends", "made with natural curvatures, be they zero");
+  require_size("state.bending_own", state.bending_own.size(), own_numbers(rod.laws->bending) * inner);
   if (rod.natural_twist.size() > 0) require_size("rod.natural_twist", rod.natural_twist.size(), inner);
   if (state.twist.size() > 0) {
     require_size("state.twist", state.twist.size(), rod.edges());
@@ -84,8 +91,10 @@ void require_fits(const RodProperties& rod, const RodState& state) {
 void RodState::state(Archive& archive) {
   archive.section("RODS");
   archive(position, velocity, twist, twist_rate, reference_director, reference_twist, natural_curvature);
+  if (curved_at_rest()) archive.list(bending_own);
   const bool finite = are_places(position) && velocity.allFinite() && twist.allFinite() && twist_rate.allFinite() &&
-                      reference_director.allFinite() && reference_twist.allFinite() && natural_curvature.allFinite();
+                      reference_director.allFinite() && reference_twist.allFinite() && natural_curvature.allFinite() &&
+                      bending_own.allFinite();
   archive.require(finite, "state of the rod", "that of no rod");
 }
 

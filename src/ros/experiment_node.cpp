@@ -40,7 +40,7 @@ std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance
     if (balance == RecordBalance::kYes) tell("the record is a curve of knot_utm and keeps its own zero");
     return rows;
   }
-  const bool compresses = what_falls(rows).extension;
+  const bool compresses = falls(rows, &CurveRow::extension);
   if (compresses) mirror(rows);
   RawZero zero = zero_at_rest(rows);
   rows = balanced(rows, zero);

@@ -14,7 +14,6 @@
 #include "knot_utm/ros/run_bag.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/command_hint.hpp"
-#include "knot_utm/run/latest_link.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
 

@@ -21,7 +21,7 @@
 #include "knot_utm/run/progress_line.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/batch.hpp"
-#include "knot_utm/verdict/knot_advice.hpp"
+#include "knot_utm/verdict/foreseen.hpp"
 
 namespace knot_utm {
 namespace {

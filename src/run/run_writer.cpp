@@ -8,13 +8,15 @@
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/run/shape_series.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/topology/knot_hole.hpp"
+#include "knot_utm/topology/loop_turn.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
-#include "knot_utm/verdict/result_yaml.hpp"
-#include "knot_utm/verdict/speed_warnings.hpp"
+#include "knot_utm/verdict/result_keys.hpp"
 
 namespace knot_utm {
 namespace {
@@ -35,12 +37,41 @@ bool holds_its_knot(const Results& results) {
   return results.break_place == BreakPlace::kNone && results.knot_type == KnotType::kKept;
 }
 
-}  // namespace
+/// What becomes of the records of a run.
+class RunWriter {
+ public:
+  RunWriter(const std::string& folder, const Method& method);
+
+  /// Adds one record. If the simulation failed, only the time steps that it still made are added.
+  void add(const Record& record);
+  RunFacts facts() const;
+  Results results(EndedBy ended_by) const {
+    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value());
+  }
+  /// Writes result.yaml, and the files of shapes.
+  void finish(const Results& results, RunFacts facts, const Points& final_shape);
+
+  std::size_t rows() const { return curve_.rows(); }
+  std::size_t full_rows() const { return full_curve_.rows(); }
+
+ private:
+  fs::path folder_;
+  RunFacts known_;
+  std::vector<Sample> samples_;              // all accepted time steps; the last one of a command is its answer
+  std::vector<Sample> readings_;             // readings of the load cell: the rows of curve.csv
+  double weight_per_length_ = 0.0;           // weight of the rod per length [N/m]
+  double length_ = 0.0;                      // length of the rod in the last known shape [m]
+  LoopTurn turn_;                            // turning of a loop on rollers since it was mounted
+  std::optional<double> radius_on_rollers_;  // radius of the rod [m]; empty: the specimen is not a loop on rollers
+  bool far_side_held_ = false;
+  CurveWriter curve_, full_curve_;
+  ShapeSeries shapes_;
+};
 
 RunWriter::RunWriter(const std::string& folder, const Method& method)
     : folder_(folder),
-      curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
-      full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
+      curve_((folder_ / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
+      full_curve_((folder_ / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
   known_.errors = relative_errors(method.specimen, method.material, method.machine, method.physics);
   known_.material = method.material;
   for (const NodeForce& load : knot_of(method.specimen).supports(method.specimen, method.material).loads)
@@ -101,10 +132,6 @@ void RunWriter::add(const Record& record) {
   }
 }
 
-Results RunWriter::results(EndedBy ended_by) const {
-  return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value());
-}
-
 RunFacts RunWriter::facts() const {
   RunFacts facts = known_;
   facts.peak_memory = peak_memory();
@@ -120,18 +147,19 @@ RunFacts RunWriter::facts() const {
   return facts;
 }
 
-void RunWriter::finish(const Results& results, const RunFacts& facts, const Points& final_shape) {
-  if (final_shape.cols() > 0) write_centreline((fs::path(folder_) / "final_shape.csv").string(), final_shape);
+void RunWriter::finish(const Results& results, RunFacts facts, const Points& final_shape) {
+  if (final_shape.cols() > 0) write_centreline((folder_ / "final_shape.csv").string(), final_shape);
   if (!shapes_.empty()) {
     if (samples_.back().status == BenchStatus::kBroken) shapes_.add_parted(samples_.back().time, final_shape);
-    write_whole((fs::path(folder_) / "shapes.csv").string(), shapes_.csv());
+    write_whole((folder_ / "shapes.csv").string(), shapes_.csv());
   }
-  RunFacts with_shape = facts;
-  with_shape.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
-  if (with_shape.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
-    with_shape.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
-  write_whole((fs::path(folder_) / "result.yaml").string(), result_yaml(results, with_shape));
+  facts.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
+  if (facts.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
+    facts.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
+  write_whole((folder_ / "result.yaml").string(), result_yaml(results, facts));
 }
+
+}  // namespace
 
 MadeResults make_results(const std::string& folder, const Method& method, const ResultsOptions& options) {
   SamplesReader samples(folder);

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
@@ -234,6 +235,20 @@ Row row_of(const Sample& step) {
 std::string shapes_file(const std::string& folder) { return (fs::path(folder) / "shapes.bin").string(); }
 
 }  // namespace
+
+void RodReadings::state(Archive& archive) {
+  archive.list(twist_rate);
+  archive.list(contact_load);
+}
+
+const Sample* cell_reading(const Record& record) {
+  const auto parted = [](const Sample& sample) { return sample.status == BenchStatus::kBroken; };
+  const auto step = std::find_if(record.steps.begin(), record.steps.end(), parted);
+  if (step != record.steps.end()) return &*step;
+  if (parted(record.answer)) return &record.answer;
+  const bool read = record.command.read_cell || record.command.balance;
+  return read && record.answer.status != BenchStatus::kFailed ? &record.answer : nullptr;
+}
 
 std::string samples_file(const std::string& folder) { return (fs::path(folder) / "samples.csv").string(); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axes.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
 
@@ -11,7 +12,6 @@ namespace knot_utm {
 namespace {
 
 constexpr Lanes kZero = {0.0, 0.0, 0.0, 0.0};
-constexpr Lanes kAxis[3] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}};
 
 }  // namespace
 
@@ -153,8 +153,9 @@ CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) 
 }
 
 template <int D>
-void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMatrix<D>& matrix) const {
-  const std::size_t nodes = diagonal.size(), edges = tangent_.size();
+void CentrelineTerms::add_stiffness(LinearSystem<D>& system) const {
+  StepMatrix<D>& matrix = system.matrix;
+  const std::size_t edges = tangent_.size(), nodes = edges + 1;
   const std::vector<double>& turning = predicts_ ? predicted_tension_ : tension_;
   // With A_j = d2E/de_j^2 and B_i = d2E/(de_{i-1} de_i), the latter of bending at node i, the nodes have
   //   (i,i)  A_{i-1} + A_i - B_i - B_i^T     (i,i+1)  B_i + B_{i+1} - A_i     (i,i+2)  -B_{i+1}
@@ -175,8 +176,7 @@ void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMat
     }
     Block<D>& own = matrix.block(stencil[0]);
     own.set_zero();
-    for (int k = 0; k < 3; ++k)
-      own.column[k] = edge_before[k] + edge[k] - here.ef[k] - here.fe[k] + diagonal[i] * kAxis[k];
+    for (int k = 0; k < 3; ++k) own.column[k] = edge_before[k] + edge[k] - here.ef[k] - here.fe[k];
     if (last) return;
     Block<D>&next = matrix.block(stencil[1]), &next_back = matrix.block(stencil[3]);
     next.set_zero();
@@ -197,7 +197,7 @@ void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMat
   }
 }
 
-template void CentrelineTerms::set_stiffness<3>(const std::vector<double>&, StepMatrix<3>&) const;
-template void CentrelineTerms::set_stiffness<4>(const std::vector<double>&, StepMatrix<4>&) const;
+template void CentrelineTerms::add_stiffness(LinearSystem<3>&) const;
+template void CentrelineTerms::add_stiffness(LinearSystem<4>&) const;
 
 }  // namespace knot_utm

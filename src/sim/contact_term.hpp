@@ -60,22 +60,18 @@ class ContactTerm {
     }
   }
 
-  /// Adds the stiffness of the contacts to `matrix`. Adds to `right` the difference between the forces of the linear
-  /// models and g. `matrix` must have located the contacts between strands. `turns`: the unknown rotations of free
-  /// rollers, to which contacts on rollers contribute. `spins`: the spins of the sections, where friction acts at the
-  /// surfaces.
-  void add_stiffness(const StepStart& start, const ContactLinearisation& how, const SectionTurns* spins,
-                     StepMatrix<D>& matrix, RollerTurns& turns, std::vector<Lanes>& right) {
+  /// Adds to the right-hand side the difference between the forces of the linear models and g.
+  void add_stiffness(LinearSystem<D>& system) {
     pressures_.clear();
     if constexpr (D == 4)
-      if (contacts_.at_surface()) return add_surface_stiffness(start, how, *spins, matrix, turns, right);
-    contacts_.linearise(how, start.dt, models_);
+      if (contacts_.at_surface()) return add_surface_stiffness(system);
+    contacts_.linearise(system.how, system.start.dt, models_);
     for (const ContactPoint& contact : points()) {
       if (!contact.active()) continue;
       const Model& model = models_[pressures_.size()];
-      add_force(contact, model.force - to_lanes(contact.force), right);
-      matrix.add(contact, model, pressures_.size());
-      if constexpr (kOnRollers) turns.add(contact, model);
+      add_force(contact, model.force - to_lanes(contact.force), system.right);
+      system.matrix.add(contact, model, pressures_.size());
+      if constexpr (kOnRollers) system.turns.add(contact, model);
       pressures_.push_back({model.pressure, model.slope});
     }
   }
@@ -138,15 +134,14 @@ class ContactTerm {
       for (int k = 0; k < 3; ++k) to[at(contact.b0 + k)] += contact.c[3 + k] * g;
   }
 
-  void add_surface_stiffness(const StepStart& start, const ContactLinearisation& how, const SectionTurns& spins,
-                             StepMatrix<D>& matrix, RollerTurns& turns, std::vector<Lanes>& right) {
-    linearise_surfaces(contacts_, how, start.dt, [&](std::size_t i, const SurfaceModel& model) {
+  void add_surface_stiffness(LinearSystem<D>& system) {
+    linearise_surfaces(contacts_, system.how, system.start.dt, [&](std::size_t i, const SurfaceModel& model) {
       const ContactPoint& contact = points()[i];
       const SurfacePoint& surface = contacts_.surfaces()[i];
-      add_force(contact, model.force - to_lanes(contact.force), right);
-      add_couples(contact, surface, model.on_a - surface.on_a, model.on_b - surface.on_b, right);
-      matrix.add(contact, surface, model, spins, pressures_.size());
-      if constexpr (kOnRollers) turns.add(contact, surface, model, spins);
+      add_force(contact, model.force - to_lanes(contact.force), system.right);
+      add_couples(contact, surface, model.on_a - surface.on_a, model.on_b - surface.on_b, system.right);
+      system.matrix.add(contact, surface, model, *system.spins, pressures_.size());
+      if constexpr (kOnRollers) system.turns.add(contact, surface, model, *system.spins);
       pressures_.push_back({model.pressure, model.slope});
     });
   }

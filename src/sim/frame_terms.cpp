@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axes.hpp"
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -17,15 +18,6 @@ namespace {
 // the stiffness of one.
 constexpr double kRest = 1e-9;        // r_j [k_t/l_j]
 constexpr double kLongestTurn = 0.5;  // of an edge in one iteration [rad]
-
-void subtract(const StencilVector& gradient, int i, std::vector<Lanes>& force) {
-  for (int k = 0; k < 3; ++k) {
-    const double* g = gradient.data() + 4 * k;
-    force[at(i - 1 + k)] -= Lanes{g[0], g[1], g[2], k < 2 ? g[3] : 0.0};
-  }
-}
-
-constexpr Lanes kSpin = {0.0, 0.0, 0.0, 1.0};
 
 FourVectors four(const std::vector<Lanes>& vectors, std::size_t first) {
   return FourVectors::of(vectors[first], vectors[first + 1], vectors[first + 2], vectors[first + 3]);
@@ -84,6 +76,7 @@ struct Cross {
 
 FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
     : rod_(rod),
+      bending_(rod),
       rolls_(settings.friction_couple > 0.0),
       held_(static_cast<std::size_t>(rod.nodes()), 0),
       start_tangent_(held_.size() + 3, Lanes{1.0, 0.0, 0.0, 0.0}),
@@ -115,6 +108,7 @@ FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
 
 void FrameTerms::part(int edge) {
   parted_ = edge;
+  bending_.part(edge);
   stiffness_[at(edge)] = stiffness_[at(edge + 1)] = 0.0;
 }
 
@@ -202,23 +196,13 @@ void FrameTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes
   }
   if (curved_) {
     carry_directors();
-    std::visit([&](const auto& law) { add_bending_forces(law, force); }, rod_.laws->bending);
+    bending_.evaluate(*start_, dt_, tangent_, inverse_length_, director_, angle_);
+    bending_.add_forces(force, torque_);
   }
   for (int j = 0; j < edges; ++j) {
     const double turned = angle_[at(j)] - start_->twist[j], rate = turned / dt_;
     if (rolls_) set_turn(at(j), turned);
     force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate + rest_[j] * turned;
-  }
-}
-
-template <typename Law>
-void FrameTerms::add_bending_forces(const Law& law, std::vector<Lanes>& force) {
-  for (int i = 1; i < static_cast<int>(rod_.edges()); ++i) {
-    const CurvatureSlopes bend = curvature_slopes(i);
-    const StencilVector gradient = on_nodes(law.respond(bending_node(i, bend.value)), bend).gradient;
-    torque_[at(i - 1)] += gradient[3];
-    torque_[at(i)] += gradient[7];
-    subtract(gradient, i, force);
   }
 }
 
@@ -235,16 +219,6 @@ TwistingInput FrameTerms::twisting_input(int i) const {
           rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0};
 }
 
-BendingNode FrameTerms::bending_node(int i, const Eigen::Vector2d& bend) const {
-  const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
-  return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], bend, start_->natural_curvature.col(i - 1),
-          dt_};
-}
-
-CurvatureSlopes FrameTerms::curvature_slopes(int i) const {
-  return knot_utm::curvature_slopes(to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i));
-}
-
 double FrameTerms::twist(int i) const { return angle_[at(i)] - angle_[at(i - 1)] + reference_twist_[at(i)]; }
 
 Directors FrameTerms::directors(int j) const {
@@ -255,7 +229,9 @@ template <typename Law>
 StencilMatrix FrameTerms::bending_stiffness(const Law& law, int i) const {
   const CurvatureLocal bend =
       curvature_local(to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i));
-  return on_nodes(law.respond(bending_node(i, bend.value)), bend).hessian;
+  BendingNode node = bending_.node(i);
+  node.bend = bend.value;
+  return on_nodes(law.respond(node), bend).hessian;
 }
 
 FrameTerms::NodeStiffness FrameTerms::node_stiffness(int i) const {
@@ -300,26 +276,10 @@ FrameTerms::TwistStiffness FrameTerms::twist_stiffness(std::size_t node) const {
   return out;
 }
 
-template <typename Law>
-void FrameTerms::add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) const {
-  for (int i = 1; i + 1 < static_cast<int>(held_.size()); ++i) {
-    NodeStiffness local = NodeStiffness::Zero();
-    local.topLeftCorner<kStencilSize, kStencilSize>() = bending_stiffness(law, i);
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l) {
-        Block<4>& block = matrix.band(i - 1, k, l);
-        for (int j = 0; j < 4; ++j) {
-          Lanes column;
-          std::copy_n(&local(4 * k, 4 * l + j), 4, reinterpret_cast<double*>(&column));
-          block.column[j] += column;
-        }
-      }
-  }
-}
-
-void FrameTerms::add_stiffness(StepMatrix<4>& matrix) const {
+void FrameTerms::add_stiffness(LinearSystem<4>& system) const {
+  StepMatrix<4>& matrix = system.matrix;
   const std::size_t nodes = held_.size(), edges = nodes - 1;
-  // As CentrelineTerms::set_stiffness: by A_j of every edge, here with its sweep, and B_i of the two edges of a node.
+  // As CentrelineTerms::add_stiffness: by A_j of every edge, here with its sweep, and B_i of the two edges of a node.
   // With g = d2E/dm2 (-m_e, m_e - m_f, m_f) of nodes i-1 to i+1, the spins before and behind node i add -g and g.
   TwistStiffness here{}, after{};
   Lanes edge_before[3] = {}, edge[3] = {};
@@ -360,7 +320,7 @@ void FrameTerms::add_stiffness(StepMatrix<4>& matrix) const {
     }
     second_back.column[3] -= after.by_f;
   }
-  if (curved_) std::visit([&](const auto& law) { add_bending_stiffness(law, matrix); }, rod_.laws->bending);
+  if (curved_) bending_.add_stiffness(matrix);
 }
 
 double FrameTerms::angle_change(const std::vector<Lanes>& change, int j) const {
@@ -378,16 +338,7 @@ void FrameTerms::move(const std::vector<Lanes>& change, double factor) {
   for (int j = 0; j < static_cast<int>(rod_.edges()); ++j) angle_[at(j)] += factor * angle_change(change, j);
 }
 
-template <typename Law>
-void FrameTerms::remember_bends(const Law& law, RodState& state) const {
-  for (int i = 1; i < static_cast<int>(rod_.edges()); ++i) {
-    const Eigen::Vector2d bend =
-        material_curvature(to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i));
-    state.natural_curvature.col(i - 1) = law.remember(bending_node(i, bend)).natural;
-  }
-}
-
-void FrameTerms::commit(RodState& state) {
+void FrameTerms::commit(const std::vector<double>& tension, RodState& state) {
   const int edges = static_cast<int>(rod_.edges());
   carry_directors();
   for (int j = 0; j < edges; ++j) {
@@ -396,8 +347,7 @@ void FrameTerms::commit(RodState& state) {
   }
   for (int i = 1; i < edges; ++i) state.reference_twist[i - 1] = reference_twist_[at(i)];
   state.reference_director = director_;
-  if (curved_ && remembers(rod_.laws->bending))
-    std::visit([&](const auto& law) { remember_bends(law, state); }, rod_.laws->bending);
+  if (curved_) bending_.commit(tension, state);
 }
 
 FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector<Lanes>& force) const {
@@ -405,26 +355,18 @@ FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector
   const int edges = static_cast<int>(rod_.edges());
   const auto turn = [&](int j) { return angle_[at(j)] - start_->twist[j]; };
   const auto edge_change = [&](int j) { return to_lanes(Vec3(increment.col(j + 1) - increment.col(j))); };
-  const auto add_elastic = [&](const auto& bends) {
-    for (int i = 1; i < edges; ++i) {
-      const double moment = moment_[at(i)], by_e = 0.5 * inverse_length_[at(i - 1)],
-                   by_f = 0.5 * inverse_length_[at(i)];
-      if (stiffness_[at(i)] > 0.0) out.twisting += 0.5 * moment * moment / stiffness_[at(i)];
-      out.along +=
-          moment * (dot(binormal_[at(i)], by_e * edge_change(i - 1) + by_f * edge_change(i)) + turn(i) - turn(i - 1));
-      if (!curved_) continue;
-      const CurvatureSlopes curvature = curvature_slopes(i);
-      const BendingNode node = bending_node(i, curvature.value);
-      const StencilGradient bend = on_nodes(bends.respond(node), curvature);
-      const BendingMemory memory = bends.remember(node);
-      out.bending += memory.stored;
-      out.plastic += memory.dissipated;
-      StencilVector moved;
-      moved << increment.col(i - 1), turn(i - 1), increment.col(i), turn(i), increment.col(i + 1);
-      out.along += bend.gradient.dot(moved);
-    }
-  };
-  std::visit(add_elastic, rod_.laws->bending);
+  for (int i = 1; i < edges; ++i) {
+    const double moment = moment_[at(i)], by_e = 0.5 * inverse_length_[at(i - 1)], by_f = 0.5 * inverse_length_[at(i)];
+    if (stiffness_[at(i)] > 0.0) out.twisting += 0.5 * moment * moment / stiffness_[at(i)];
+    out.along +=
+        moment * (dot(binormal_[at(i)], by_e * edge_change(i - 1) + by_f * edge_change(i)) + turn(i) - turn(i - 1));
+  }
+  if (curved_) {
+    const FrameBending::Energy bending = bending_.energy(increment, angle_, start_->twist);
+    out.bending = bending.stored;
+    out.plastic = bending.dissipated;
+    out.along += bending.along;
+  }
   for (int j = 0; j < edges; ++j) {
     const double turned = turn(j), rate = turned / dt_, change = rate - start_->twist_rate[j];
     if (!held(j)) out.residual += force[at(j)][3] * turned;

@@ -23,13 +23,14 @@ struct GripTerm {
   }
 
   template <int D>
-  void add_stiffness(const StepStart& start, const Points& x, StepMatrix<D>& matrix) const {
-    for (const SlippingGrip& grip : start.boundary.grips) {
-      const double force = grip.force(x.col(grip.node));
-      if (force <= 0.0 || grip.slips(x.col(grip.node))) continue;
-      add(matrix.band(grip.node, 0, 0), grip.direction * grip.direction.transpose(), grip.stiffness);
+  void add_stiffness(LinearSystem<D>& system) const {
+    for (const SlippingGrip& grip : system.start.boundary.grips) {
+      const Vec3 x = system.x.col(grip.node);
+      if (grip.force(x) <= 0.0 || grip.slips(x)) continue;
+      add(system.matrix.band(grip.node, 0, 0), grip.direction * grip.direction.transpose(), grip.stiffness);
     }
-    for (const SpringHold& hold : start.boundary.holds) add(matrix.band(hold.node, 0, 0), hold.stiffness, 1.0);
+    for (const SpringHold& hold : system.start.boundary.holds)
+      add(system.matrix.band(hold.node, 0, 0), hold.stiffness, 1.0);
   }
 
   /// All of its work is work of the boundary, by the forces at the end of the step.
@@ -49,8 +50,6 @@ struct GripTerm {
     for (const NodeForce& given : step.boundary.forces)
       enter(given.node, given.force, given.force.dot(step.increment.col(given.node)));
   }
-
- private:
 };
 
 }  // namespace knot_utm

@@ -24,9 +24,9 @@ struct NoFrames {
   void part(int) {}
   void begin(const StepStart&) {}
   void add_forces(const StepStart&, const Points&, std::vector<Lanes>&) {}
-  void add_stiffness(StepMatrix<3>&) const {}
+  void add_stiffness(LinearSystem<3>&) const {}
   void account(const SolvedStep&, StepAccount&) const {}
-  void commit(RodState&) {}
+  void commit(const std::vector<double>&, RodState&) {}
   double largest_factor(const std::vector<Lanes>&) const { return 1.0; }
   void move(const std::vector<Lanes>&, double) {}
   double kinetic_energy(const Eigen::VectorXd&) const { return 0.0; }
@@ -38,9 +38,9 @@ struct NoFrames {
 template <int D, typename StrandContact>
 struct Equation {
   using Frames = std::conditional_t<D == 4, FrameTerms, NoFrames>;
-  static_assert(kIsForceTerm<MotionTerm> && kIsForceTerm<CentrelineTerms> && kIsForceTerm<Frames> &&
-                kIsForceTerm<ContactTerm<D, StrandContact>> && kIsForceTerm<ContactTerm<D, RollerContact>> &&
-                kIsForceTerm<GripTerm>);
+  static_assert(kIsForceTerm<D, MotionTerm> && kIsForceTerm<D, CentrelineTerms> && kIsForceTerm<D, Frames> &&
+                kIsForceTerm<D, ContactTerm<D, StrandContact>> && kIsForceTerm<D, ContactTerm<D, RollerContact>> &&
+                kIsForceTerm<D, GripTerm>);
 
   Equation(const RodProperties& rod_, const RodState& state, const StepSettings& settings_)
       : rod(rod_),
@@ -139,16 +139,17 @@ class Increment {
 
   /// Computes the change of the unknowns from -(df/dx) dx = f. False where the matrix is singular.
   bool solve(Linearisation of_friction) {
-    const ContactLinearisation how = {of_friction, predicts_};
     eq_.roller_turns.begin(start_.boundary.rollers, eq_.rollers.contacts(), nodes(), start_.dt);
     eq_.matrix.locate(eq_.strands.points());
     eq_.matrix.set_zero_beyond_band();
-    eq_.centreline.set_stiffness(eq_.motion.stiffness(start_), eq_.matrix);
-    eq_.frames.add_stiffness(eq_.matrix);
     eq_.change = eq_.force;
-    eq_.strands.add_stiffness(start_, how, spins(), eq_.matrix, eq_.roller_turns, eq_.change);
-    eq_.rollers.add_stiffness(start_, how, spins(), eq_.matrix, eq_.roller_turns, eq_.change);
-    eq_.grips.add_stiffness(start_, eq_.x, eq_.matrix);
+    LinearSystem<D> system{start_, eq_.x, eq_.matrix, eq_.change, eq_.roller_turns, {of_friction, predicts_}, spins()};
+    eq_.centreline.add_stiffness(system);
+    eq_.motion.add_stiffness(system);
+    eq_.frames.add_stiffness(system);
+    eq_.strands.add_stiffness(system);
+    eq_.rollers.add_stiffness(system);
+    eq_.grips.add_stiffness(system);
     if constexpr (D == 4)
       eq_.held.prescribe(eq_.frames, eq_.matrix, eq_.roller_turns, eq_.change);
     else

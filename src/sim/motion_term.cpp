@@ -2,11 +2,11 @@
 
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/scene.hpp"
+#include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
 
-MotionTerm::MotionTerm(const RodProperties& rod, const StepSettings& settings)
-    : rod_(rod), settings_(settings), diagonal_(static_cast<std::size_t>(rod.nodes())) {}
+MotionTerm::MotionTerm(const RodProperties& rod, const StepSettings& settings) : rod_(rod), settings_(settings) {}
 
 void MotionTerm::add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force) const {
   const double over_dt = 1.0 / start.dt;
@@ -18,12 +18,18 @@ void MotionTerm::add_forces(const StepStart& start, const Points& x, std::vector
   }
 }
 
-const std::vector<double>& MotionTerm::stiffness(const StepStart& start) {
-  const double of_mass = 1.0 / (start.dt * start.dt), of_drag = drag(start.boundary) / start.dt;
-  for (Eigen::Index i = 0; i < rod_.nodes(); ++i)
-    diagonal_[static_cast<std::size_t>(i)] = of_mass * rod_.mass[i] + of_drag * rod_.voronoi_length[i];
-  return diagonal_;
+template <int D>
+void MotionTerm::add_stiffness(LinearSystem<D>& system) const {
+  const double dt = system.start.dt, of_mass = 1.0 / (dt * dt), of_drag = drag(system.start.boundary) / dt;
+  for (int i = 0; i < static_cast<int>(rod_.nodes()); ++i) {
+    const double stiffness = of_mass * rod_.mass[i] + of_drag * rod_.voronoi_length[i];
+    Block<D>& block = system.matrix.band(i, 0, 0);
+    for (int k = 0; k < 3; ++k) block.column[k][k] += stiffness;
+  }
 }
+
+template void MotionTerm::add_stiffness(LinearSystem<3>&) const;
+template void MotionTerm::add_stiffness(LinearSystem<4>&) const;
 
 void MotionTerm::account(const SolvedStep& step, StepAccount& account) const {
   const double drag = this->drag(step.boundary), work_of_drag = drag / step.dt;

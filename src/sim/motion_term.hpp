@@ -24,8 +24,8 @@ class MotionTerm {
   MotionTerm(const RodProperties& rod, const StepSettings& settings);
 
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force) const;
-  /// The diagonal of the stiffness, one number a node [N/m].
-  const std::vector<double>& stiffness(const StepStart& start);
+  template <int D>
+  void add_stiffness(LinearSystem<D>& system) const;
   void account(const SolvedStep& step, StepAccount& account) const;
 
  private:
@@ -33,7 +33,6 @@ class MotionTerm {
 
   const RodProperties& rod_;
   const StepSettings& settings_;
-  std::vector<double> diagonal_;
 };
 
 }  // namespace knot_utm

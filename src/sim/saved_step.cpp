@@ -24,7 +24,7 @@ struct Scene {
     straight.position.row(2) = rod.arclength().transpose();
     straight.velocity = Points::Zero(3, rod.nodes());
     if (twist) initialise_frames(&straight);
-    if (curved) straight.natural_curvature.setZero(2, rod.nodes() - 2);
+    if (curved) remember_bends(rod, &straight);
     return TimeStep::make(rod, straight, settings);
   }
 };

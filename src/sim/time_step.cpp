@@ -77,7 +77,7 @@ class ImplicitStep final : public TimeStep {
     equation_.rollers.commit(step);
     equation_.matrix.commit();
     state_.velocity = step.increment / step.dt;
-    equation_.frames.commit(state_);
+    equation_.frames.commit(equation_.centreline.tensions(), state_);
     state_.position = step.end;
   }
 

@@ -47,16 +47,14 @@ class SideBySide {
   bool interrupted() const { return interrupted_; }
   /// What is known of the method before any test. `auto` is no word of what was drawn from it.
   void tell_of_all(const std::vector<std::string>& warnings) {
-    if (!options_.notice) return;
     for (const std::string& warning : warnings) {
-      options_.notice(warning);
+      options_.tell(warning);
       told_.insert(without_numbers(warning));
     }
   }
   /// What the tests said, each once with the specimens that it is about: "specimens 1, 2 and 5: ...". Lines that differ
   /// by their numbers alone are one.
   void tell() const {
-    if (!options_.notice) return;
     for (const auto& [words, lines] : said_) {
       if (told_.count(words) > 0) continue;
       std::vector<std::string> who;
@@ -67,7 +65,7 @@ class SideBySide {
         same &= its_own == line;
       }
       const std::string of_first = same ? "" : ", with the numbers of specimen " + std::to_string(first);
-      options_.notice((who.size() > 1 ? "specimens " : "specimen ") + listed(who, " and ") + of_first + ": " + line);
+      options_.tell((who.size() > 1 ? "specimens " : "specimen ") + listed(who, " and ") + of_first + ": " + line);
     }
   }
   /// What kept a test from being run, such as a full disk; empty: nothing did.
@@ -129,7 +127,7 @@ ClaimedFolder folder_of_batch(const BatchOptions& options) {
   const std::string& asked = options.folder;
   if (options.resume || options.overwrite) return ClaimedFolder(asked);
   ClaimedFolder claimed = ClaimedFolder::first_free(asked);
-  if (claimed.path() != asked && options.notice) options.notice(moved_notice(asked, claimed.path()));
+  if (claimed.path() != asked) options.tell(moved_notice(asked, claimed.path()));
   return claimed;
 }
 

@@ -37,14 +37,14 @@ Program beginning(const Program& program, double extension) {
 enum class Outcome { kHeld, kOpened, kFailed, kInterrupted };
 
 struct ShortTests {
-  const MarginTest& test;
+  const Method& method;
   const std::function<bool()>& interrupted;
 
   Outcome run(double friction, double preload) const {
-    MarginTest now = test;
+    Method now = method;
     now.physics.accuracy = Accuracy::kDraft;
     now.material.friction_coefficient *= friction;
-    now.specimen.preload = preload * tying_load(test.specimen, test.material);
+    now.specimen.preload = preload * tying_load(method.specimen, method.material);
     TestingMachine bench(now.specimen, now.material, now.machine, now.physics);
     ProgramRunner::Limits limits;
     limits.load = INFINITY;
@@ -69,8 +69,19 @@ struct ShortTests {
 
 }  // namespace
 
-Margin find_margin(const MarginTest& test, const std::function<bool()>& interrupted) {
-  const ShortTests tests{test, interrupted};
+double fraction_until_it_opens(const std::function<bool(double)>& opens) {
+  constexpr int kBisections = 3;
+  double open = 1.0 - Margin::kMost, holds = 1.0;
+  if (!opens(open)) return Margin::kMost;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = std::sqrt(open * holds);
+    (opens(middle) ? open : holds) = middle;
+  }
+  return 1.0 - std::sqrt(open * holds);
+}
+
+Margin find_margin(const Method& method, const std::function<bool()>& interrupted) {
+  const ShortTests tests{method, interrupted};
   Margin out;
   Outcome worst = tests.run(1.0, 1.0);
   if (worst == Outcome::kOpened) {

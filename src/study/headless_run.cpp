@@ -47,10 +47,6 @@ void take(const Command& command, const Sample& answer, const TestingMachine& be
   record.wall_time = wall_time;
 }
 
-void tell(const HeadlessOptions& options, const std::string& line) {
-  if (options.notice) options.notice(line);
-}
-
 /// A test, and where it stands.
 struct Test {
   const Method& method;
@@ -78,11 +74,10 @@ MadeResults make_with_margin(const std::string& folder, const Method& method, co
       Margin none;
       none.reason = "the knots did not slide";
       if (results.motion_pattern != MotionPattern::kSliding) return none;
-      return find_margin({method.specimen, method.material, method.machine, method.physics, method.program},
-                         options.interrupted);
+      return find_margin(method, options.interrupted);
     };
   const MadeResults made = make_results(folder, method, more);
-  for (const std::string& warning : printed_warnings(made.results, made.facts)) tell(options, warning);
+  for (const std::string& warning : printed_warnings(made.results, made.facts)) options.tell(warning);
   return made;
 }
 
@@ -127,7 +122,7 @@ ClaimedFolder folder_of_run(const HeadlessOptions& options) {
   if (options.overwrite) return ClaimedFolder(asked);
   ClaimedFolder claimed = ClaimedFolder::first_free(asked);
   if (claimed.path() != asked)
-    tell(options, moved_notice(asked, claimed.path()) + " (--overwrite writes over that one)");
+    options.tell(moved_notice(asked, claimed.path()) + " (--overwrite writes over that one)");
   return claimed;
 }
 
@@ -146,7 +141,7 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   if (knot_of(method.specimen).has("file") && !std::filesystem::exists(method.specimen.file))
     method.specimen.file = (std::filesystem::path(claimed.path()) / "specimen.csv").string();
   const Test test{method, options, claimed.path(), bench, program, earlier};
-  for (const std::string& warning : foreseen_warnings(method)) tell(options, warning);
+  for (const std::string& warning : foreseen_warnings(method)) options.tell(warning);
   try {
     return run_to_end(test);
   } catch (const InvalidInput&) {

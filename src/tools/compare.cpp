@@ -10,7 +10,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/raw/compared_curves.hpp"
+#include "knot_utm/raw/comparison.hpp"
 #include "knot_utm/raw/raw_zero.hpp"
 #include "knot_utm/run/cannot_write.hpp"
 #include "knot_utm/run/command_hint.hpp"

@@ -9,13 +9,12 @@
 #include <thread>
 #include <vector>
 
-#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/record/phase.hpp"
+#include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/command_hint.hpp"
-#include "knot_utm/run/latest_link.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/progress_line.hpp"
 #include "knot_utm/run/run_folder.hpp"
@@ -24,8 +23,6 @@
 #include "knot_utm/study/headless_run.hpp"
 #include "knot_utm/study/specimens.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
-#include "knot_utm/verdict/knot_advice.hpp"
-#include "knot_utm/verdict/plausible_rod.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
@@ -74,12 +71,17 @@ struct Arguments {
   std::string command;     // the whole line
 };
 
+/// What makes the writer of the bag; nothing without ROS.
+decltype(HeadlessOptions::further) further() {
 #ifdef KNOT_UTM_HAS_ROS
-FurtherWriter bag_in(const std::string& folder, const Method& method) {
-  const auto bag = std::make_shared<RunBag>(folder + "/test.bag", method);
-  return {[bag](const Record& record) { bag->add(record); }, [bag] { bag->close(); }};
-}
+  return [](const std::string& folder, const Method& method) -> FurtherWriter {
+    const auto bag = std::make_shared<RunBag>(folder + "/test.bag", method);
+    return {[bag](const Record& record) { bag->add(record); }, [bag] { bag->close(); }};
+  };
+#else
+  return nullptr;
 #endif
+}
 
 std::string folder_of(const Arguments& arguments, const Method& method) {
   return arguments.out.empty() ? "out/" + method.name : arguments.out;
@@ -130,12 +132,12 @@ std::optional<int> step_to_stop_before(const Arguments& arguments, const Method&
                                    listed(steps, " and "));
 }
 
-HeadlessOptions options_in(const std::string& folder, ProgressLine& progress) {
-  HeadlessOptions options;
+template <class Options>
+Options options_in(const std::string& folder, const Arguments& arguments, ProgressLine& progress) {
+  Options options;
   options.folder = folder;
-#ifdef KNOT_UTM_HAS_ROS
-  options.further = bag_in;
-#endif
+  options.overwrite = arguments.overwrite;
+  options.shapes = arguments.shapes;
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {
     progress.end();
@@ -146,9 +148,9 @@ HeadlessOptions options_in(const std::string& folder, ProgressLine& progress) {
 
 HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
   ProgressLine progress(arguments.quiet ? nullptr : stderr);
-  HeadlessOptions options = options_in(folder_of(arguments, method), progress);
-  options.overwrite = arguments.overwrite;
-  options.shapes = arguments.shapes || arguments.report;
+  auto options = options_in<HeadlessOptions>(folder_of(arguments, method), arguments, progress);
+  options.shapes |= arguments.report;
+  options.further = further();
   options.begin_with = arguments.begin_with;
   options.stop_before = step_to_stop_before(arguments, method);
   options.progress = [&](const Sample& sample, const ProgramRunner& program, double wall_time) {
@@ -183,18 +185,10 @@ void tell_end(const Arguments& arguments, const BatchOutcome& outcome, int ended
 }
 
 int run_all_specimens(const Arguments& arguments, const Method& method) {
-  BatchOptions options;
-  options.folder = folder_of(arguments, method);
+  ProgressLine progress(arguments.quiet ? nullptr : stderr);
+  auto options = options_in<BatchOptions>(folder_of(arguments, method), arguments, progress);
   options.jobs = arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
   options.resume = !arguments.resume.empty();
-  options.overwrite = arguments.overwrite;
-  options.shapes = arguments.shapes;
-  ProgressLine progress(arguments.quiet ? nullptr : stderr);
-  options.interrupted = [] { return stop_asked != 0; };
-  options.notice = [&](const std::string& line) {
-    progress.end();
-    std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
-  };
   int tested = 0;
   options.progress = [&](int ended, int count) {
     tested = ended;
@@ -208,15 +202,10 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
   return done ? kDone : kFailed;
 }
 
-void check_one(const Method& method) {
-  const TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
-  make_program(method, bench.longest_step());
-}
-
 /// All that a test is refused for, and the method with every value. One specimen alone does not scatter.
 int check(const Method& method) {
   if (method.specimens.count == 1)
-    check_one(method);
+    check_fits(method);
   else
     draw_specimens(method);
   for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
@@ -233,7 +222,9 @@ int list_keys(const Method& method) {
 
 int make_anew(const Arguments& arguments) {
   ProgressLine progress(nullptr);
-  const HeadlessOutcome outcome = results_from_samples(options_in(arguments.from_samples, progress));
+  auto options = options_in<HeadlessOptions>(arguments.from_samples, arguments, progress);
+  options.further = further();
+  const HeadlessOutcome outcome = results_from_samples(options);
   if (!arguments.quiet) tell_summary(outcome.folder, "result.yaml", "");
   return report(arguments, outcome.folder) ? kDone : kFailed;
 }

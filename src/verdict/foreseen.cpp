@@ -1,10 +1,13 @@
 #include "knot_utm/verdict/foreseen.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/verdict/plausible_rod.hpp"
 
 namespace knot_utm {
 namespace {
@@ -59,74 +62,132 @@ std::string scatters(const Method& method) {
          "(specimens.count)";
 }
 
-std::string seconds(double time) { return short_number(time) + " s"; }
-std::string metres(double extension) { return short_number(extension) + " m"; }
-std::string newtons(double load) { return short_number(load) + " N"; }
-
-/// What a step of the program waits for, and what ends the test before.
-class NeverReached {
- public:
-  NeverReached(const Method& method, std::vector<std::string>& all) : m_(method), all_(all) {}
-
-  void extension(const std::string& key, const std::optional<double>& asked) {
-    if (asked && *asked > m_.machine.travel)
-      say(key, metres(*asked), "the crosshead is at the end of machine.travel, " + metres(m_.machine.travel));
-  }
-  void load(const std::string& key, const std::optional<double>& asked) {
-    if (asked && m_.ends.load && *asked > *m_.ends.load)
-      say(key, newtons(*asked), "the load is at ends.load, " + newtons(*m_.ends.load));
-  }
-  void time(const std::string& key, const std::optional<double>& asked) {
-    if (asked && m_.ends.time && *asked > *m_.ends.time)
-      say(key, seconds(*asked), "the test's time is over by ends.time, " + seconds(*m_.ends.time));
-  }
-  /// Warns of a pull at a constant speed that lasts longer than the crosshead can travel.
-  void time_of_travel(const std::string& key, const ProgramStep& step) {
-    const std::optional<double>& asked = step.until.time;
-    const double longest = m_.machine.travel / step.speed;
-    if (asked && *asked > longest && !step.load_rate && !step.until.load && !step.until.extension)
-      say(key, seconds(*asked),
-          "the crosshead is at the end of machine.travel after " + seconds(longest) + " at " +
-              short_number(step.speed) + " m/s");
-  }
-  void fracture(const std::string& key, const ProgramStep& step) {
-    const Until& until = step.until;
-    const bool parts = m_.material.breaking_force || m_.material.breaking_strain || m_.ends.break_at_fraction_of_peak;
-    if (!until.broken || until.extension || until.load || until.time || parts) return;
-    all_.push_back(key +
-                   ".break is the only end of the pull, but nothing breaks this rod, so that the pull goes on to "
-                   "machine.travel, " +
-                   metres(m_.machine.travel) +
-                   ": give material.breaking_force, material.breaking_strain, a fall of the load in ends, or "
-                   "until.extension");
-  }
-
- private:
-  void say(const std::string& key, const std::string& asked, const std::string& first) {
-    all_.push_back(key + " is " + asked + ", which is never reached: before it " + first + ", and the test ends there");
-  }
-
-  const Method& m_;
-  std::vector<std::string>& all_;
-};
-
+/// What steps of the program wait for, and what ends the test before.
 void add_never_reached(const Method& method, std::vector<std::string>& all) {
-  NeverReached never(method, all);
+  const auto never = [&](const std::string& key, const std::optional<double>& asked, const std::optional<double>& limit,
+                         const char* unit, const std::string& first) {
+    if (asked && limit && *asked > *limit)
+      all.push_back(key + " is " + short_number(*asked) + unit + ", which is never reached: before it " + first +
+                    ", and the test ends there");
+  };
+  const double travel = method.machine.travel;
+  const EndOptions& ends = method.ends;
+  const auto extension = [&](const std::string& key, const std::optional<double>& asked) {
+    never(key + ".extension", asked, travel, " m",
+          "the crosshead is at the end of machine.travel, " + short_number(travel) + " m");
+  };
+  const auto load = [&](const std::string& key, const std::optional<double>& asked) {
+    never(key + ".load", asked, ends.load, " N",
+          "the load is at ends.load, " + short_number(ends.load.value_or(0.0)) + " N");
+  };
   for (std::size_t i = 0; i < method.program.size(); ++i) {
     const ProgramStep& step = method.program[i];
-    const std::string key = "program." + std::to_string(i) + "." + phase_name(step.phase);
-    if (step.phase == Phase::kPreload) never.load(key + ".load", step.load);
-    if (step.phase == Phase::kCycle && step.extension_turns)
-      never.extension(key + ".extension", step.extension_turns->high);
-    if (step.phase == Phase::kCycle && step.load_turns) never.load(key + ".load", step.load_turns->high);
+    const Until& until = step.until;
+    std::string key = "program." + std::to_string(i) + "." + phase_name(step.phase);
+    if (step.phase == Phase::kPreload) load(key, step.load);
+    if (step.phase == Phase::kCycle && step.extension_turns) extension(key, step.extension_turns->high);
+    if (step.phase == Phase::kCycle && step.load_turns) load(key, step.load_turns->high);
     if (step.phase != Phase::kPull) continue;
-    const std::string until = key + ".until";
-    never.extension(until + ".extension", step.until.extension);
-    never.load(until + ".load", step.until.load);
-    never.time(until + ".time", step.until.time);
-    never.time_of_travel(until + ".time", step);
-    never.fracture(until, step);
+    key += ".until";
+    extension(key, until.extension);
+    load(key, until.load);
+    never(key + ".time", until.time, ends.time, " s",
+          "the test's time is over by ends.time, " + short_number(ends.time.value_or(0.0)) + " s");
+    const double longest = travel / step.speed;
+    if (!step.load_rate && !until.load && !until.extension)
+      never(key + ".time", until.time, longest, " s",
+            "the crosshead is at the end of machine.travel after " + short_number(longest) + " s at " +
+                short_number(step.speed) + " m/s");
+    const Material& rod = method.material;
+    if (until.broken && !until.extension && !until.load && !until.time && !rod.breaking_force && !rod.breaking_strain &&
+        !ends.break_at_fraction_of_peak)
+      all.push_back(key +
+                    ".break is the only end of the pull, but nothing breaks this rod, so that the pull goes on to "
+                    "machine.travel, " +
+                    short_number(travel) +
+                    " m: give material.breaking_force, material.breaking_strain, a fall of the load in ends, or "
+                    "until.extension");
   }
+}
+
+constexpr double kLightest = 150.0, kHeaviest = 12000.0;    // [kg/m3]
+constexpr double kSoftest = 1e4, kStiffest = 1.5e12;        // modulus [Pa]
+constexpr double kLeastBending = 1e-6, kMostBending = 4.0;  // over that of a solid rod that stretches alike
+constexpr double kLeastStrain = 1e-4;                       // at break
+
+double area(const Material& material) { return M_PI * material.radius * material.radius; }
+double modulus(const Material& material) { return material.stretching_stiffness / area(material); }
+
+/// Bending stiffness over that of a solid rod of the same stretching stiffness, k_s h^2/4.
+double bending(const Material& material) {
+  return 4.0 * material.bending_stiffness / (material.stretching_stiffness * material.radius * material.radius);
+}
+
+/// "2.3 GPa".
+std::string pascals(double value) {
+  for (const auto& [size, name] : {std::pair<double, const char*>{1e9, " GPa"}, {1e6, " MPa"}, {1e3, " kPa"}})
+    if (value >= size) return short_number(value / size) + name;
+  return short_number(value) + " Pa";
+}
+
+void ask_about(const Material& material, std::vector<std::string>& all) {
+  const double density = material.density, stretched = modulus(material), bent = bending(material);
+  if (density < kLightest || density > kHeaviest)
+    all.push_back("material.density is " + short_number(density) +
+                  " kg/m3, where cork has 200, water 1000 and steel 7850: is it in kg/m3, and material.radius, " +
+                  short_number(material.radius) + ", in m?");
+  if (stretched < kSoftest || stretched > kStiffest)
+    all.push_back(
+        "material.stretching_stiffness is " + short_number(material.stretching_stiffness) +
+        " N, which is E = " + pascals(stretched) +
+        ", where rubber has 1 MPa, nylon 2 GPa and steel 200 GPa: is it E times the cross-section, in Pa times "
+        "m2, and material.radius in m?");
+  else if (bent < kLeastBending || bent > kMostBending)
+    all.push_back("material.bending_stiffness is " + short_number(material.bending_stiffness) + " N m2, which is " +
+                  short_number(bent) +
+                  " of that of a solid rod that stretches alike, where ropes have 0.0001 to 1: is it in N m2?");
+  if (material.breaking_force && *material.breaking_force < kLeastStrain * material.stretching_stiffness)
+    all.push_back("material.breaking_force is " + short_number(*material.breaking_force) +
+                  " N, with which the rod breaks at a strain of " +
+                  short_number(*material.breaking_force / material.stretching_stiffness) + ": is it in N?");
+}
+
+constexpr double kTiedByDefault = 3.15;  // `program.tie.speed: auto` of src/method/method.cpp [radii/s]
+/// Here the plateaus of nylon and polypropylene are 1.1 and 0.3 % lower: config/tighten.yaml with
+/// program.tie.speed=0.029 [radii/s].
+constexpr double kTiedSlow = 3.0 * kTiedByDefault;
+/// Ten times the default moved the plateau of nylon by -8 %, of polypropylene by -7 %
+/// (config/tighten.yaml with program.tie.speed=0.1).
+constexpr const char* kTiedFast =
+    "; ten times the default changes a sliding force by up to 8 %, so choose a lower program.tie.speed";
+
+constexpr double kPulledAsShipped = 1.04;  // [radii/s]
+/// At three times that the plateaus of nylon and polypropylene are the same to 0.4 % (scripts/bench sizes, five
+/// starts).
+constexpr double kPulledSlow = 5.0 * kPulledAsShipped;
+/// Ten times moved the plateau of nylon by 2.9 %, of polypropylene by 1.2 %.
+constexpr const char* kPulledFast =
+    "; ten times that changes a sliding force by up to 3 %, so choose a lower program.pull.speed";
+
+/// Advises longer tails where those of a loop are shorter than by default: an end that slips out of its coil unties the
+/// knot, however hard it was tied. It is empty where they are not.
+std::string longer_tail(const Method& method) {
+  const Knot& knot = knot_of(method.specimen);
+  if (!knot.about().loop || !knot.has("tail")) return "";
+  const double h = method.material.radius;
+  SpecimenOptions usual = knot.defaults(h);
+  knot.suit(method.specimen, method.machine.roller_diameter, h, usual);
+  constexpr double kShorter = 0.99;
+  if (!(method.specimen.tail < kShorter * usual.tail)) return "";
+  return "a longer specimen.tail (now " + short_number(method.specimen.tail) + " m; auto is " +
+         short_number(usual.tail) + " m)";
+}
+
+std::string higher_preload(const Method& method) {
+  const double usual = default_preload(method.material), preload = method.specimen.preload.value_or(usual);
+  std::string now = short_number(preload) + " N";
+  if (preload < usual) now += "; auto is " + short_number(usual) + " N";
+  return "a higher specimen.preload (now " + now + ")";
 }
 
 }  // namespace
@@ -138,8 +199,50 @@ std::vector<std::string> foreseen_warnings(const Method& method) {
        {longer_than_usual(method), near_the_rollers(method), between_nodes(method), scatters(method)})
     if (!found.empty()) all.push_back(found);
   add_never_reached(method, all);
-  for (const std::string& question : questions_about(method.material)) all.push_back(question);
+  ask_about(method.material, all);
   return all;
+}
+
+std::vector<std::string> speed_warnings(const Method& method) {
+  std::vector<std::string> all;
+  for (const ProgramStep& step : method.program) {
+    const double speed = step.speed / method.material.radius;
+    const std::string told = format_number(std::round(10.0 * speed) / 10.0);
+    if (step.phase == Phase::kTie && speed > kTiedSlow)
+      all.push_back("the knots are tied at " + told + " radii a second, by default at " +
+                    format_number(kTiedByDefault) + kTiedFast);
+    if (pulls(step.phase) && speed > kPulledSlow && knot_of(method.specimen).about().loop)
+      all.push_back("the loop is pulled at " + told + " radii a second, as shipped at " +
+                    format_number(kPulledAsShipped) + kPulledFast);
+  }
+  return all;
+}
+
+std::string rod_in_words(const Material& material) {
+  return short_number(1e3 * material.density * area(material)) + " g/m at a diameter of " +
+         short_number(2e3 * material.radius) + " mm, E = " + pascals(modulus(material)) +
+         " stretched, bending stiffness " + short_number(bending(material)) +
+         " of that of a solid rod of this E, friction coefficient " + short_number(material.friction_coefficient);
+}
+
+std::string what_keeps_a_knot(const Method& method) {
+  const Material& material = method.material;
+  const bool rolls = method.specimen.to_be_tied && friction_rolls(material, method.machine, method.physics);
+  std::vector<std::string> remedies{longer_tail(method)};
+  if (rolls) {
+    remedies.push_back("a smaller material.friction_couple (now " +
+                       short_number(friction_couple(material, method.physics)) + ")");
+    remedies.push_back("a larger material.bending_set (now " + short_number(material.bending_set) + ")");
+  } else {
+    if (method.specimen.to_be_tied) remedies.push_back(higher_preload(method));
+    remedies.push_back("a higher material.friction_coefficient (now " + short_number(material.friction_coefficient) +
+                       ")");
+    remedies.push_back(knot_of(method.specimen).what_keeps_it());
+  }
+  std::string all;
+  for (const std::string& remedy : remedies)
+    if (!remedy.empty()) all += (all.empty() ? "" : " or ") + remedy;
+  return (rolls ? "the couple of friction rolls its strands: " : "") + all + " may keep it";
 }
 
 }  // namespace knot_utm

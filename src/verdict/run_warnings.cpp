@@ -1,12 +1,12 @@
 #include "knot_utm/verdict/run_warnings.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/verdict/known_errors.hpp"
-#include "knot_utm/verdict/speed_warnings.hpp"
 
 namespace knot_utm {
 namespace {
@@ -16,100 +16,197 @@ namespace {
 constexpr double kUnbalanced = 0.01;
 
 constexpr double kForcesDiffer = 0.01;  // of the largest force, as scripts/bench asks for
+constexpr double kFast = 0.01;          // share of F that is told
+constexpr double kHardlyAny = 1e-6;     // accelerated mass, by choice: a smaller one helps no more [own mass]
 
-/// What became of the knot. Where it came undone, the console has a line of its own.
-std::vector<std::string> knot_warnings(const Results& results) {
-  std::vector<std::string> all;
-  if (results.untangled_at && results.knot_type != KnotType::kCrossed && results.ended_by != EndedBy::kUntangled) {
-    all.push_back("the knot came undone at " + short_number(*results.untangled_at) +
-                  " s, while it was pulled, so there is no sliding force");
-  }
-  if (results.knot_type == KnotType::kChanged && !results.untangled_at) {
-    all.push_back(
-        "with its two ends joined, the rod is another knot than at the start; as it still bears the load, nothing came "
-        "undone");
-  }
-  return all;
+/// A node that is so many times as fast as the pull snaps. While shipped knots slide, nodes are 11 to 42 times as fast
+/// as the pull; where a strand or a frame lets go, 200 to 500 times.
+constexpr double kSnaps = 100.0;
+
+std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
+
+std::string two_digits(double value) {
+  std::ostringstream out;
+  out.precision(2);
+  out << value;
+  return out.str();
 }
 
-/// Where the simulated rod is not the one that was meant.
-std::vector<std::string> physics_warnings(const Results& results) {
-  std::vector<std::string> all;
-  if (results.knot_type == KnotType::kCrossed) {
-    all.push_back("the rod ran through itself at " + short_number(results.untangled_at.value_or(Sample::kNone)) + " s");
-  }
-  if (results.max_penetration > kDeepContact) {
-    all.push_back("strands are pressed into each other by up to " + short_number(results.max_penetration) +
-                  " radii, where a contact is right up to " + short_number(kDeepContact));
-  }
-  if (results.energy_balance_error > kUnbalanced) {
-    all.push_back("the energies and the work differ by " + short_number(*results.energy_balance_error) +
-                  " of the largest of them: choose a smaller physics.residual");
-  }
-  return all;
-}
+/// The warnings of one run. Each function adds those of one kind.
+class Warnings {
+ public:
+  Warnings(const Results& results, const RunFacts& facts) : results_(results), facts_(facts) {}
 
-/// What the cell cannot tell: forces below its floor, or beyond its stop.
-std::vector<std::string> cell_warnings(const Results& results, const LoadCellOptions& cell) {
+  /// What became of the knot. Where it came undone, the console has a line of its own.
+  void of_the_knot() {
+    if (results_.untangled_at && results_.knot_type != KnotType::kCrossed && results_.ended_by != EndedBy::kUntangled)
+      say("the knot came undone at " + short_number(*results_.untangled_at) +
+          " s, while it was pulled, so there is no sliding force");
+    if (results_.knot_type == KnotType::kChanged && !results_.untangled_at)
+      say("with its two ends joined, the rod is another knot than at the start; as it still bears the load, nothing "
+          "came "
+          "undone");
+  }
+
+  /// What the cell cannot tell: forces below its floor, or beyond its stop.
+  void of_the_cell() {
+    const LoadCellOptions& cell = facts_.load_cell;
+    const std::string floor = "the load cell's floor of " + format_number(cell.floor * cell.capacity) + " N";
+    if (results_.true_peak_force && is_below_floor(cell, *results_.true_peak_force))
+      say("the peak force lies below " + floor);
+    else if (results_.true_plateau_force && is_below_floor(cell, *results_.true_plateau_force))
+      say("the plateau force lies below " + floor);
+    const double stop = cell.overload * cell.capacity;
+    if (results_.true_peak_force > stop)
+      say("the load cell was overloaded: above " + format_number(stop) +
+          " N it reads the force at its mechanical stop");
+  }
+
+  /// Where the simulated rod is not the one that was meant.
+  void of_the_physics() {
+    if (results_.knot_type == KnotType::kCrossed)
+      say("the rod ran through itself at " + short_number(results_.untangled_at.value_or(Sample::kNone)) + " s");
+    if (results_.max_penetration > kDeepContact)
+      say("strands are pressed into each other by up to " + short_number(results_.max_penetration) +
+          " radii, where a contact is right up to " + short_number(kDeepContact));
+    if (results_.energy_balance_error > kUnbalanced)
+      say("the energies and the work differ by " + short_number(*results_.energy_balance_error) +
+          " of the largest of them: choose a smaller physics.residual");
+  }
+
+  /// Events of the pull: a knot that jumped open, a roller that touched a knot.
+  void of_events() {
+    const CurveReadings& curve = results_.curve;
+    if (results_.opened_when_mounted)
+      say("a knot opened as the loop was mounted: before the pull the knots had come nearer to each other by " +
+          short_number(*results_.opened_when_mounted) + " m");
+    if (curve.jump_force)
+      say("a knot jumped open at an extension of " + short_number(*curve.jump_extension) + " m: the load went from " +
+          short_number(*curve.jump_force) + " N to " + short_number(*curve.force_after_jump) +
+          " N, and later readings belong to a looser knot");
+    if (results_.snap_extension)
+      say("the specimen snapped into another shape at an extension of " + short_number(*results_.snap_extension) +
+          " m, where the load fell by " + short_number(*results_.snap_drop) + " N at once");
+    if (slid_to_the_end(results_) && results_.true_plateau_force)
+      say("the pull ended while the knots still slid. The plateau force is the mean of what was pulled; a longer pull "
+          "may give a larger one");
+    if (results_.roller_touched_at)
+      say("a roller bore on a knot or its tail from an extension of " + short_number(*results_.roller_touched_at) +
+          " m on");
+    constexpr double kMuchBalanced = 0.1;
+    const double balanced = results_.balance_offset.value_or(0.0), plateau = results_.true_plateau_force.value_or(0.0);
+    if (plateau > 0.0 && std::abs(balanced) > kMuchBalanced * plateau)
+      say("the balance set " + short_number(balanced) + " N to zero, of a sliding force that is in truth " +
+          short_number(plateau) + " N: see true_plateau_force");
+  }
+
+  /// An overhand whose pull left it a loose loop. A loop of the radius R under the tension T has 2 T R^2 = k_b without
+  /// friction, and is wider with it (before_tying.hpp).
+  void of_a_loose_knot() {
+    constexpr double kClosed = 2.0;  // radius of a loop that lies on the strands in it [h]
+    const double force = results_.true_peak_force.value_or(0.0), h = facts_.material.radius;
+    const bool whole = results_.knot_type == KnotType::kKept && results_.break_place == BreakPlace::kNone;
+    if (!facts_.one_knot_in_a_strand || !whole || !(force > 0.0)) return;
+    const double radius = std::sqrt(facts_.material.bending_stiffness / (2.0 * force));
+    if (radius <= kClosed * h) return;
+    say("the pull ended while the knot was still loose: the largest force, " + short_number(force) +
+        " N, leaves its loop a radius of about " + short_number(radius / h) +
+        " radii of the rod, and more with friction; it is tight from about " +
+        short_number(facts_.material.bending_stiffness / (2.0 * kClosed * kClosed * h * h)) +
+        " N on, to which a longer pull brings it");
+  }
+
+  /// The weight of strands and tails may change the sliding force, or the largest force where nothing slides.
+  void of_gravity() {
+    constexpr double kHeavy = 0.01;  // weight over the sliding force, or the largest one
+    const bool slides = results_.true_plateau_force.has_value();
+    const double force = results_.true_plateau_force.value_or(results_.true_peak_force.value_or(0.0));
+    if (facts_.weight > 0.0 && facts_.weight > kHeavy * force && force > 0.0)
+      say("the rod weighs " + short_number(facts_.weight) + " N, " + short_number(100.0 * facts_.weight / force) +
+          " % of the " + (slides ? "sliding" : "largest") +
+          " force: physics.gravity bends strands and tails and may change that force by several times this share; a "
+          "run without it tells");
+  }
+
+  /// Where speed affects the forces of a test, which is meant to be quasi-static.
+  void of_speed() {
+    const double by_drag = results_.rate.drag.value_or(0.0), by_inertia = results_.rate.inertia.value_or(0.0);
+    const double mass = facts_.inertia, by_own = by_inertia / std::min(1.0, mass);
+    if (by_drag > 1.0)
+      say("drag takes " + two_digits(by_drag) +
+          " times the work of the pull: the specimen moves by something else than the pull");
+    else if (by_drag > kFast)
+      say("drag makes up " + in_per_cent(by_drag) +
+          " of the force until the knots lock: choose a smaller physics.drag or pull more slowly");
+    if (by_inertia > kFast)
+      say("inertia changes the force by " + in_per_cent(by_inertia) + " until the knots lock: " +
+          (mass > kHardlyAny ? "choose a physics.inertia much smaller than " + two_digits(mass) : "pull more slowly"));
+    else if (by_own > kFast)
+      say("the simulation accelerates only " + two_digits(mass) +
+          " of the rod's own mass (physics.inertia); all of it would change the force by " +
+          (by_own > 1.0 ? "more than itself" : "about " + in_per_cent(by_own)) +
+          " until the knots lock, so a real test would have to be pulled more slowly");
+  }
+
+  /// Elastic energy of stretchy strands or of a compliant frame that was released suddenly, although no knot jumped
+  /// open.
+  void of_snaps() {
+    const double speed = facts_.pull_speed;
+    if (!results_.curve.jump_force && !results_.snap_extension && speed > 0.0 && results_.fastest_node > kSnaps * speed)
+      say("something let go at once before the knots locked: a node moved at " + short_number(results_.fastest_node) +
+          " m/s, " + short_number(results_.fastest_node / speed) +
+          " times as fast as the pull; how far the load falls then depends on inertia and on the frame");
+  }
+
+  /// Knots that move as they are released are tied at another distance than was asked for.
+  void of_knots_that_travelled() {
+    constexpr double kFar = 0.05;  // of the distance, by choice: shipped methods are within 1e-3
+    if (!results_.tied_knot_distance || !(facts_.knot_distance > 0.0)) return;
+    const bool stopped = results_.ended_by == EndedBy::kOperator || results_.ended_by == EndedBy::kInterrupted;
+    if (stopped && !results_.true_peak_force) return;  // perhaps while they were still being tied
+    if (std::abs(*results_.tied_knot_distance / facts_.knot_distance - 1.0) > kFar)
+      say("the knots moved as they were released. They are " + short_number(*results_.tied_knot_distance) +
+          " m apart instead of " + short_number(facts_.knot_distance) + " m (specimen.knot_distance)");
+  }
+
+  /// A loop that slid along its rollers, which have no friction, or too little.
+  void of_the_rollers() {
+    // By choice, far more than a loop that is held by its rollers' friction moves along them [h].
+    constexpr double kSlidAlong = 3.0;
+    if (facts_.slid_along > kSlidAlong * facts_.material.radius)
+      say("the loop slid along the axes of its rollers by " + short_number(facts_.slid_along) +
+          " m: nothing but machine.roller_friction holds it there");
+  }
+
+  /// A test that the machine ended too early. A solver that gave up and a knot that came undone say so themselves.
+  void of_an_early_end() {
+    if (!results_.true_peak_force && !results_.never_in_tension && results_.ended_by == EndedBy::kTravel)
+      say("the test ended before anything was pulled: " + facts_.reason);
+  }
+
+  /// What moves while it is pulled, where it moves enough to be felt.
+  void of_what_moves() {
+    const std::string moved = why_not_at_rest(results_, facts_);
+    say(moved);
+    if (!moved.empty() || !results_.force_balance_error || !results_.true_peak_force) return;
+    if (*results_.force_balance_error > kForcesDiffer + facts_.weight / *results_.true_peak_force)
+      say("the forces on the two grips differ by up to " + short_number(100.0 * *results_.force_balance_error) +
+          " % of the largest one, where at rest they are the same: pull more slowly");
+  }
+
+  void say(const std::string& line) {
+    if (!line.empty()) all.push_back(line);
+  }
+  void say(const std::vector<std::string>& lines) { all.insert(all.end(), lines.begin(), lines.end()); }
+
   std::vector<std::string> all;
-  const std::string floor = "the load cell's floor of " + format_number(cell.floor * cell.capacity) + " N";
-  if (results.true_peak_force && is_below_floor(cell, *results.true_peak_force)) {
-    all.push_back("the peak force lies below " + floor);
-  } else if (results.true_plateau_force && is_below_floor(cell, *results.true_plateau_force)) {
-    all.push_back("the plateau force lies below " + floor);
-  }
-  const double stop = cell.overload * cell.capacity;
-  if (results.true_peak_force > stop) {
-    all.push_back("the load cell was overloaded: above " + format_number(stop) +
-                  " N it reads the force at its mechanical stop");
-  }
-  return all;
-}
+
+ private:
+  const Results& results_;
+  const RunFacts& facts_;
+};
 
 }  // namespace
-
-std::vector<std::string> events(const Results& results) {
-  std::vector<std::string> all;
-  const CurveReadings& curve = results.curve;
-  if (results.opened_when_mounted)
-    all.push_back("a knot opened as the loop was mounted: before the pull the knots had come nearer to each other by " +
-                  short_number(*results.opened_when_mounted) + " m");
-  if (curve.jump_force)
-    all.push_back("a knot jumped open at an extension of " + short_number(*curve.jump_extension) +
-                  " m: the load went from " + short_number(*curve.jump_force) + " N to " +
-                  short_number(*curve.force_after_jump) + " N, and later readings belong to a looser knot");
-  if (results.snap_extension)
-    all.push_back("the specimen snapped into another shape at an extension of " +
-                  short_number(*results.snap_extension) + " m, where the load fell by " +
-                  short_number(*results.snap_drop) + " N at once");
-  if (slid_to_the_end(results) && results.true_plateau_force)
-    all.push_back(
-        "the pull ended while the knots still slid. The plateau force is the mean of what was pulled; a longer pull "
-        "may give a larger one");
-  if (results.roller_touched_at)
-    all.push_back("a roller bore on a knot or its tail from an extension of " +
-                  short_number(*results.roller_touched_at) + " m on");
-  constexpr double kMuchBalanced = 0.1;
-  const double balanced = results.balance_offset.value_or(0.0), plateau = results.true_plateau_force.value_or(0.0);
-  if (plateau > 0.0 && std::abs(balanced) > kMuchBalanced * plateau)
-    all.push_back("the balance set " + short_number(balanced) + " N to zero, of a sliding force that is in truth " +
-                  short_number(plateau) + " N: see true_plateau_force");
-  return all;
-}
-
-std::vector<std::string> gravity_warnings(const Results& results, const RunFacts& facts) {
-  constexpr double kHeavy = 0.01;  // weight over the sliding force, or the largest one
-  std::vector<std::string> all;
-  if (!(facts.weight > 0.0)) return all;
-  const bool slides = results.true_plateau_force.has_value();
-  const double force = results.true_plateau_force.value_or(results.true_peak_force.value_or(0.0));
-  if (facts.weight > kHeavy * force && force > 0.0)
-    all.push_back("the rod weighs " + short_number(facts.weight) + " N, " + short_number(100.0 * facts.weight / force) +
-                  " % of the " + (slides ? "sliding" : "largest") +
-                  " force: physics.gravity bends strands and tails and may change that force by several times this "
-                  "share; a run without it tells");
-  return all;
-}
 
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
   constexpr double kUnsure = 0.1;
@@ -120,85 +217,31 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
          " %; a finer physics.accuracy, a higher specimen.refinement or several specimens tell more";
 }
 
-namespace {
-
-/// What moves while it is pulled, where it moves enough to be felt.
-std::string shaken(const Results& results, const RunFacts& facts) {
-  if (std::string moved = why_not_at_rest(results, facts); !moved.empty()) return moved;
-  if (!results.force_balance_error || !results.true_peak_force) return {};
-  if (*results.force_balance_error <= kForcesDiffer + facts.weight / *results.true_peak_force) return {};
-  return "the forces on the two grips differ by up to " + short_number(100.0 * *results.force_balance_error) +
-         " % of the largest one, where at rest they are the same: pull more slowly";
-}
-
-/// Knots that move as they are released are tied at another distance than was asked for.
-std::string knots_travelled(const Results& results, const RunFacts& facts) {
-  constexpr double kFar = 0.05;  // of the distance, by choice: shipped methods are within 1e-3
-  if (!results.tied_knot_distance || !(facts.knot_distance > 0.0)) return {};
-  const bool stopped = results.ended_by == EndedBy::kOperator || results.ended_by == EndedBy::kInterrupted;
-  if (stopped && !results.true_peak_force) return {};  // perhaps while they were still being tied
-  if (std::abs(*results.tied_knot_distance / facts.knot_distance - 1.0) <= kFar) return {};
-  return "the knots moved as they were released. They are " + short_number(*results.tied_knot_distance) +
-         " m apart instead of " + short_number(facts.knot_distance) + " m (specimen.knot_distance)";
-}
-
-/// Warns of a loop that slid along its rollers, which have no friction, or too little.
-std::string slid_along_the_rollers(const RunFacts& facts) {
-  // By choice, far more than a loop that is held by its rollers' friction moves along them [h].
-  constexpr double kSlidAlong = 3.0;
-  if (facts.slid_along <= kSlidAlong * facts.material.radius) return {};
-  return "the loop slid along the axes of its rollers by " + short_number(facts.slid_along) +
-         " m: nothing but machine.roller_friction holds it there";
-}
-
-/// Warns of a test that the machine ended too early. A solver that gave up and a knot that came undone say so
-/// themselves.
-std::string ended_before_pull(const Results& results, const RunFacts& facts) {
-  if (results.true_peak_force || results.never_in_tension || results.ended_by != EndedBy::kTravel) return {};
-  return "the test ended before anything was pulled: " + facts.reason;
-}
-
-/// Warns of an overhand whose pull left it a loose loop. A loop of the radius R under the tension T has 2 T R^2 = k_b
-/// without friction, and is wider with it (before_tying.hpp).
-std::string stayed_loose(const Results& results, const RunFacts& facts) {
-  constexpr double kClosed = 2.0;  // radius of a loop that lies on the strands in it [h]
-  const double force = results.true_peak_force.value_or(0.0), h = facts.material.radius;
-  const bool whole = results.knot_type == KnotType::kKept && results.break_place == BreakPlace::kNone;
-  if (!facts.one_knot_in_a_strand || !whole || !(force > 0.0)) return {};
-  const double radius = std::sqrt(facts.material.bending_stiffness / (2.0 * force));
-  if (radius <= kClosed * h) return {};
-  return "the pull ended while the knot was still loose: the largest force, " + short_number(force) +
-         " N, leaves its loop a radius of about " + short_number(radius / h) +
-         " radii of the rod, and more with friction; it is tight from about " +
-         short_number(facts.material.bending_stiffness / (2.0 * kClosed * kClosed * h * h)) +
-         " N on, to which a longer pull brings it";
-}
-
-}  // namespace
-
 std::vector<std::string> printed_warnings(const Results& results, const RunFacts& facts) {
-  std::vector<std::string> all = physics_warnings(results);
-  for (const std::string& event : events(results)) all.push_back(event);
-  if (const std::string loose = stayed_loose(results, facts); !loose.empty()) all.push_back(loose);
-  for (const std::vector<std::string>& more :
-       {gravity_warnings(results, facts), speed_warnings(results.rate, facts.inertia),
-        snap_warnings(results, facts.pull_speed), facts.warnings})
-    all.insert(all.end(), more.begin(), more.end());
-  if (const std::string travelled = knots_travelled(results, facts); !travelled.empty()) all.push_back(travelled);
-  if (const std::string slid = slid_along_the_rollers(facts); !slid.empty()) all.push_back(slid);
-  if (const std::string early = ended_before_pull(results, facts); !early.empty()) all.push_back(early);
-  if (const std::string moved = shaken(results, facts); !moved.empty()) all.push_back(moved);
-  const std::string unsure = accuracy_warning(results, known_errors(results, facts));
-  if (!unsure.empty()) all.push_back(unsure);
-  if (!facts.margin.reason.empty()) all.push_back("no margin: " + facts.margin.reason);
-  return all;
+  Warnings found(results, facts);
+  found.of_the_physics();
+  found.of_events();
+  found.of_a_loose_knot();
+  found.of_gravity();
+  found.of_speed();
+  found.of_snaps();
+  found.say(facts.warnings);
+  found.of_knots_that_travelled();
+  found.of_the_rollers();
+  found.of_an_early_end();
+  found.of_what_moves();
+  found.say(accuracy_warning(results, known_errors(results, facts)));
+  if (!facts.margin.reason.empty()) found.say("no margin: " + facts.margin.reason);
+  return found.all;
 }
 
-std::vector<std::string> all_warnings(const Results& r, const RunFacts& f) {
-  std::vector<std::string> all = knot_warnings(r);
-  for (const std::vector<std::string>& more : {cell_warnings(r, f.load_cell), f.foreseen, printed_warnings(r, f)})
-    all.insert(all.end(), more.begin(), more.end());
-  return all;
+std::vector<std::string> all_warnings(const Results& results, const RunFacts& facts) {
+  Warnings found(results, facts);
+  found.of_the_knot();
+  found.of_the_cell();
+  found.say(facts.foreseen);
+  found.say(printed_warnings(results, facts));
+  return found.all;
 }
 
 }  // namespace knot_utm

@@ -6,6 +6,7 @@
 
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/step_control.hpp"
+#include "rod/own_laws.hpp"
 #include "sim/capstan.hpp"
 #include "sim/drawn_overhand.hpp"
 
@@ -63,9 +64,16 @@ struct SlidingOverhand {
     return out;
   }
 
-  explicit SlidingOverhand(bool twist, double couple) {
+  explicit SlidingOverhand(bool twist, double couple, double friction_moment = 0.0) {
     const Material material = polypropylene();
     DrawnOverhand drawn(material);
+    if (friction_moment > 0.0) {
+      FrictionalBending law;
+      law.stick_ratio = 20.0;
+      law.curvature = friction_moment / material.radius;
+      set_law(drawn.rod, law);
+      remember_bends(drawn.rod, &drawn.state);
+    }
     if (twist) initialise_frames(&drawn.state);
     StepSettings settings = sliding_settings(material);
     settings.friction_couple = couple;
@@ -98,12 +106,13 @@ struct Kind {
   const char* name;
   bool twist;
   double couple;
+  double friction_moment = 0.0;  // of bending [k_b/h]
 };
 
 class WarmStep : public testing::TestWithParam<Kind> {};
 
 TEST_P(WarmStep, TakesNothingFromTheHeap) {
-  SlidingOverhand scene(GetParam().twist, GetParam().couple);
+  SlidingOverhand scene(GetParam().twist, GetParam().couple, GetParam().friction_moment);
   scene.pull(0.05);
   EXPECT_GT(scene.taken, 0U) << "the first steps have to";
   scene.taken = 0;
@@ -119,7 +128,8 @@ TEST_P(WarmStep, TakesNothingFromTheHeap) {
 
 INSTANTIATE_TEST_SUITE_P(Twist, WarmStep,
                          testing::Values(Kind{"Off", false, 0.0}, Kind{"On", true, 0.0},
-                                         Kind{"OnWithFrictionAtTheSurface", true, 0.3}),
+                                         Kind{"OnWithFrictionAtTheSurface", true, 0.3},
+                                         Kind{"OnWithFrictionAmongFibres", true, 0.3, 0.01}),
                          [](const auto& kind) { return kind.param.name; });
 
 TEST(WarmStep, OnAFreeRollerTakesNothingFromTheHeap) {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <random>
 
-#include "knot_utm/analysis/curve_difference.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
@@ -312,30 +311,6 @@ TEST(CurveReadings, OfNothingThereAreNone) {
   const CurveReadings one = curve_readings({{0.0, 0.0, Sample::kNone, 1.0}});
   EXPECT_EQ(one.peak_force, 1.0);
   EXPECT_FALSE(one.plateau_force || one.lock_extension_by_load || one.locked_stiffness);
-}
-
-TEST(CurveDifference, OfLinesIsTheirExactIntegral) {
-  // F_b - F_a = 100 s - 1 over s from 0.01 to 0.03: its mean square is 4/3, over points that do not coincide.
-  const Pull a = pull([](double s) { return 1.0 + 100.0 * s; }, 0.03, 7);
-  Pull b = pull([](double s) { return 200.0 * s; }, 0.05, 11);
-  b.erase(b.begin(), b.begin() + 2);
-  const auto difference = curve_difference(a, b);
-  ASSERT_TRUE(difference);
-  const double low = b.front().extension, high = 0.03;
-  EXPECT_DOUBLE_EQ(difference->common.low, low);
-  EXPECT_DOUBLE_EQ(difference->common.high, high);
-  const auto cube = [](double s) { return std::pow(100.0 * s - 1.0, 3) / 300.0; };
-  EXPECT_NEAR(difference->rms, std::sqrt((cube(high) - cube(low)) / (high - low)), 1e-12);
-  EXPECT_NEAR(difference->largest, 2.0, 1e-12);
-  EXPECT_DOUBLE_EQ(difference->largest_at, high);
-  EXPECT_NEAR(difference->load, 4.0, 1e-12);
-}
-
-TEST(CurveDifference, WithNothingInCommonThereIsNone) {
-  Pull far = pull(sliding);
-  for (PullPoint& point : far) point.extension += 1.0;
-  EXPECT_FALSE(curve_difference(pull(sliding), far));
-  EXPECT_FALSE(curve_difference(pull(sliding), {}));
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "knot_utm/analysis/elongations.hpp"
-
 #include <gtest/gtest.h>
 
 #include "knot_utm/analysis/results.hpp"

@@ -1,7 +1,6 @@
-#include "knot_utm/analysis/rate_shares.hpp"
-
 #include <gtest/gtest.h>
 
+#include "knot_utm/analysis/sample_readings.hpp"
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
 

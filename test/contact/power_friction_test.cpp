@@ -55,12 +55,6 @@ TEST(PowerFriction, GoesOnInAStraightLineBelowZero) {
   EXPECT_NEAR(slope, at_zero.by_pressure.norm(), 1e-5 * slope);
 }
 
-/// The same law, given at half the reference pressure, is bounded at half the pressure.
-PowerFriction with_half_the_bound(const PowerFriction& law) {
-  return {law.coefficient * std::pow(0.5, law.exponent - 1.0), law.presliding, law.exponent,
-          0.5 * law.reference_pressure};
-}
-
 TEST(PowerFriction, WithTheExponentOneIsMemory) {
   const PowerFriction law{kMu, kPresliding, 1.0, kReference};
   const MemoryFriction memory{kMu, kPresliding};
@@ -81,11 +75,7 @@ TEST(PowerFriction, HowellsCapstan) {
   Capstan scene(kTension, options);
   const double expected = std::pow(1.0 + (1.0 - kExponent) * Capstan::kMu * 2.0 * M_PI, 1.0 / (1.0 - kExponent));
   EXPECT_LT(expected, 0.8 * std::exp(Capstan::kMu * 2.0 * M_PI)) << "Coulomb's law must be told from it";
-  const double ratio = scene.ratio();
-  hold_against("Howell's capstan, n = 0.8: T2/T1", expected, ratio, 0.01);
-  options.roller_friction = with_half_the_bound({Capstan::kMu, options.presliding, kExponent, kTension});
-  Capstan halved(kTension, options);
-  EXPECT_NEAR(halved.ratio(), ratio, 5e-4 * ratio) << "the bound at small pressures moves the reading";
+  hold_against("Howell's capstan, n = 0.8: T2/T1", expected, scene.ratio(), 0.01);
 }
 
 }  // namespace

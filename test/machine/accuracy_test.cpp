@@ -44,17 +44,6 @@ TEST(RelativeErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
   EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.096);
 }
 
-/// The fractions of the sources: a quarter of the presliding displacement and of the longest step leave a quarter of
-/// 0.5.
-TEST(RelativeErrors, FallWithPreslidingAndStep) {
-  Loop plain, shorter;
-  const Tolerances own = plain.tolerances();
-  shorter.physics.max_step = own.longest_step / 4.0;
-  shorter.physics.friction.set("presliding", own.presliding / 4.0);
-  plain.specimen.edge_length = shorter.specimen.edge_length = plain.material.radius;
-  EXPECT_NEAR(*shorter.errors().plateau_force / *plain.errors().plateau_force, 0.5 + 0.5 / 4.0, 1e-12);
-}
-
 /// Nylon's edges are shorter, as it is tied hard, and its error is smaller with their square.
 TEST(RelativeErrors, OfTheShippedMethodNeedNoWarning) {
   const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml");

@@ -67,12 +67,6 @@ TEST(BeforeTying, WithoutFrictionACoilClosesAtAnEighthOfTheBendingForce) {
   EXPECT_NEAR(coil_radius(loop.material, 0.5 * bending_force(loop.material)), loop.material.radius, 1e-12);
 }
 
-TEST(BeforeTying, FrictionKeepsHalfATurnOfThePullFromTheCoil) {
-  Loop loop;
-  loop.material.friction_coefficient = 0.3;
-  EXPECT_DOUBLE_EQ(closing_preload(loop.material), std::exp(0.3 * M_PI) * bending_force(loop.material) / 8.0);
-}
-
 TEST(BeforeTying, APreloadThatLeavesTheCoilsOpenIsAWarning) {
   Loop loop;
   loop.specimen.preload = 0.5 * closing_preload(loop.material);

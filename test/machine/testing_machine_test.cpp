@@ -265,6 +265,38 @@ TEST(TestingMachine, ALoopHasNoWeightUntilTheRollersTakeIt) {
   }
 }
 
+/// physics.twist: auto.
+bool twists(const SpecimenOptions& specimen, GripKind grips, TwistMode twist = TwistMode::kAuto,
+            const Material& material = pink_vps(), FrictionAt at = FrictionAt::kSurface) {
+  MachineOptions machine;
+  machine.grips = grips;
+  PhysicsOptions physics;
+  physics.accuracy = Accuracy::kDraft;
+  physics.twist = twist;
+  physics.friction_at = at;
+  return TestingMachine(specimen, material, machine, physics).state().twist.size() > 0;
+}
+
+TEST(TestingMachine, TwistIsOnByItselfWhereClampsHoldTwoFramesAndWhereFrictionRollsStrands) {
+  SpecimenOptions loop;
+  loop.edge_length = 0.005;
+  EXPECT_FALSE(twists(loop, GripKind::kRollers));
+  EXPECT_FALSE(twists(loop, GripKind::kNodes));
+  EXPECT_TRUE(twists(loop, GripKind::kClamps));
+  EXPECT_TRUE(twists(drawn_overhand(), GripKind::kClamps));
+  EXPECT_FALSE(twists(drawn_overhand(), GripKind::kNodes));
+  EXPECT_FALSE(twists(drawn_overhand(), GripKind::kClamps, TwistMode::kOff));
+  EXPECT_FALSE(twists(straight_rod(), GripKind::kClamps));
+  EXPECT_TRUE(twists(straight_rod(), GripKind::kClamps, TwistMode::kOn));
+
+  Material rope = polypropylene();
+  rope.friction_couple = 0.5;
+  EXPECT_TRUE(twists(loop, GripKind::kRollers, TwistMode::kAuto, rope));
+  EXPECT_FALSE(twists(loop, GripKind::kRollers, TwistMode::kAuto, rope, FrictionAt::kCentreline));
+  rope.friction_coefficient = 0.0;
+  EXPECT_FALSE(twists(loop, GripKind::kRollers, TwistMode::kAuto, rope));
+}
+
 TEST(TestingMachine, OnceFailedItAnswersEveryCommandWithTheSame) {
   TestingMachine machine = bench(straight_rod());
   machine.respond(Command{});

@@ -234,6 +234,19 @@ TEST(BadInput, ABendThatYieldsNeedsAYieldStrainAndTwist) {
   EXPECT_THAT(with("material.hardening=2"), AllOf(HasSubstr("material.hardening"), HasSubstr("0.01 to 1")));
 }
 
+TEST(BadInput, ABendWithFrictionNeedsItsMoment) {
+  EXPECT_THAT(complaint(kTighten, {"material.bending_law=frictional"}),
+              AllOf(HasSubstr("material.friction_moment"), Not(HasSubstr("\n"))));
+  const auto with = [&](const char* more) {
+    return complaint(kTighten, {"material.bending_law=frictional", "material.friction_moment=0.06", more});
+  };
+  EXPECT_EQ(with("material.compaction=0.002"), "nothing was wrong");
+  EXPECT_THAT(with("material.friction_moment=-0.1"), HasSubstr("0 to 1 k_b/h"));
+  EXPECT_THAT(with("material.stick_ratio=0.9"), HasSubstr("1.01 to 1000"));
+  EXPECT_THAT(with("material.hardening=0.5"), HasSubstr("only with bending_law: plastic"));
+  EXPECT_THAT(complaint(kTighten, {"material.friction_moment=0.06"}), HasSubstr("only with bending_law: frictional"));
+}
+
 class BadFile : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_ / "materials"); }

@@ -18,17 +18,11 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-class Compare : public OwnFolder {
+class Compare : public MadeFolder {
  protected:
-  void SetUp() override {
-    OwnFolder::SetUp();
-    std::filesystem::create_directories(folder());
-  }
-  std::string file(const std::string& name) const { return folder() + "/" + name; }
-
   /// Load 10 N/mm times `factor`, from 1 mm on.
   void write_curve(const std::string& name, double factor) const {
-    CurveWriter writer(file(name));
+    CurveWriter writer(in(name));
     for (int i = 0; i <= 10; ++i) {
       CurveRow row;
       row.time = i;
@@ -47,10 +41,10 @@ class Compare : public OwnFolder {
       text += std::to_string(i) + ",0;" + std::to_string(i + place) + ",0;" + std::to_string(newtons / 1000) + ',' +
               digits + "\r\n";
     }
-    write_whole(file(name), text);
+    write_whole(in(name), text);
   }
   Answer compare(const std::string& a, const std::string& b, const std::string& more = "") const {
-    return answer_of(tool("compare", "'" + file(a) + "' '" + file(b) + "' --yaml " + more));
+    return answer_of(tool("compare", "'" + in(a) + "' '" + in(b) + "' --yaml " + more));
   }
 };
 
@@ -85,7 +79,7 @@ TEST_F(Compare, WithoutAnyLoadACurveIsTheSameAsItself) {
 
 TEST_F(Compare, ANoteOfAPhaseIsNoCurveOfOurs) {
   write_raw_data("raw.csv", 1.0);
-  write_whole(file("note.csv"), "Note : phase,time\r\n" + read_whole(file("raw.csv")));
+  write_whole(in("note.csv"), "Note : phase,time\r\n" + read_whole(in("raw.csv")));
   EXPECT_EQ(compare("raw.csv", "note.csv", "--tolerance 0").code, 0);
 }
 
@@ -126,9 +120,9 @@ TEST_F(Compare, SaysWhatItReadOfRawData) {
 }
 
 TEST_F(Compare, TakesTheFolderOfARun) {
-  std::filesystem::create_directories(file("run"));
-  std::filesystem::create_directories(file("batch/specimen_001"));
-  std::filesystem::create_directories(file("batch/specimen_002"));
+  std::filesystem::create_directories(in("run"));
+  std::filesystem::create_directories(in("batch/specimen_001"));
+  std::filesystem::create_directories(in("batch/specimen_002"));
   for (const char* name : {"run/curve.csv", "batch/specimen_001/curve.csv"}) write_curve(name, 1.0);
   write_curve("batch/specimen_002/curve.csv", 2.0);
   EXPECT_EQ(compare("run", "run/curve.csv", "--tolerance 0").code, 0);
@@ -152,7 +146,7 @@ TEST_F(Compare, NeedsNoTime) {
   write_curve("a.csv", 1.0);
   std::string text = "extension,load\nm,N\n";
   for (int i = 0; i <= 10; ++i) text += format_number(1e-3 * (i + 1)) + ',' + std::to_string(10 * i) + '\n';
-  write_whole(file("pull.csv"), text);
+  write_whole(in("pull.csv"), text);
   const Answer answer = compare("a.csv", "pull.csv", "--tolerance 0 --no-balance");
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("pull.csv: 11 readings: extension is column 1"));
@@ -166,8 +160,8 @@ TEST_F(Compare, ARecordThatRunsDownwardsIsToldAndTurned) {
     of_load += time + place + std::to_string(-10 * i) + '\n';
     of_extension += time + '-' + place + std::to_string(10 * i) + '\n';
   }
-  write_whole(file("load.csv"), of_load);
-  write_whole(file("extension.csv"), of_extension);
+  write_whole(in("load.csv"), of_load);
+  write_whole(in("extension.csv"), of_extension);
   const Answer told = compare("a.csv", "load.csv");
   EXPECT_EQ(told.code, 0);
   EXPECT_THAT(told.text, HasSubstr("load.csv: the load falls from 0 to -100 N"));
@@ -188,14 +182,14 @@ TEST_F(Compare, ReadingsBehindOthersAreCounted) {
     const int place = i < 10 ? i : i < 15 ? 20 - i : i - 10;  // there, half of the way back, and there again
     text += std::to_string(i) + ',' + std::to_string(place) + ',' + std::to_string(10 * place) + '\n';
   }
-  write_whole(file("back.csv"), text);
+  write_whole(in("back.csv"), text);
   EXPECT_THAT(compare("a.csv", "back.csv").text,
               HasSubstr("back.csv: 9 of 31 readings are not compared, since they lie up to 5 mm behind an extension"));
 }
 
 TEST_F(Compare, RefusesInOneLine) {
   write_curve("a.csv", 1.0);
-  write_whole(file("no_unit.csv"), "Time,Extension,Load\n0,0,0\n");
+  write_whole(in("no_unit.csv"), "Time,Extension,Load\n0,0,0\n");
   for (const char* other : {"no_unit.csv", "not_there.csv", "not_there.bag"}) {
     const Answer answer = compare("a.csv", other);
     EXPECT_EQ(answer.code, 2) << other;
@@ -205,8 +199,8 @@ TEST_F(Compare, RefusesInOneLine) {
   for (const char* tolerance : {"-1", "nan", "inf"})
     EXPECT_EQ(compare("a.csv", "a.csv", std::string("--tolerance ") + tolerance).code, 2) << tolerance;
   EXPECT_EQ(compare("a.csv", ".").code, 2);
-  EXPECT_NE(
-      answer_of("( " + tool("compare", "'" + file("a.csv") + "' '" + file("a.csv") + "' > /dev/full") + " )").code, 0);
+  EXPECT_NE(answer_of("( " + tool("compare", "'" + in("a.csv") + "' '" + in("a.csv") + "' > /dev/full") + " )").code,
+            0);
 
   const double nan = std::nan("");
   write_curve("nan.csv", nan);

@@ -1,11 +1,10 @@
-#include "knot_utm/raw/compared_curves.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/raw/comparison.hpp"
 
 namespace knot_utm {
 namespace {

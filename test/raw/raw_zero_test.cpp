@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
 
@@ -169,6 +170,37 @@ TEST(RawZero, WhereTheOtherCurveDoesNotReachNothingIsToldOfACut) {
   const std::vector<CurveRow> raw = recorded({ours.begin() + 2, ours.end()}, kFormats[0], {});
   EXPECT_FALSE(zero_of_cut(raw, 0.2, pull_of(ours)));
   EXPECT_FALSE(zero_of_cut(raw, -0.01, pull_of(ours)));
+}
+
+Pull line(double (*force)(double), double end, int points) {
+  Pull out;
+  for (int i = 0; i <= points; ++i) out.push_back({0.0, end * i / points, 0.0, force(end * i / points)});
+  return out;
+}
+
+TEST(CurveDifference, OfLinesIsTheirExactIntegral) {
+  // F_b - F_a = 100 s - 1 over s from 0.01 to 0.03: its mean square is 4/3, over points that do not coincide.
+  const Pull a = line([](double s) { return 1.0 + 100.0 * s; }, 0.03, 7);
+  Pull b = line([](double s) { return 200.0 * s; }, 0.05, 11);
+  b.erase(b.begin(), b.begin() + 2);
+  const auto difference = curve_difference(a, b);
+  ASSERT_TRUE(difference);
+  const double low = b.front().extension, high = 0.03;
+  EXPECT_DOUBLE_EQ(difference->common.low, low);
+  EXPECT_DOUBLE_EQ(difference->common.high, high);
+  const auto cube = [](double s) { return std::pow(100.0 * s - 1.0, 3) / 300.0; };
+  EXPECT_NEAR(difference->rms, std::sqrt((cube(high) - cube(low)) / (high - low)), 1e-12);
+  EXPECT_NEAR(difference->largest, 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(difference->largest_at, high);
+  EXPECT_NEAR(difference->load, 4.0, 1e-12);
+}
+
+TEST(CurveDifference, WithNothingInCommonThereIsNone) {
+  const Pull near = pull_of(Pulled().rows());
+  Pull far = near;
+  for (PullPoint& point : far) point.extension += 1.0;
+  EXPECT_FALSE(curve_difference(near, far));
+  EXPECT_FALSE(curve_difference(near, {}));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/raw/compared_curves.hpp"
+#include "knot_utm/raw/comparison.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/experiment_node.hpp"
 #include "knot_utm/ros/method_setup.hpp"

@@ -27,15 +27,8 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-class Follow : public OwnFolder {
+class Follow : public MadeFolder {
  protected:
-  void SetUp() override {
-    OwnFolder::SetUp();
-    fs::create_directories(folder());
-  }
-
-  static std::string in(const std::string& name) { return folder() + "/" + name; }
-
   /// A straight rod between clamps, of which the program is told.
   static Answer test(const std::string& program, const std::string& out) {
     return answer_of(tool("tensile_test", "'" + std::string(KNOT_UTM_SOURCE_DIR) +

@@ -30,15 +30,8 @@ const std::string kTest = kTool + KNOT_UTM_SOURCE_DIR + "/config/tighten.yaml --
 /// So many bytes of samples are well beyond the first, and well before the last.
 constexpr std::uintmax_t kSomeSamples = 60000;
 
-class KilledRun : public OwnFolder {
+class KilledRun : public MadeFolder {
  protected:
-  void SetUp() override {
-    OwnFolder::SetUp();
-    fs::create_directories(folder());
-  }
-
-  static std::string in(const std::string& name) { return folder() + "/" + name; }
-
   static int shell(const std::string& command) {
     return WEXITSTATUS(std::system((command + " 2>" + in("said")).c_str()));
   }

@@ -21,4 +21,14 @@ class OwnFolder : public testing::Test {
   }
 };
 
+/// The same, made before the test begins.
+class MadeFolder : public OwnFolder {
+ protected:
+  void SetUp() override {
+    OwnFolder::SetUp();
+    std::filesystem::create_directories(folder());
+  }
+  static std::string in(const std::string& name) { return folder() + "/" + name; }
+};
+
 }  // namespace knot_utm

@@ -21,14 +21,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class ReplayStep : public OwnFolder {
+class ReplayStep : public MadeFolder {
  protected:
-  void SetUp() override {
-    OwnFolder::SetUp();
-    std::filesystem::create_directories(folder());
-  }
-  std::string file(const std::string& name) const { return folder() + "/" + name; }
-  Answer replay(const std::string& name) const { return answer_of(tool("replay_step", "'" + file(name) + "'")); }
+  Answer replay(const std::string& name) const { return answer_of(tool("replay_step", "'" + in(name) + "'")); }
 };
 
 /// No double holds the forces of a rod as stiff and as limp as this to the tolerance that is asked for.
@@ -38,7 +33,7 @@ constexpr const char* kImpossible =
     "twisting_stiffness: 1e-12, friction_coefficient: 0.1, load_cell: 20N}' --set physics.drag=0 --out '";
 
 TEST_F(ReplayStep, FailsForTheReasonThatTheTestGave) {
-  const std::string out = file("out");
+  const std::string out = in("out");
   const Answer test = answer_of(tool("tensile_test", "'" + std::string(KNOT_UTM_SOURCE_DIR) + kImpossible + out + "'"));
   ASSERT_EQ(test.code, 1) << test.text;
   EXPECT_THAT(test.text, HasSubstr("replay-step " + out + "/failed_step.bin"));
@@ -65,7 +60,7 @@ TEST_F(ReplayStep, SaysThatAStepIsAccepted) {
   const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, straight_state(rod), closed_form_settings(material));
   Boundary boundary;
   boundary.forces = {{7, Vec3(0.0, 0.0, 1e-3)}};
-  write_whole(file("step.bin"), save_step(*stepper, boundary, 0.0, 0.01));
+  write_whole(in("step.bin"), save_step(*stepper, boundary, 0.0, 0.01));
   const Answer answer = replay("step.bin");
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("rod of 21 nodes"));
@@ -74,11 +69,11 @@ TEST_F(ReplayStep, SaysThatAStepIsAccepted) {
 }
 
 TEST_F(ReplayStep, RefusesInOneLineWhatIsNoStep) {
-  write_whole(file("curve.csv"), "time,extension\n");
+  write_whole(in("curve.csv"), "time,extension\n");
   for (const char* name : {"curve.csv", "nowhere.bin"}) {
     const Answer answer = replay(name);
     EXPECT_EQ(answer.code, 2);
-    EXPECT_THAT(answer.text, HasSubstr(file(name) + ": "));
+    EXPECT_THAT(answer.text, HasSubstr(in(name) + ": "));
     EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
   }
 }

@@ -22,51 +22,43 @@ TEST(CommandLine, IsOneThatAShellReads) {
   EXPECT_EQ(command_line(5, words), R"(tensile_test --set 'program.pull.until={extension: 0.03}' 'it'\''s' '')");
 }
 
-class ReportIn : public OwnFolder {
+class ReportIn : public MadeFolder {
  protected:
-  void SetUp() override {
-    OwnFolder::SetUp();
-    fs::create_directories(folder());
-  }
-  static std::string file(const std::string& name) { return folder() + "/" + name; }
-
   const Pull a_{{0.0, 0.0, 0.0, 1.5}, {1.0, 0.25, 0.0, 2.0}};
 };
 
 TEST_F(ReportIn, AComparisonIsItsYamlAndBothPulls) {
-  write_comparison(file("new/folder"), "a: x\n", a_, a_, "x", "y");
-  EXPECT_EQ(read_whole(file("new/folder/comparison.yaml")), "a: x\n");
-  EXPECT_EQ(read_whole(file("new/folder/b.csv")), "extension,load\nm,N\n0,1.5\n0.25,2\n");
+  write_comparison(in("new/folder"), "a: x\n", a_, a_, "x", "y");
+  EXPECT_EQ(read_whole(in("new/folder/comparison.yaml")), "a: x\n");
+  EXPECT_EQ(read_whole(in("new/folder/b.csv")), "extension,load\nm,N\n0,1.5\n0.25,2\n");
 }
 
 TEST_F(ReportIn, AComparisonReplacesNoRunAndNothingThatItCompares) {
-  write_whole(file("b.csv"), "measured");
-  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", file("./b.csv")), InvalidInput);
-  EXPECT_EQ(read_whole(file("b.csv")), "measured");
-  EXPECT_FALSE(fs::exists(file("a.csv")));
-  fs::create_hard_link(file("b.csv"), file("report.html"));
-  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", file("b.csv"), true), InvalidInput);
-  write_whole(file("result.yaml"), "");
+  write_whole(in("b.csv"), "measured");
+  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", in("./b.csv")), InvalidInput);
+  EXPECT_EQ(read_whole(in("b.csv")), "measured");
+  EXPECT_FALSE(fs::exists(in("a.csv")));
+  fs::create_hard_link(in("b.csv"), in("report.html"));
+  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", in("b.csv"), true), InvalidInput);
+  write_whole(in("result.yaml"), "");
   EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", "y"), InvalidInput);
-  EXPECT_THROW(write_comparison(file("b.csv/below"), "", a_, a_, "x", "y"), InvalidInput);
+  EXPECT_THROW(write_comparison(in("b.csv/below"), "", a_, a_, "x", "y"), InvalidInput);
   EXPECT_THROW(write_comparison("", "", a_, a_, "x", "y"), InvalidInput);
 }
 
 TEST_F(ReportIn, AnotherComparisonGoesBeside) {
-  const auto compared = [&](const std::string& yaml) {
-    return write_comparison(file("beside"), yaml, a_, a_, "x", "y");
-  };
-  EXPECT_EQ(compared("a: x\nb: y\nrms: 1\n"), file("beside"));
-  EXPECT_EQ(compared("a: x\nb: y\nrms: 1\n"), file("beside")) << "to the byte";
-  EXPECT_EQ(compared("a: x\nb: y\nrms: 2\n"), file("beside-2")) << "of files that have changed since";
-  EXPECT_EQ(compared("a: x\nb: z\nrms: 3\n"), file("beside-3"));
-  EXPECT_EQ(read_whole(file("beside/comparison.yaml")), "a: x\nb: y\nrms: 1\n");
-  EXPECT_EQ(write_comparison(file("beside"), "a: v\nb: w\n", a_, a_, "v", "w", true), file("beside"));
+  const auto compared = [&](const std::string& yaml) { return write_comparison(in("beside"), yaml, a_, a_, "x", "y"); };
+  EXPECT_EQ(compared("a: x\nb: y\nrms: 1\n"), in("beside"));
+  EXPECT_EQ(compared("a: x\nb: y\nrms: 1\n"), in("beside")) << "to the byte";
+  EXPECT_EQ(compared("a: x\nb: y\nrms: 2\n"), in("beside-2")) << "of files that have changed since";
+  EXPECT_EQ(compared("a: x\nb: z\nrms: 3\n"), in("beside-3"));
+  EXPECT_EQ(read_whole(in("beside/comparison.yaml")), "a: x\nb: y\nrms: 1\n");
+  EXPECT_EQ(write_comparison(in("beside"), "a: v\nb: w\n", a_, a_, "v", "w", true), in("beside"));
 
-  fs::create_directories(file("mine"));
-  write_whole(file("mine/report.html"), "mine");
-  EXPECT_EQ(write_comparison(file("mine"), "a: x\nb: y\n", a_, a_, "x", "y"), file("mine-2"));
-  EXPECT_EQ(read_whole(file("mine/report.html")), "mine");
+  fs::create_directories(in("mine"));
+  write_whole(in("mine/report.html"), "mine");
+  EXPECT_EQ(write_comparison(in("mine"), "a: x\nb: y\n", a_, a_, "x", "y"), in("mine-2"));
+  EXPECT_EQ(read_whole(in("mine/report.html")), "mine");
 }
 
 }  // namespace

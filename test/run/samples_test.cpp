@@ -24,13 +24,8 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-class Samples : public OwnFolder {
+class Samples : public MadeFolder {
  protected:
-  void SetUp() override {
-    OwnFolder::SetUp();
-    fs::create_directories(folder());
-  }
-
   /// Any number that a double can be.
   double number() {
     const std::vector<double> odd{0.0, -0.0, std::nan(""), -INFINITY, 5e-324, 1e300, 0.1, -1.0 / 3.0};

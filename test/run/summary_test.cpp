@@ -40,12 +40,8 @@ TEST(ReadingText, HasThePrefixAndTheDigitsThatSuitIt) {
   EXPECT_EQ(reading_text(999.96, "N"), "1000 N");
 }
 
-class Summary : public OwnFolder {
+class Summary : public MadeFolder {
  protected:
-  void SetUp() override {
-    OwnFolder::SetUp();
-    std::filesystem::create_directories(folder());
-  }
   static void write(const std::string& name, const std::string& text) { write_whole(folder() + "/" + name, text); }
   static long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 };

@@ -72,21 +72,6 @@ TEST(EnergyBalance, ASlidingRodLosesFrictionTimesWay) {
   EXPECT_LT(std::abs(scene.balance->gap()), scene.balance->rounding());
 }
 
-TEST(EnergyBalance, AStickingRodLosesNothingAtRest) {
-  const double mu = 0.46;
-  Incline scene(0.8 * std::atan(mu), mu);
-  scene.run(2.0);
-  const StepWork before = scene.balance->sum();
-  scene.run(4.0);
-  const StepWork after = scene.balance->sum();
-  // Newton's tolerance, 1e-8 N a node, leaves movements of the presliding spring of less than 2e-10 m.
-  const double way = 2e-10;
-  EXPECT_LT(std::abs(after.friction - before.friction), mu * scene.normal_force * way);
-  EXPECT_LT(std::abs(after.numerical - before.numerical), mu * scene.normal_force * way);
-  EXPECT_LT(std::abs(after.reweighting - before.reweighting), scene.normal_force * way);
-  EXPECT_GT(after.friction, 0.0) << "it slid into its hold";
-}
-
 enum class Turns { kNot, kFreely, kDriven };  // of a roller
 enum class Kind { kStraight, kOverhand, kFallsOnARoller, kCurved };
 
@@ -188,63 +173,54 @@ struct Running {
   }
 };
 
-class EnergyOf : public testing::TestWithParam<Scene> {};
-class LoadsOn : public testing::TestWithParam<Scene> {};
+class BalanceOf : public testing::TestWithParam<Scene> {};
 
-TEST_P(EnergyOf, EverySceneClosesStepByStep) {
+TEST_P(BalanceOf, EverySceneClosesStepByStep) {
   Running scene(GetParam());
+  const Balance& books = *scene.balance;
+  const bool spins = GetParam().kind == Kind::kCurved;  // with inertia, of which the sums of loads do not know
   double gap = 0.0;
   scene.run([&] {
-    EXPECT_LT(std::abs(scene.balance->gap() - gap), scene.balance->rounding());
-    gap = scene.balance->gap();
-    EXPECT_LT(scene.balance->read_force().norm(), scene.balance->force_bound());
-    EXPECT_LT(scene.balance->read_moment().norm(), scene.balance->moment_bound());
+    EXPECT_LT(std::abs(books.gap() - gap), books.rounding());
+    gap = books.gap();
+    EXPECT_LT(books.read_force().norm(), books.force_bound());
+    EXPECT_LT(books.read_moment().norm(), books.moment_bound());
+    if (spins) return;
+    EXPECT_LT(books.force().norm(), books.force_bound());
+    EXPECT_LT(books.moment().norm(), books.moment_bound());
   });
   if (HasFatalFailure()) return;
-  EXPECT_LT(std::abs(scene.balance->sum().residual), scene.balance->residual_bound());
-  EXPECT_GT(scene.balance->sum().drag, 0.0);
-  EXPECT_EQ(scene.balance->sum().friction > 0.0, GetParam().friction > 0.0);
+  EXPECT_LT(std::abs(books.sum().residual), books.residual_bound());
+  EXPECT_GT(books.sum().drag, 0.0);
+  EXPECT_EQ(books.sum().friction > 0.0, GetParam().friction > 0.0);
+  if (!spins) {
+    EXPECT_GT(books.largest_load(), 100.0 * books.force_bound()) << "nothing to balance";
+    EXPECT_GT(books.largest_moment(), 100.0 * books.moment_bound()) << "nothing to balance";
+  }
   // The energies that the balance goes by are those of the state.
-  const Energies energies = scene.balance->stepper().readings().energies();
-  const ElasticEnergy elastic = elastic_energy(scene.balance->stepper().rod(), scene.balance->stepper().state());
+  const Energies energies = books.stepper().readings().energies();
+  const ElasticEnergy elastic = elastic_energy(books.stepper().rod(), books.stepper().state());
   EXPECT_NEAR(energies.stretching, elastic.stretching, 1e-9 * energies.total());
   EXPECT_NEAR(energies.bending, elastic.bending, 1e-9 * energies.total());
   EXPECT_NEAR(energies.twisting, elastic.twisting, 1e-9 * energies.total());
 }
 
-TEST_P(LoadsOn, EverySceneSumToNothing) {
-  Running scene(GetParam());
-  scene.run([&] {
-    EXPECT_LT(scene.balance->force().norm(), scene.balance->force_bound());
-    EXPECT_LT(scene.balance->moment().norm(), scene.balance->moment_bound());
-  });
-  if (HasFatalFailure()) return;
-  EXPECT_GT(scene.balance->largest_load(), 100.0 * scene.balance->force_bound()) << "nothing to balance";
-  EXPECT_GT(scene.balance->largest_moment(), 100.0 * scene.balance->moment_bound()) << "nothing to balance";
-}
-
-std::string name_of(const testing::TestParamInfo<Scene>& scene) { return scene.param.name(); }
-
-// What is curved spins with inertia, of which the sums of loads do not know.
-INSTANTIATE_TEST_SUITE_P(Curved, EnergyOf, testing::Values(Scene{Kind::kCurved, true, ContactLaw::kSmooth, 0.0}),
-                         name_of);
-
-const auto kScenes = testing::Values(
-    Scene{Kind::kStraight, false, ContactLaw::kSmooth, 0.0}, Scene{Kind::kStraight, true, ContactLaw::kSmooth, 0.0},
-    Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.0}, Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.3},
-    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3}, Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3},
-    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4},
-    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0},
-    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 1.0},
-    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 0.4},
-    Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3, 1.0},
-    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0},
-    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kFreely},
-    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kDriven},
-    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely},
-    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven});
-INSTANTIATE_TEST_SUITE_P(Balance, EnergyOf, kScenes, name_of);
-INSTANTIATE_TEST_SUITE_P(Balance, LoadsOn, kScenes, name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, BalanceOf,
+    testing::Values(Scene{Kind::kCurved, true, ContactLaw::kSmooth, 0.0},
+                    Scene{Kind::kStraight, false, ContactLaw::kSmooth, 0.0},
+                    Scene{Kind::kStraight, true, ContactLaw::kSmooth, 0.0},
+                    Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.3},
+                    Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3},
+                    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 0.4},
+                    Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3, 1.0},
+                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0},
+                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0},
+                    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kFreely},
+                    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kDriven},
+                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely},
+                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven}),
+    [](const auto& scene) { return scene.param.name(); });
 
 }  // namespace
 }  // namespace knot_utm

@@ -9,6 +9,7 @@
 
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "rod/finite_difference.hpp"
 #include "rod/own_laws.hpp"
@@ -138,7 +139,12 @@ TEST_P(FrameTermsOf, TheMatrixGetsTheStiffnessOfAllNodesAndEdges) {
     for (int i = 0; i < kNodes; ++i)
       for (const int block : matrix.stencil(i))
         if (block >= 0) matrix.block(block).set_zero();
-    terms.add_stiffness(matrix);
+    std::vector<Lanes> right(kNodes);
+    RollerTurns turns;
+    const Boundary free;
+    const StepStart step{start, free, 1.0};
+    LinearSystem<4> system{step, start.position, matrix, right, turns, {}, nullptr};
+    terms.add_stiffness(system);
     const Eigen::MatrixXd slow = stiffness_of(terms);
     double largest = 0.0;
     for (int i = 0; i < kNodes; ++i)
@@ -170,7 +176,7 @@ TEST_P(FrameTermsOf, TheReferenceTwistIsThatOfCarriedFrames) {
     EXPECT_NEAR(terms.energy(moved.position - start.position, force).twisting, carried, 1e-13 * carried) << share;
     RodState committed = start;
     committed.position = moved.position;
-    terms.commit(committed);
+    terms.commit(std::vector<double>(kNodes - 1), committed);
     EXPECT_LT((committed.reference_twist - moved.reference_twist).norm(), 1e-14);
     EXPECT_LT((committed.reference_director - moved.reference_director).norm(), 1e-14);
   }
@@ -182,7 +188,7 @@ TEST_P(FrameTermsOf, ForcesAreTheEnergysSlopeAtFixedSpin) {
   const Eigen::VectorXd force = force_at(terms, trial);
   RodState at_trial = start;
   at_trial.position = positions(trial);
-  terms.commit(at_trial);
+  terms.commit(std::vector<double>(kNodes - 1), at_trial);
   const auto energy = [&](const Eigen::VectorXd& y) {
     RodState moved = at_trial;
     moved.position = positions(y);

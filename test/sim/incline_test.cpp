@@ -40,15 +40,6 @@ TEST(R9Incline, BelowTheFrictionAngleTheRodStays) {
   hold_below("R9 incline of 0.95 atan mu: way in 60 s [m]", 1e-6, scene.place());
 }
 
-TEST(R9Incline, PreslidingSaturatesOnceAndDoesNotCreep) {
-  Incline scene(0.95 * std::atan(kMu), memory(2e-3 * braided_rope().radius));
-  scene.run(1.0, 0.05);
-  const double settled = scene.place();
-  EXPECT_LT(settled, 2e-3 * braided_rope().radius);
-  scene.run(60.0, 0.05);
-  EXPECT_NEAR(scene.place(), settled, kRestTolerance);
-}
-
 TEST(R9Incline, AboveTheFrictionAngleTheRodSlides) {
   const double angle = 1.05 * std::atan(kMu);
   Incline scene(angle, memory(1e-4 * braided_rope().radius));
@@ -66,14 +57,10 @@ TEST(R11Creep, DirectionUnderALoadRatio) {
         SmoothedFriction{kMu, 1.0}
             .traction(FrictionInput<Vec3>{1.0, Vec3(0.0, speed, 0.0), Vec3::Zero(), Vec3::UnitX(), 0.0, 1.0})
             .z[1];
-    EXPECT_NEAR(found, ratio, 1e-14);
     hold_against(formatted("R11 friction smoothed in velocity, v/v_s = %.3f: r", speed), ratio, found, 1e-14);
     // Eq. 12 as printed.
     EXPECT_NEAR(2.0 / (1.0 + std::exp(-15.0 * speed)) - 1.0, ratio, 1e-14);
   }
-  EXPECT_NEAR(std::log(1.5 / 0.5) / 15.0, 0.073, 5e-4);
-  EXPECT_NEAR(std::log(1.9 / 0.1) / 15.0, 0.196, 5e-4);
-  EXPECT_NEAR(std::log(1.99 / 0.01) / 15.0, 0.353, 5e-4);
 }
 
 TEST(R11Creep, SmoothedFrictionCreepsOnAnInclineOfAnySlope) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "rod/own_laws.hpp"
@@ -34,7 +35,7 @@ struct Strip {
     settings.drag = 5.0;
     set_law(rod, law);
     state = straight_state(rod);
-    state.natural_curvature.setZero(2, rod.nodes() - 2);
+    remember_bends(rod, &state);
     state.position = arc(kBend);
     initialise_frames(&state);
   }
@@ -138,6 +139,37 @@ TEST(PlasticBending, ANewStepperBeginsWithTheEnergyOfTheLastOne) {
   EXPECT_GT(stepper->readings().work().plastic, 0.0);
   const std::unique_ptr<TimeStep> next = TimeStep::make(strip.rod, stepper->state(), strip.settings);
   EXPECT_NEAR(next->readings().energies().bending, stored, 1e-9 * stored);
+}
+
+/// What a law remembers besides the bend is part of the state: each node keeps the largest tension of its accepted
+/// steps, a copy of the state goes on from there, and a checkpoint has it.
+TEST(FrictionalBending, TheRodRemembersTheLargestTensionOfEveryNode) {
+  FrictionalBending law;
+  law.stick_ratio = 20.0;
+  law.curvature = 0.05 / braided_rope().radius;
+  law.by_tension = 1e-4 / braided_rope().radius;
+  Strip strip(law);
+  strip.state.position = strip.arc(0.0);
+  const std::unique_ptr<TimeStep> stepper = strip.stepper();
+  const auto stretched = [&](double strain) {
+    Boundary held;
+    for (int i = 0; i <= kEdges; ++i) held.fixed_nodes.push_back({i, (1.0 + strain) * strip.state.position.col(i)});
+    return held;
+  };
+  for (const double strain : {1e-3, 3e-3, 2e-3, 0.0}) ASSERT_TRUE(stepper->step(stretched(strain), 0.02).accepted());
+  const Eigen::VectorXd largest = stepper->state().bending_own;
+  ASSERT_EQ(largest.size(), kEdges - 1);
+  const double tension = 3e-3 * strip.material.stretching_stiffness;
+  for (const double each : largest) EXPECT_NEAR(each, tension, 1e-9 * tension);
+
+  Archive saved("state");
+  RodState again = strip.state, copy = stepper->state();
+  saved(copy);
+  Archive loaded("state", saved.bytes(), "a file");
+  loaded(again);
+  EXPECT_EQ(again.bending_own, largest);
+  again.bending_own.resize(0);
+  EXPECT_THROW(require_fits(strip.rod, again), InvalidInput);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(Margin, OfAKnotThatHoldsEverywhereIsAtLeastTheMost) {
 /// Polypropylene's knots hold with a friction of 0.55 and jump open with 0.5, at `draft` as at `normal`; its own is
 /// 0.63. The search leaves a tenth of the friction.
 TEST(Margin, OfPolypropyleneLiesWhereItsKnotsJumpOpen) {
-  MarginTest test;
+  Method test;
   test.material = polypropylene();
   test.specimen.to_be_tied = true;
   test.specimen.preload = 50.0;

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
+#include "knot_utm/numeric/number.hpp"
 #include "run/command.hpp"
 
 namespace knot_utm {
@@ -114,6 +116,23 @@ TEST(Foreseen, SlipsOfUnitsAreAskedAbout) {
   EXPECT_THAT(asked("bending_stiffness", "4.31e-11"), ElementsAre(HasSubstr("of that of a solid rod")));
   EXPECT_THAT(asked("bending_stiffness", "43.1"), ElementsAre(HasSubstr("is it in N m2?")));
   EXPECT_THAT(asked("breaking_force", "2.5"), ElementsAre(HasSubstr("at a strain of 3.41e-05: is it in N?")));
+}
+
+TEST(SpeedWarnings, SayThatKnotsAreTiedInHaste) {
+  const Method plain = load_method(kConfig + "tighten.yaml");
+  EXPECT_THAT(speed_warnings(plain), IsEmpty());
+  const std::string by_default =
+      format_number(std::round(100.0 * plain.program[0].speed / plain.material.radius) / 100.0);
+  EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.tie.speed=0.029"})), IsEmpty());
+  EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.tie.speed=0.1"})),
+              ElementsAre(HasSubstr("tied at 31.5 radii a second, by default at " + by_default + ";")));
+}
+
+TEST(SpeedWarnings, SayThatALoopIsPulledInHaste) {
+  EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.pull.speed=0.016"})), IsEmpty());
+  EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.pull.speed=0.033"})),
+              ElementsAre(HasSubstr("pulled at 10.4 radii a second, as shipped at 1.04;")));
+  EXPECT_THAT(speed_warnings(load_method(kConfig + "straight.yaml", {"program.pull.speed=0.1"})), IsEmpty());
 }
 
 TEST(Foreseen, CheckSaysIt) {

@@ -7,7 +7,7 @@
 
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/verdict/knot_advice.hpp"
+#include "knot_utm/verdict/foreseen.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
 

@@ -1,21 +1,16 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "knot_utm/analysis/curve_readings.hpp"
-#include "knot_utm/analysis/elongations.hpp"
 #include "knot_utm/analysis/motion_pattern.hpp"
-#include "knot_utm/analysis/rate_shares.hpp"
-#include "knot_utm/analysis/start_of_pull.hpp"
+#include "knot_utm/analysis/sample_readings.hpp"
 #include "knot_utm/record/ended_by.hpp"
 
 namespace knot_utm {
-
-struct Sample;
 
 /// The work of the grips and what became of it [J]. Each part is computed by its own formula (StepWork).
 struct EnergyParts {
@@ -43,6 +38,18 @@ struct Relaxation {
   double lost() const { return (from - to) / from; }  ///< fraction of F [-]
 };
 
+/// How much longer a specimen is than its gauge length, loaded and unloaded again.
+///
+/// Symbols: L_0 gauge length, the distance between the grips where the specimen is first pulled; L_1 that at the
+/// outermost place of the last cycle, L_2 that where this cycle ends [m]. All elongations are shares [-]. With the load
+/// at its lower end other than zero, "residual" includes what that load stretches beyond L_0.
+struct Elongations {
+  double total = 0.0;     ///< (L_1 - L_0)/L_0
+  double residual = 0.0;  ///< (L_2 - L_0)/L_0, what has not come back
+  double elastic = 0.0;   ///< (L_1 - L_2)/L_0, what has: total = elastic + residual
+  double working = 0.0;   ///< (L_1 - L_2)/L_2, of the specimen that is bedded in, over its own length
+};
+
 /// The results of a test: every measured key of result.yaml. A value that the test does not have is empty.
 ///
 /// Symbols: s extension, e knot distance, L end-to-end distance, F true force on the upper grip, s_l lock extension.
@@ -67,7 +74,7 @@ struct Results {
   std::optional<double> true_jump_force;
   std::optional<double> true_force_after_jump;
 
-  // A specimen that is no loop of two knots may have these (snap.hpp).
+  // A specimen that is no loop of two knots may have these (Snap).
   std::optional<double> snap_extension;  ///< s at which it snapped into another shape [m]
   std::optional<double> snap_drop;       ///< by how much F fell then [N]
 
@@ -108,7 +115,7 @@ struct Results {
   std::optional<double> untangled_at;    ///< time at which the knot came undone [s]; see MotionPatternTracker
   KnotType knot_type = KnotType::kKept;  ///< at the end of the test; see KnotWatch
   std::string not_equilibrated;          ///< empty: tying and release ended at rest; else what still moved
-  std::optional<GripForces> at_start;    ///< where they differ most as the pull begins (start_of_pull.hpp)
+  std::optional<GripForces> at_start;    ///< where they differ most as the pull begins (forces_at_start)
 
   double max_penetration = 0.0;  ///< largest overlap of the whole test [fraction of radius]
   /// largest difference of the forces on the two grips in the pull, over the peak force [-]

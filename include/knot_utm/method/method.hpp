@@ -18,7 +18,7 @@ namespace knot_utm {
 
 /// The `analysis` section of a method: which further evaluations are asked for, beyond those of every test.
 struct AnalysisOptions {
-  bool margin = false;  ///< safety margin of a knot that slides (analysis/margin.hpp)
+  bool margin = false;  ///< safety margin of a knot that slides (study/find_margin.hpp)
 };
 
 /// How a value of the method scatters from specimen to specimen. With x0 the value in the method and d the spread:

@@ -4,10 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/analysis/curve_difference.hpp"
+#include "knot_utm/analysis/curve_row.hpp"
+#include "knot_utm/raw/raw_options.hpp"
 #include "knot_utm/raw/raw_zero.hpp"
 
 namespace knot_utm {
+
+/// The difference F_b - F_a of two pulls over the extensions that both of them cover. Between two points of a pull the
+/// force is interpolated linearly.
+struct CurveDifference {
+  Range common{0.0, 0.0};   ///< extensions that both pulls cover [m]
+  double rms = 0.0;         ///< root mean square of the difference over these extensions [N]
+  double largest = 0.0;     ///< the difference of largest size, with its sign [N]
+  double largest_at = 0.0;  ///< extension at which it occurs [m]
+  double load = 0.0;        ///< largest |F_a| over these extensions, the reference for relative differences [N]
+};
+
+/// Empty where the pulls have no extension in common, or where one of them has fewer than two points.
+std::optional<CurveDifference> curve_difference(const Pull& a, const Pull& b);
 
 /// The zeros that the curves were given. Empty: the curve has its own.
 struct GivenZeros {
@@ -31,5 +45,30 @@ std::string comparison_yaml(const Comparison& comparison, const std::string& fil
 /// largest load in the common range, and the difference of each reading, over that of A. A reading that only one of the
 /// two has exceeds every tolerance.
 std::vector<std::string> beyond_tolerance(const Comparison& comparison, double tolerance);
+
+/// A curve, and the name of its file as messages give it.
+struct CurveOfFile {
+  std::string file;
+  std::vector<CurveRow> rows;
+};
+
+/// How to find the zero of raw data. A curve of ours keeps its own.
+struct ZeroWanted {
+  /// Whether the zero is the state in which the crosshead begins to move (zero_at_rest); empty: of raw data it is.
+  std::optional<bool> balance;
+  std::optional<double> begins_at;  ///< for a record whose beginning was cut off: extension of its first reading [m]
+};
+
+/// The pulls of two curves and their comparison.
+struct ComparedCurves {
+  Pull a, b;
+  Comparison comparison;
+};
+
+/// Compares two curves. Raw data of a testing machine contain only the travel of the crosshead; where one of the curves
+/// is of that kind, the travel of the crosshead is used for both. `tell` receives one line for each assumption that raw
+/// data make necessary. Throws InvalidInput where a reading of a pull is not finite, a pull has fewer than two
+/// readings, a zero cannot be found, or the two have no extension in common.
+ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, const ZeroWanted& zero, const Tell& tell);
 
 }  // namespace knot_utm

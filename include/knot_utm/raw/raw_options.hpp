@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,13 +10,8 @@
 
 namespace knot_utm {
 
-/// A text for each quantity; empty where nothing is said of it.
-struct RawColumns {
-  std::string time, extension, load;
-};
-
-/// Whose sign is turned.
-enum class Invert { kNothing, kWhatFalls, kExtension, kLoad, kBoth };
+/// A text for time, extension and load; empty where nothing is said of it.
+using RawColumns = std::array<std::string, 3>;
 
 /// How options are given, for messages: "--units load=N" to a command, "units:=load=N" to a launch, and
 /// "program.0.follow.units: load=N" in a method.
@@ -32,30 +28,20 @@ struct RawSpelling {
 
 /// What a user says about raw data of a testing machine.
 struct RawOptions {
-  RawColumns columns = {};           ///< names of columns beside the known ones, or their numbers, from 1
-  RawColumns units = {};             ///< units of the columns; they count for more than those of the file
-  int specimen = 0;                  ///< which one of several in one file, from 1; 0: there must be only one
-  Invert invert = Invert::kNothing;  ///< the sign of what is turned
-  bool needs_time = true;            ///< otherwise a file without a column of time has NaN for it
+  RawColumns columns = {};  ///< names of columns beside the known ones, or their numbers, from 1
+  RawColumns units = {};    ///< units of the columns; they count for more than those of the file
+  int specimen = 0;         ///< which one of several in one file, from 1; 0: there must be only one
+  std::string invert = {};  ///< whose sign is turned: falling (what falls), extension, load or both; empty: none
+  bool needs_time = true;   ///< otherwise a file without a column of time has NaN for it
   RawSpelling spelling = {};
 };
 
 /// Receives lines about what was read, which a user should see.
 using Tell = std::function<void(const std::string& line)>;
 
-/// Help texts of the tools' options.
-constexpr const char* kColumnsHelp =
-    "columns of raw data by name or number: time=NAME,extension=NAME,load=NAME, or one or two of these";
-constexpr const char* kUnitsHelp = "units of raw data: time=s,extension=in,load=lbf, or one or two of these";
-constexpr const char* kInvertHelp =
-    "turn the sign of what falls in the pull, or, as --invert=load, --invert=extension or --invert=both, of these";
-
 /// Reads "time=NAME,extension=NAME,load=NAME". The parts may be in any order, and some may be missing. A name may
 /// contain commas. `key`: the option or key from which the text comes, for the message. Throws InvalidInput.
 RawColumns parse_raw_columns(const std::string& text, const std::string& key);
-
-/// Reads "falling", "extension", "load" or "both". `key`: as above. Throws InvalidInput.
-Invert parse_invert(const std::string& text, const std::string& key);
 
 /// Which of the words change nothing where the curve is one of ours, such as "--units and --specimen change nothing".
 /// Empty where none is given. `one_of_many`: a specimen was chosen from a batch or a bag, which that word does change.
@@ -65,12 +51,8 @@ std::string without_effect(const RecordWords& words, const RawSpelling& spelling
 RawOptions raw_options(const RecordWords& words, const RawSpelling& spelling = {}, std::size_t file = 0,
                        std::size_t files = 1);
 
-/// Which of extension and load run downwards in a record: they fall further below their first value than they rise
-/// above it.
-struct Falling {
-  bool extension, load;
-};
-Falling what_falls(const std::vector<CurveRow>& rows);
+/// Whether a quantity runs downwards in a record: it falls further below its first value than it rises above it.
+bool falls(const std::vector<CurveRow>& rows, double CurveRow::*value);
 
 /// Turns the signs that are asked for. `tell` receives a line on what was turned, or on what falls where nothing is
 /// asked for. `file`: name of the file in messages.

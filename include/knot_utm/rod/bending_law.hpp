@@ -23,20 +23,27 @@ namespace knot_utm {
 ///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
 ///                                                 (machine/accuracy.hpp)
 ///     static constexpr bool kRemembers            whether its internal variable changes in a step
+///     static constexpr int kOwn                   how many numbers besides it the law remembers of every node
 ///     respond(BendingNode)                        -> BendingResponse
 ///     remember(BendingNode)                       -> BendingMemory, once the step is accepted
+///     keep_own(BendingNode, double* own)          changes its own numbers, once the step is accepted; only where kOwn
+///                                                 is more than 0
 ///     state(Archive&)                             its parameters
 ///
-/// An evaluation of the rod chooses the law once (std::visit), not at every node.
+/// The state of the rod has room for the numbers of its law, archives them and hands them to it node by node; a law
+/// needs no other code for its memory. They are zero at first, do not change within a step, and so leave the moment a
+/// function of the bend alone. An evaluation of the rod chooses the law once (std::visit), not at every node.
 /// Source: Simo, Hughes 1998, chapter 1 (return mapping); Ortiz, Stainier 1999 (its variational form).
 
 /// What a law is told of one inner node. Curvatures are integrated over the Voronoi length, on (m1, m2).
 struct BendingNode {
-  double k_b;               ///< stiffness [N m^2]
-  double voronoi_length;    ///< lbar [m]
-  Eigen::Vector2d bend;     ///< kappa [-]
-  Eigen::Vector2d natural;  ///< kappabar_n, of the last accepted step [-]
-  double dt = 0.0;          ///< length of this step, for laws that depend on the rate; 0: bent at once [s]
+  double k_b;                   ///< stiffness [N m^2]
+  double voronoi_length;        ///< lbar [m]
+  Eigen::Vector2d bend;         ///< kappa [-]
+  Eigen::Vector2d natural;      ///< kappabar_n, of the last accepted step [-]
+  double dt = 0.0;              ///< length of this step, for laws that depend on the rate; 0: bent at once [s]
+  const double* own = nullptr;  ///< the law's kOwn numbers, of the last accepted step
+  double tension = 0.0;         ///< mean of the node's two edges once the step is accepted, for keep_own only [N]
 };
 
 struct BendingResponse {

@@ -4,12 +4,13 @@
 
 #include "knot_utm/numeric/law_registry.hpp"
 #include "knot_utm/rod/elastic_bending.hpp"
+#include "knot_utm/rod/frictional_bending.hpp"
 #include "knot_utm/rod/plastic_bending.hpp"
 
 namespace knot_utm {
 
 /// All bending laws there are, in the order in which messages name them; the first is the default.
-using BendingLaws = std::variant<ElasticBending, PlasticBending>;
+using BendingLaws = std::variant<ElasticBending, PlasticBending, FrictionalBending>;
 
 using BendingRegistry = LawRegistry<BendingLaws>;
 
@@ -24,5 +25,8 @@ bool bends_on_frames(const RodMaterial& material);
 /// Whether the law has an internal variable that changes from step to step.
 bool remembers(const BendingLaws& law);
 bool remembers_bends(const RodMaterial& material);
+
+/// How many numbers it remembers of a node besides the natural curvature.
+int own_numbers(const BendingLaws& law);
 
 }  // namespace knot_utm

@@ -49,11 +49,15 @@ struct RodState {
   /// What the bending law remembers: kappa-bar of inner node i+1 on (m1, m2), the angle it turns by at rest [rad], N-2.
   /// Empty: straight at rest for good. Zeros: straight, but may take a set (take_bending_set).
   Eigen::Matrix2Xd natural_curvature;
+  Eigen::VectorXd bending_own;  ///< and its own numbers (bending_law.hpp): kOwn of each of these nodes, node by node
 
   bool curved_at_rest() const { return natural_curvature.cols() > 0; }
 
   void state(Archive& archive);
 };
+
+/// Gives the state natural curvatures of zero, and the memory that the rod's bending law needs.
+void remember_bends(const RodProperties& rod, RodState* state);
 
 /// Throws InvalidInput where state and rod do not fit together: other numbers of nodes, or a rod that needs frames or a
 /// memory of its bends which the state has not.

@@ -5,6 +5,7 @@
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/stretching_law.hpp"
+#include "knot_utm/sim/linear_system.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
@@ -33,6 +34,8 @@ class CentrelineTerms {
   /// belongs to them.
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force);
 
+  /// Tension of every edge at the positions that were evaluated last [N].
+  const std::vector<double>& tensions() const { return tension_; }
   /// Largest |tension| of an edge at that position [N].
   double largest_tension() const { return largest_tension_; }
 
@@ -52,15 +55,15 @@ class CentrelineTerms {
   /// Adds the energies at the end of an accepted step, and the work of their forces in it.
   void account(const SolvedStep& step, StepAccount& account) const;
 
-  /// Overwrites blocks (i, i) to (i, i+2) and their mirrors with the Hessian of both energies, and with `diagonal`
-  /// [N/m] of each node on the diagonal of its three positions. Where tensions are predicted, the geometric stiffness
+  /// Overwrites blocks (i, i) to (i, i+2) and their mirrors with the Hessian of both energies, so that nobody has to
+  /// set them to zero. It is the first term to be called. Where tensions are predicted, the geometric stiffness
   /// T/|e| (1 - t t^T) uses the predicted ones. An edge that a change has turned by theta is longer by theta^2/2 of its
   /// length. In a rope the present tension is then too large by k_s theta^2/2 and would stiffen the edge against the
   /// next change. This is Newton's method with tensions as unknowns in addition to the positions. It is fast where
   /// strands are pulled; a rod that buckles needs the present tensions. Source: Magisano, Leonetti, Garcea 2017 (mixed
   /// integration points).
   template <int D>
-  void set_stiffness(const std::vector<double>& diagonal, StepMatrix<D>& matrix) const;
+  void add_stiffness(LinearSystem<D>& system) const;
 
  private:
   /// d2E/(de df) of the bending at one inner node between edges e and f: columns, with H_fe = H_ef^T.

@@ -9,6 +9,8 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
+#include "knot_utm/sim/frame_bending.hpp"
+#include "knot_utm/sim/linear_system.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
@@ -80,8 +82,8 @@ class FrameTerms {
   /// positions. A stiffness that is read afterwards belongs to these positions.
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force);
 
-  /// Adds -d(force, torque)/d(x, s) to the matrix.
-  void add_stiffness(StepMatrix<4>& matrix) const;
+  /// Adds -d(force, torque)/d(x, s).
+  void add_stiffness(LinearSystem<4>& system) const;
 
   /// The same node by node and edge by edge, from the formulas of twisting.hpp and bending.hpp: of the elastic terms at
   /// inner node i, 1 <= i <= N-2, and of edge j. Slow: the oracle that tests compare add_stiffness with.
@@ -120,8 +122,9 @@ class FrameTerms {
   /// Kinetic energy of spin at these rates [rad/s]; [J].
   double kinetic_energy(const Eigen::VectorXd& rate) const { return 0.5 * inertia_.dot(rate.cwiseAbs2()); }
 
-  /// Writes angles, rates and frames into the state whose positions were evaluated last.
-  void commit(RodState& state);
+  /// Writes angles, rates, frames and what the bending law remembers into the state whose positions were evaluated
+  /// last; `tension`: of every edge [N].
+  void commit(const std::vector<double>& tension, RodState& state);
 
  private:
   /// The twisting stiffness of one inner node in its edge vectors e and f: columns of d2E/(de df), with fe = ef^T, and
@@ -132,8 +135,6 @@ class FrameTerms {
     double stiffness;  // d2E/dm2 [N m]
   };
   TwistStiffness twist_stiffness(std::size_t node) const;
-  template <typename Law>
-  void add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) const;
   void set_tangents(const Points& position);
   void set_twist();
   void carry_directors();
@@ -141,19 +142,14 @@ class FrameTerms {
 
   /// Stiffnesses of inner node i are zero where it ends a parted edge.
   TwistingInput twisting_input(int i) const;
-  BendingNode bending_node(int i, const Eigen::Vector2d& bend) const;
-  CurvatureSlopes curvature_slopes(int i) const;
   template <typename Law>
   StencilMatrix bending_stiffness(const Law& law, int i) const;
-  template <typename Law>
-  void add_bending_forces(const Law& law, std::vector<Lanes>& force);
-  template <typename Law>
-  void remember_bends(const Law& law, RodState& state) const;
   double twist(int i) const;  // m of inner node i
   Directors directors(int edge) const;
   double angle_change(const std::vector<Lanes>& change, int edge) const;
 
   const RodProperties& rod_;
+  FrameBending bending_;     // where the rod is curved at rest
   Eigen::VectorXd inertia_;  // I_j
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j

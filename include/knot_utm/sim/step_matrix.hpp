@@ -52,7 +52,7 @@ class StepMatrix {
     find(contacts);
   }
 
-  /// Zeros all blocks except those of the stencils, which CentrelineTerms::set_stiffness overwrites.
+  /// Zeros all blocks except those of the stencils, which CentrelineTerms::add_stiffness overwrites.
   void set_zero_beyond_band();
 
   BlockMatrix<D>& values() { return matrix_; }

@@ -10,16 +10,10 @@
 
 namespace knot_utm {
 
-/// How a batch is run. A batch is a test of all specimens of a method. Functions may be empty, except `interrupted`.
-struct BatchOptions {
-  std::string folder;
-  int jobs = 1;            ///< number of specimens that are tested at the same time
-  bool resume = false;     ///< continues the interrupted batch in `folder`
-  bool overwrite = false;  ///< overwrites the contents of `folder`, instead of using the next free folder
-  bool shapes = false;     ///< also writes shapes.csv of each specimen
-
-  std::function<bool()> interrupted;                    ///< whether to stop; called by several threads
-  std::function<void(const std::string& line)> notice;  ///< receives warnings, once all tests have ended
+/// How a batch is run. A batch is a test of all specimens of a method.
+struct BatchOptions : RunOptions {
+  int jobs = 1;         ///< number of specimens that are tested at the same time
+  bool resume = false;  ///< continues the interrupted batch in `folder`
   /// Called after each test that has ended, with the number of tests that have ended and that of all tests.
   std::function<void(int ended, int count)> progress;
 };

@@ -11,18 +11,27 @@
 
 namespace knot_utm {
 
-/// How a test is run without ROS. Functions may be empty, except `interrupted`.
-struct HeadlessOptions {
-  std::string folder;              ///< folder to write to
-  bool overwrite = false;          ///< overwrites the contents of `folder`, instead of using the next free folder
+/// How a test, or a batch of tests, is run without ROS. Functions may be empty, except `interrupted`.
+struct RunOptions {
+  std::string folder;      ///< folder to write to
+  bool overwrite = false;  ///< overwrites the contents of `folder`, instead of using the next free folder
+  bool shapes = false;     ///< also writes shapes.csv
+
+  std::function<bool()> interrupted;  ///< whether to stop; called between commands, and of a batch by several threads
+  /// Receives warnings: of a test when they arise, of a batch once all its tests have ended.
+  std::function<void(const std::string& line)> notice;
+
+  void tell(const std::string& line) const {
+    if (notice) notice(line);
+  }
+};
+
+struct HeadlessOptions : RunOptions {
   std::string begin_with;          ///< folder of a run from whose last state this run begins; empty: from the start
   std::optional<int> stop_before;  ///< step of the program before which the run stops, as if it were interrupted there
-  bool shapes = false;             ///< also writes shapes.csv
 
   /// Makes the writer of a further file in this folder.
   std::function<FurtherWriter(const std::string& folder, const Method& method)> further;
-  std::function<bool()> interrupted;                    ///< whether to stop; called between commands
-  std::function<void(const std::string& line)> notice;  ///< receives warnings when they arise
   /// Receives each answer of the simulated machine; `wall_time` since the test began [s].
   std::function<void(const Sample& answer, const ProgramRunner& program, double wall_time)> progress;
 };

@@ -80,4 +80,8 @@ const std::vector<ResultKey>& result_keys();
 /// report/result_keys.csv.
 std::string result_keys_csv();
 
+/// The text of result.yaml. The keys have a fixed order and SI units, and null stands for a value that does not exist.
+/// Among the warnings, those that follow from the results come first.
+std::string result_yaml(const Results& results, const RunFacts& facts);
+
 }  // namespace knot_utm

@@ -6,13 +6,23 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/analysis/margin.hpp"
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/method/report_options.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
+
+/// Safety margin of a knot that slides: the fraction by which friction or the pre-load would have to be lower for the
+/// knot to open.
+struct Margin {
+  /// Largest fraction that is tried. A knot that still holds there has a margin of at least this.
+  static constexpr double kMost = 0.75;
+
+  std::optional<double> friction;  ///< fraction of mu [-]
+  std::optional<double> preload;   ///< fraction of F_p [-]
+  std::string reason;              ///< why there is no margin; empty: there is one, or none was asked for
+};
 
 /// Facts about a run that do not follow from its samples. What follows from the samples is in `Results`.
 struct RunFacts {

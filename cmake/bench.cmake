@@ -1,0 +1,12 @@
+# What scripts/bench runs beside tensile_test. Built only where asked for.
+option(KNOT_UTM_BENCH "Build the executables of scripts/bench" OFF)
+if(NOT KNOT_UTM_BENCH)
+  return()
+endif()
+find_package(CLI11 REQUIRED)
+foreach(bench iteration_cost_bench row_of_knots_bench)
+  add_executable(${bench} bench/${bench}.cpp)
+  target_include_directories(${bench} PRIVATE test)
+  target_link_libraries(${bench} PRIVATE knot_utm_core CLI11::CLI11)
+  set_target_properties(${bench} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${KNOT_UTM_EXECUTABLE_DIR}")
+endforeach()

@@ -1,0 +1,146 @@
+#include "knot_utm/analysis/sample_readings.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "knot_utm/record/sample.hpp"
+
+namespace knot_utm {
+namespace {
+
+double drag_loss(const Sample& sample) { return sample.dissipation - sample.friction_loss - sample.plastic_loss; }
+double motion(const Sample& sample) { return sample.kinetic_energy; }
+double numerical_loss(const Sample& sample) { return sample.numerical_dissipation; }
+
+/// The samples of what pulls up to `furthest` and until `end`, with the one that it begins from.
+std::vector<const Sample*> pull_to(const std::vector<Sample>& samples, double furthest, double end) {
+  std::vector<const Sample*> out;
+  const Sample* before = nullptr;
+  for (const Sample& sample : samples) {
+    if (sample.status == BenchStatus::kBroken || sample.time >= end) break;
+    if (pulls(sample.phase)) {
+      if (sample.extension > furthest) break;
+      if (out.empty() && before) out.push_back(before);
+      out.push_back(&sample);
+    }
+    before = &sample;
+  }
+  return out;
+}
+
+/// Mean over time of |F|, as it is at the end of each step.
+double mean_force(const std::vector<const Sample*>& pull) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < pull.size(); ++i)
+    sum += (pull[i]->time - pull[i - 1]->time) * std::abs(pull[i]->force_upper);
+  return sum / (pull.back()->time - pull.front()->time);
+}
+
+/// |change of `energy`| on a way, over that way: half of the way has less [N].
+double median_force(const std::vector<const Sample*>& pull, double (*energy)(const Sample&)) {
+  struct Piece {
+    double force, way;
+  };
+  std::vector<Piece> pieces;
+  double whole = 0.0;
+  for (std::size_t i = 1; i < pull.size(); ++i) {
+    const double way = std::abs(pull[i]->extension - pull[i - 1]->extension);
+    if (!(way > 0.0)) continue;
+    pieces.push_back({std::abs(energy(*pull[i]) - energy(*pull[i - 1])) / way, way});
+    whole += way;
+  }
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.force < b.force; });
+  double passed = 0.0;
+  for (const Piece& piece : pieces) {
+    passed += piece.way;
+    if (passed >= 0.5 * whole) return piece.force;
+  }
+  return 0.0;
+}
+
+constexpr double kLeft = 0.9;      // of the force before
+constexpr double kGivenUp = 0.02;  // of the stored energy
+constexpr double kPutIn = 0.5;     // work of the grips, of what is given up
+
+struct Moment {
+  double extension, force, stored, work;
+};
+
+/// Those of a pull that reach a new largest extension, up to a break.
+std::vector<Moment> pulled(const std::vector<Sample>& samples) {
+  std::vector<Moment> out;
+  for (const Sample& sample : samples) {
+    if (sample.status == BenchStatus::kBroken) break;
+    if (!pulls(sample.phase) || !(out.empty() || sample.extension > out.back().extension)) continue;
+    out.push_back({sample.extension, sample.force_upper, stored_energy(sample), sample.grip_work});
+  }
+  return out;
+}
+
+bool snaps(const Moment& start, const Moment& before, const Moment& after) {
+  const double given_up = before.stored - after.stored;
+  return after.force <= kLeft * before.force && given_up >= kGivenUp * before.stored &&
+         after.work - before.work <= kPutIn * given_up && after.stored >= start.stored;
+}
+
+// The start is this fraction of the whole extension, by choice: a wave that the pull begins with has crossed the
+// specimen by then.
+constexpr double kStart = 0.01;
+
+}  // namespace
+
+double stored_energy(const Sample& sample) {
+  return sample.stretching_energy + sample.bending_energy + sample.twisting_energy + sample.contact_energy;
+}
+
+RateShares rate_shares(const std::vector<Sample>& samples, std::optional<double> lock_extension,
+                       std::optional<double> untangled_at) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  RateShares out;
+  const std::vector<const Sample*> pull =
+      pull_to(samples, lock_extension.value_or(kNever), untangled_at.value_or(kNever));
+  if (pull.size() < 2 || !(pull.back()->time > pull.front()->time)) return out;
+  const double force = mean_force(pull);
+  if (!(force > 0.0)) return out;
+  out.drag = median_force(pull, drag_loss) / force;
+  out.inertia = median_force(pull, motion) / force;
+  out.numerical = median_force(pull, numerical_loss) / force;
+  return out;
+}
+
+std::optional<Snap> snap(const std::vector<Sample>& samples) {
+  std::optional<Snap> out;
+  const std::vector<Moment> pull = pulled(samples);
+  for (std::size_t i = 0; i < pull.size(); ++i) {
+    const Moment& before = pull[i];
+    if (!(before.force > 0.0)) continue;
+    // No more can be given up than what is above the energy at the start.
+    const double most = kPutIn * (before.stored - pull.front().stored);
+    for (std::size_t j = i + 1; j < pull.size() && pull[j].work - before.work <= most; ++j) {
+      const double drop = before.force - pull[j].force;
+      if (!(out && drop <= out->drop) && snaps(pull.front(), before, pull[j])) out = Snap{before.extension, drop};
+    }
+  }
+  return out;
+}
+
+std::optional<GripForces> forces_at_start(const std::vector<Sample>& samples) {
+  const auto first =
+      std::find_if(samples.begin(), samples.end(), [](const Sample& sample) { return pulls(sample.phase); });
+  if (first == samples.end()) return std::nullopt;
+  double end = first->extension;
+  for (auto sample = first; sample != samples.end(); ++sample)
+    if (pulls(sample->phase)) end = std::max(end, sample->extension);
+  const double near = first->extension + kStart * (end - first->extension);
+  // A balance in between has another extension before the pull than in it.
+  const Sample& before = first == samples.begin() ? *first : *(first - 1);
+  GripForces most{before.force_upper, before.force_lower};
+  for (auto sample = first; sample != samples.end() && sample->extension <= near; ++sample) {
+    if (sample->status == BenchStatus::kBroken) break;
+    const GripForces now{sample->force_upper, sample->force_lower};
+    if (now.difference() > most.difference()) most = now;
+  }
+  return most;
+}
+
+}  // namespace knot_utm
