@@ -4,6 +4,7 @@
 
 #include "axes.hpp"
 #include "knot_utm/numeric/index.hpp"
+#include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod_laws.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
@@ -160,6 +161,14 @@ void FrameBending::add_stiffness(StepMatrix<4>& matrix) const {
       }
     }
   }
+}
+
+StencilMatrix FrameBending::hessian(int i) const {
+  const Node& node = nodes_[at(i)];
+  const auto directors = [&](int j) { return Directors{to_vec3(m1_[at(j)]), to_vec3(m2_[at(j)])}; };
+  const CurvatureLocal bend =
+      curvature_local(to_vec3(node.u) / node.over_e, to_vec3(node.v) / node.over_f, directors(i - 1), directors(i));
+  return on_nodes(node.law, bend).hessian;
 }
 
 FrameBending::Energy FrameBending::energy(const Points& increment, const std::vector<double>& angle,

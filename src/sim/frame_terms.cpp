@@ -8,7 +8,6 @@
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/rod/rod_laws.hpp"
 
 namespace knot_utm {
 
@@ -221,24 +220,11 @@ TwistingInput FrameTerms::twisting_input(int i) const {
 
 double FrameTerms::twist(int i) const { return angle_[at(i)] - angle_[at(i - 1)] + reference_twist_[at(i)]; }
 
-Directors FrameTerms::directors(int j) const {
-  return material_directors(to_vec3(tangent_[at(j)]), director_.col(j), angle_[at(j)]);
-}
-
-template <typename Law>
-StencilMatrix FrameTerms::bending_stiffness(const Law& law, int i) const {
-  const CurvatureLocal bend =
-      curvature_local(to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i));
-  BendingNode node = bending_.node(i);
-  node.bend = bend.value;
-  return on_nodes(law.respond(node), bend).hessian;
-}
-
 FrameTerms::NodeStiffness FrameTerms::node_stiffness(int i) const {
   NodeStiffness out = NodeStiffness::Zero();
   auto elastic = out.topLeftCorner<kStencilSize, kStencilSize>();
   elastic = twisting(twisting_input(i), to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), twist(i)).hessian;
-  if (curved_) std::visit([&](const auto& law) { elastic += bending_stiffness(law, i); }, rod_.laws->bending);
+  if (curved_) elastic += bending_.hessian(i);
   return out;
 }
 

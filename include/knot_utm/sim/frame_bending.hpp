@@ -6,6 +6,7 @@
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/bending_law.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/stencil.hpp"
 
 namespace knot_utm {
 
@@ -35,12 +36,11 @@ class FrameBending {
   void evaluate(const RodState& start, double dt, const std::vector<Lanes>& tangent,
                 const std::vector<double>& inverse_length, const Points& director, const std::vector<double>& angle);
 
-  /// What the law was told of an inner node.
-  const BendingNode& node(int i) const { return nodes_[static_cast<std::size_t>(i)].bend; }
-
   /// Adds forces and torques as FrameTerms::add_forces, but the torques to `torque`, too, as dE/dtheta_j.
   void add_forces(std::vector<Lanes>& force, std::vector<double>& torque) const;
   void add_stiffness(StepMatrix<4>& matrix) const;
+  /// What add_stiffness adds of an inner node, by the formulas of bending.hpp. Slow: the oracle of tests.
+  StencilMatrix hessian(int i) const;
 
   /// Energies of the positions evaluated last, for the displacement of the nodes [m] and the angles of the edges now
   /// and at the start of the step [rad].

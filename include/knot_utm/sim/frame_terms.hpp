@@ -142,10 +142,7 @@ class FrameTerms {
 
   /// Stiffnesses of inner node i are zero where it ends a parted edge.
   TwistingInput twisting_input(int i) const;
-  template <typename Law>
-  StencilMatrix bending_stiffness(const Law& law, int i) const;
   double twist(int i) const;  // m of inner node i
-  Directors directors(int edge) const;
   double angle_change(const std::vector<Lanes>& change, int edge) const;
 
   const RodProperties& rod_;
