@@ -11,6 +11,7 @@
 #include "knot_utm/machine/straight_strength.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "machine/overhand_specimen.hpp"
@@ -21,9 +22,8 @@ namespace {
 
 constexpr double kLength = 0.25;  // [m]
 
-ProgramStep pull(double extension) {
-  ProgramStep out;
-  out.phase = Phase::kPull;
+PullStep pull(double extension) {
+  PullStep out;
   out.until.extension = extension;
   return out;
 }
@@ -119,8 +119,7 @@ TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
   physics.accuracy = Accuracy::kDraft;
   physics.contact_law = contact;
   physics.twist = twist;
-  ProgramStep settle;
-  settle.phase = Phase::kHold;
+  HoldStep settle;
   settle.duration = 1.0;
   const SpecimenOptions specimen = overhand_specimen(0.4, 0.15, 0.006);
   const Program steps = {settle, pull(0.025)};

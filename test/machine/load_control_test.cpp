@@ -1,7 +1,7 @@
 // How the crosshead is led to a load: that which a program asks for, and the little one at which slack is taken up,
 // whatever the specimen is like and however large the steps are.
 
-#include "knot_utm/machine/load_control.hpp"
+#include "knot_utm/record/load_control.hpp"
 
 #include <gtest/gtest.h>
 
