@@ -11,6 +11,7 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/specimen/capstan.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"
@@ -256,6 +257,10 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     if (!method.specimen.preload && knot_of(method.specimen).has("preload")) {
       method.specimen.preload = default_preload(material);
       noted.emplace_back("specimen.preload");
+    }
+    if (!method.specimen.tail_load && knot_of(method.specimen).has("tail_load")) {
+      method.specimen.tail_load = tail_load(method.specimen, material);
+      noted.emplace_back("specimen.tail_load");
     }
     check_method(method);
     keep_own_keys(method);

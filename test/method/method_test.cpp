@@ -79,11 +79,18 @@ TEST(Method, MaterialsAreThoseOfThePapersTable) {
   }
 }
 
+/// What is written of it has a number for each `auto` of its specimen.
 TEST(Method, EveryShippedFileLoads) {
   int methods = 0;
   for (const auto& file : fs::directory_iterator(kConfig)) {
     if (file.path().extension() != ".yaml") continue;
-    EXPECT_NO_THROW(load_method(file.path().string())) << file.path();
+    Method method;
+    EXPECT_NO_THROW(method = load_method(file.path().string())) << file.path();
+    const YAML::Node written = YAML::Load(method_yaml(method))["specimen"];
+    for (const auto& key : YAML::LoadFile(file.path().string())["specimen"])
+      if (key.second.IsScalar() && key.second.Scalar() == "auto") {
+        EXPECT_GT(written[key.first.Scalar()].as<double>(0.0), 0.0) << file.path() << ' ' << key.first;
+      }
     ++methods;
   }
   EXPECT_GE(methods, 4);
