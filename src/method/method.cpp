@@ -11,7 +11,6 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
-#include "knot_utm/specimen/capstan.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"

@@ -63,12 +63,6 @@ class Winding {
   Mat3 tilt_;
 };
 
-/// T1 [N]; `specimen.tail_load: auto` is k_b/h^2, but at most k_s/100.
-double tail_load(const SpecimenOptions& specimen, const Material& material) {
-  return specimen.tail_load.value_or(
-      std::min(specimen_scales(material).force, kTailStrain * material.stretching_stiffness));
-}
-
 /// A load that the rod can bear, and a stretch that the drawn shape, which has none, can reach.
 void check_tail_load(const SpecimenOptions& specimen, const Material& material) {
   const double load = tail_load(specimen, material);
@@ -152,6 +146,11 @@ class CapstanSpecimen final : public Knot {
 };
 
 }  // namespace
+
+double tail_load(const SpecimenOptions& specimen, const Material& material) {
+  return specimen.tail_load.value_or(
+      std::min(specimen_scales(material).force, kTailStrain * material.stretching_stiffness));
+}
 
 const Knot& capstan() {
   static const CapstanSpecimen knot;
