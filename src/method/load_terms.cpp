@@ -6,23 +6,17 @@
 
 namespace knot_utm::fields {
 
-LoadTerms::LoadTerms(const Material& material)
-    : breaking_force_(material.breaking_force), reference_tension_(reference_tension(material)) {}
-
-std::optional<double> LoadTerms::load(const std::string& text) const {
-  if (text == "reference_tension") return reference_tension_;
+std::optional<double> load_in_terms(const std::string& text, const Material& material) {
+  // The tension under which a rope is measured, d^2/8 in decanewtons for a rope of d millimetres: doc/standards.md.
+  const double d = 2e3 * material.radius;
+  if (text == "reference_tension") return 10.0 * d * d / 8.0;
   if (text.empty() || text.back() != '%') return std::nullopt;
   const std::string before = text.substr(0, text.size() - 1);
   const std::optional<double> percent = parse_number(before.substr(0, before.find_last_not_of(' ') + 1));
   if (!percent) return std::nullopt;
-  if (!breaking_force_)
+  if (!material.breaking_force)
     throw std::invalid_argument("the material has no breaking_force, of which this is a percentage");
-  return *percent * *breaking_force_ / 100.0;
-}
-
-double reference_tension(const Material& material) {
-  const double d = 2e3 * material.radius;  // [mm]
-  return 10.0 * d * d / 8.0;
+  return *percent * *material.breaking_force / 100.0;
 }
 
 }  // namespace knot_utm::fields

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "knot_utm/method/method.hpp"
-#include "load_terms.hpp"
 
 /// The values that `auto` stands for in a method. They are the lengths and speeds of the source paper's test, whose
 /// rods have a radius of 3.175 mm, scaled with the radius of the rod. A default therefore suits a thread as well as a
@@ -10,9 +9,6 @@
 namespace knot_utm::fields {
 
 struct Defaults {
-  explicit Defaults(const Material& material) : loads(material) {}
-
-  LoadTerms loads;
   SpecimenOptions specimen;
   MachineOptions machine;       ///< its load cell has a suitable capacity and no name
   double scale = 1.0;           ///< radius of the rod over that of the paper's rods; speeds are scaled by it, too [-]

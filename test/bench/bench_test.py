@@ -11,10 +11,12 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
 
+import front  # noqa: E402
 import lengths  # noqa: E402
 import readings  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
+import scaling  # noqa: E402
 import sizes  # noqa: E402
 import specimens  # noqa: E402
 import tighten  # noqa: E402
@@ -85,6 +87,13 @@ class Runs(unittest.TestCase):
         self.assertIsNone(run.real_time_factor())
         self.assertIsNone(run.slope_of_knot_distance())
 
+    def test_mean_relative_difference_is_over_what_both_have(self):
+        reference = ([0.0, 1.0, 2.0], [1.0, 2.0, 3.0])
+        self.assertAlmostEqual(runs.mean_relative_difference(([0.0, 2.0], [1.1, 3.3]), reference), 0.1)
+        short, reference = ([0.0, 1.0], [2.0, 2.0]), ([0.5, 9.0], [1.0, 1.0])
+        self.assertAlmostEqual(runs.mean_relative_difference(short, reference), 1.0)
+        self.assertIsNone(runs.mean_relative_difference(short, ([2.0, 3.0], [1.0, 1.0])))
+
     def test_a_runs_memory_is_not_that_of_python(self):
         ballast = bytearray(400_000_000)
         ballast[::4096] = b"x" * len(ballast[::4096])
@@ -137,6 +146,19 @@ class Errors(unittest.TestCase):
 
 
 class Studies(unittest.TestCase):
+    def test_at_equal_error_this_program_is_five_times_as_fast_as_its_peers(self):
+        rows = {row[0]: row[2] for row in front.side_by_side().rows}
+        cost, error = rows.pop("ours, normal")
+        least = min(other for name, (other, its_error) in rows.items() if its_error <= error and "ours" not in name)
+        self.assertAlmostEqual(least / cost, 5.1, 1)  # as doc/developers/performance.md says
+
+    def test_a_row_of_knots_is_one_line_without_a_gap(self):
+        with tempfile.NamedTemporaryFile("r", encoding="utf-8") as file:
+            scaling.row_of_knots({"x": [0.0, 1.0, 0.0], "y": [0.0, 0.0, 0.0], "z": [0.5, 1.0, 1.5]}, 3, file.name)
+            rows = [[float(cell) for cell in line.split(",")] for line in file.read().split()[1:]]
+        self.assertEqual(len(rows), 7)
+        self.assertEqual({round(b[2] - a[2], 9) for a, b in zip(rows, rows[1:])}, {round(0.5 * scaling.ROOM, 9)})
+
     def test_loops_are_compared_at_the_same_distances_and_loads(self):
         run = runs.Run("/nowhere", 1.0, 0, "")
         run.result = {"lock_extension": 10.0}

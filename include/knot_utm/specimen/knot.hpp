@@ -57,7 +57,7 @@ struct KnotDescription {
 };
 
 /// The interface of a knot: how a specimen of this kind is made, and all that the program needs to know of it. A knot
-/// is a pair of files in specimen/ and one line in knots.cpp. No other code distinguishes knots.
+/// is a file in src/specimen and named in knots.cpp. No other code distinguishes knots.
 class Knot {
  public:
   virtual ~Knot() = default;
@@ -118,5 +118,8 @@ void check_ends(const SpecimenOptions& specimen);
 
 /// F_p on each overhand of a loop [N]: that of the specimen, else default_preload of its material.
 double tying_load(const SpecimenOptions& specimen, const Material& material);
+
+/// T1 of a capstan [N]; `specimen.tail_load: auto` is k_b/h^2, but at most k_s/100.
+double tail_load(const SpecimenOptions& specimen, const Material& material);
 
 }  // namespace knot_utm

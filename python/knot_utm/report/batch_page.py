@@ -1,7 +1,7 @@
 """The page of a batch: the curves of every specimen that counts and their mean with its band, and tables with a row for each specimen
 and rows of statistics, as the software of a testing machine prints them."""
 import re
-from collections import Counter
+from collections import Counter, namedtuple
 
 import numpy as np
 
@@ -57,11 +57,8 @@ class Column:
         return shown(value, self.unit.scale, self.error) if is_number(value) else "none"
 
 
-class Table:
-    """`rows`: of each specimen the number, and its values as texts; `statistics`: the same of rows of statistics."""
-
-    def __init__(self, columns, rows, statistics):
-        self.columns, self.rows, self.statistics = columns, rows, statistics
+# `rows`: of each specimen the number, and its values as texts; `statistics`: the same of rows of statistics.
+Table = namedtuple("Table", "columns rows statistics")
 
 
 def beside_each_other(columns):

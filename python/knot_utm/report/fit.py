@@ -1,5 +1,6 @@
 """A fit, as scripts/fit left it in a folder: what it found, its figures, its page."""
 import os
+from collections import namedtuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -24,11 +25,8 @@ class Key:
         self.places, self.rises = places, rises
 
 
-class Curve:
-    """A record: means of the load over parts of the extension, measured and simulated, and the error of their difference."""
-
-    def __init__(self, name, extension, measured, simulated, error):
-        self.name, self.extension, self.measured, self.simulated, self.error = name, extension, measured, simulated, error
+# A record: means of the load over parts of the extension, measured and simulated, and the error of their difference.
+Curve = namedtuple("Curve", "name extension measured simulated error")
 
 
 class Fit:

@@ -1,4 +1,6 @@
 """The points of a test that its curve and its pictures have in common: a, b, c …, and where the load was largest."""
+from collections import namedtuple
+
 import numpy as np
 
 from knot_utm.report.quantities import shown
@@ -80,12 +82,9 @@ NOT_STOPPED = {"solver": "the physics gave up", "untangled": "the knot came undo
                "not yet": "the record ends", "interrupted": "the test was cut off"}
 
 
-class LargestLoad:
-    """`rows`, `row`: where it is. `name`: of its mark. `where`: the rest of a sentence that begins with its value.
-    `is_peak`: the load fell behind it."""
-
-    def __init__(self, rows, row, name, where, is_peak):
-        self.rows, self.row, self.name, self.where, self.is_peak = rows, row, name, where, is_peak
+# `rows`, `row`: where it is. `name`: of its mark. `where`: the rest of a sentence that begins with its value. `is_peak`: the load fell
+# behind it.
+LargestLoad = namedtuple("LargestLoad", "rows row name where is_peak")
 
 
 def largest_load(run):

@@ -1,6 +1,7 @@
 """What goes into a page, and the page as HTML and PDF."""
 import logging
 import os
+from collections import namedtuple
 from html import escape
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -140,11 +141,8 @@ def logo_of(run):
         raise CannotReport(f"{file}: the logo cannot be read: {getattr(why, 'strerror', None) or why}") from why
 
 
-class Headline:
-    """What a reader looks for first."""
-
-    def __init__(self, label, value, error, unit, remark):
-        self.label, self.value, self.error, self.unit, self.remark = label, value, error, unit, remark
+# What a reader looks for first.
+Headline = namedtuple("Headline", "label value error unit remark")
 
 
 def headlines(run, largest):

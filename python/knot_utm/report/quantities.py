@@ -2,20 +2,19 @@
 units of a page. Files are in SI; a page is in what its reader measures with."""
 import math
 import re
+from collections import namedtuple
 
 from knot_utm import tool
 from knot_utm.yaml_text import is_number
-
 
 FORCES = {"N": 1.0, "kN": 1e-3, "lbf": 1.0 / 4.4482216152605}
 LENGTHS = {"mm": 1e3, "in": 1.0 / 0.0254, "m": 1.0}
 
 
-class Unit:
-    """A value in SI times `scale` has the unit `name`."""
-
-    def __init__(self, name, scale=1.0):
-        self.name, self.scale = name, scale
+# A value in SI times `scale` has the unit `name`.
+Unit = namedtuple("Unit", "name scale", defaults=[1.0])
+# How a key is shown. `kind`: of its unit, as Units.of takes it.
+Quantity = namedtuple("Quantity", "label kind", defaults=[""])
 
 
 class Units:
@@ -39,13 +38,6 @@ def units_of(report):
     """Those that `report` of a method asks for."""
     asked = report.get("units") or {}
     return Units(asked.get("force", "N"), asked.get("length", "mm"))
-
-
-class Quantity:
-    """How a key is shown. `kind`: of its unit, as units.Units.of takes it."""
-
-    def __init__(self, label, kind=""):
-        self.label, self.kind = label, kind
 
 
 # How a unit of a reading is shown, where the page has one of its own for it.

@@ -1,5 +1,6 @@
 """The rod as it lay over the time of a test: from its shapes.csv or its bag, else the final shape alone."""
 import os
+from collections import namedtuple
 
 import numpy as np
 
@@ -9,13 +10,9 @@ from knot_utm.report.run import numbers, read_columns
 SHAPE, STATE = "knot/shape", "knot/state"
 
 
-class Shape:
-    """`time` of the test [s]; `points`: the nodes [m]. `tension`: of each edge [N]; `twist`: of each node [rad/m];
-    `contact_force`: that presses on each node, per length [N/m]. None: not known."""
-
-    def __init__(self, time, points, tension=None, twist=None, contact_force=None):
-        self.time, self.points, self.tension = time, points, tension
-        self.twist, self.contact_force = twist, contact_force
+# `time` of the test [s]; `points`: the nodes [m]. `tension`: of each edge [N]; `twist`: of each node [rad/m]; `contact_force`: that
+# presses on each node, per length [N/m]. None: not known.
+Shape = namedtuple("Shape", "time points tension twist contact_force", defaults=[None] * 3)
 
 
 class Series:
