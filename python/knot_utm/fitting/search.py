@@ -44,7 +44,9 @@ class Search:
         self.learn(0)
         for number in range(1, MOST_WAVES + 1):
             has_settled = self.wave(number, 4 * count + 2)
-            if number > 2 and has_settled and self.likelihood.unknown(self.best) < LEARNT * len(self.measured):
+            # Where specimens do not differ, all that the polynomial misses is its own error.
+            missed = self.likelihood.unknown(self.best, all(not record.scatter for record in self.records))
+            if number > 2 and has_settled and missed < LEARNT * len(self.measured):
                 break
         self.profiles = [self.profile(key) for key in range(count)]
         return self
@@ -62,14 +64,17 @@ class Search:
         return {key.offset[1] + "_offset": key.value(at) for key, at in zip(self.keys, place) if key.offset and key.offset[0] == number}
 
     def learn(self, seed):
-        """The likelihood, of the runs where the last one was not far from its best, and the best place."""
+        """The likelihood, of the runs where the last one was not far from its best, or that are not far from the record themselves, and
+        the best place."""
         self.is_lost = np.isnan(self.means).any(axis=1)
         if (~self.is_lost).sum() < len(self.keys) + LEAST_MORE:
             raise WrongInput(f"{self.records[0].name}: {(~self.is_lost).sum()} of {len(self.places)} runs in the ranges of the free keys reach as "
                              "far as the record: narrow the ranges")
         right = self._alike()
         self.is_unlike = ~self.is_lost & ~right & np.all((self.places >= self.low) & (self.places <= self.high), axis=1)
-        away = self.likelihood.at(self.places) - self.value if self.likelihood else np.zeros(len(self.places))
+        away = np.zeros(len(self.places))
+        if self.likelihood:
+            away = np.fmin(self.likelihood.at(self.places) - self.value, self.likelihood.squares(self.means))
         used = np.flatnonzero(right & (away <= max(LEARNT_OF * self.misfit, np.sort(away[right])[:self.least][-1])))
         for _ in range(2):  # the errors are those at the best place, which is known afterwards
             nearest = used[np.argmin(np.sum((self.places[used] - self.best)**2, axis=1))]
@@ -143,14 +148,17 @@ class Search:
     def profile(self, key):
         """-2 log L over one key, less the smallest, the others such that it is smallest."""
         low, high = self._around()
+        tried = self._candidates(key)
+        values = self.likelihood.at(tried)
         at = np.unique(np.append(np.linspace(low[key], high[key], POINTS), self.best[key]))
         mine = int(np.searchsorted(at, self.best[key]))
         places, rises = np.tile(self.best, (len(at), 1)), np.zeros(len(at))
         for way in (1, -1):
             for i in range(mine + way, len(at) if way > 0 else -1, way):
-                start = places[i - way].copy()
-                start[key] = at[i]
-                places[i], value = self._smallest(start, key)
+                is_near = np.abs(tried[:, key] - at[i]) < (high[key] - low[key]) / POINTS
+                starts = np.stack([places[i - way], tried[np.argmin(np.where(is_near, values, np.inf))]])
+                starts[:, key] = at[i]
+                places[i], value = min((self._smallest(start, key) for start in starts), key=lambda found: found[1])
                 rises[i] = max(value - self.value, 0.0)
         return Profile(key, places, rises, mine)
 

@@ -70,10 +70,14 @@ class Likelihood:
     def chi_square(self, place):
         return float(self._parts(place[None])[0].sum())
 
-    def unknown(self, place):
-        """How much of the errors is of the polynomial."""
+    def squares(self, means):
+        """How far runs themselves are off the record, over the errors and the scatter: a chi^2 of each row."""
+        return (((self.measured - means) @ self.vectors)**2 / (1.0 + self.sizes)).sum(axis=1)
+
+    def unknown(self, place, scatter_too):
+        """How much of the errors is of the polynomial, and of the scatter if that counts, too."""
         _, h = self.surface.at(place[None])
-        return float((h * self.sizes / (1.0 + self.sizes)).sum())
+        return float(((h + scatter_too) * self.sizes / (1.0 + self.sizes)).sum())
 
     def _parts(self, places):
         means, h = self.surface.at(places)

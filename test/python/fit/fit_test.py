@@ -151,7 +151,10 @@ class Broken(Fits):
 
 class Untold(Fits):
     def test_two_springs_in_a_row_are_known_together_only(self):
-        fitted, said = self.fit("fit", self.straight(), "straight", "--free", STRETCH, "machine.stiffness=1e5:1e8", settings=PULLED)
+        # A frame that gives way at all follows its load a time step late, by a few newtons here: the cell must not tell that.
+        noise = {"machine.load_cell.noise": 10.0}
+        fitted, said = self.fit("fit", self.straight(**noise), "straight", "--free", STRETCH, "machine.stiffness=1e5:1e8",
+                                settings={**PULLED, **noise})
         for key in (STRETCH, "machine.stiffness"):
             self.assertEqual((fitted[key]["high"], fitted[key]["identifiable"]), (None, False))
             self.assertIn(f"{key} is not identifiable: the data only tell that it is above", said)
