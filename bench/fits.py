@@ -1,5 +1,6 @@
 """Fits of curves whose parameters are known but hidden: how many of them lie within the intervals that scripts/fit gives."""
 import math
+import multiprocessing
 import os
 import random
 import sys
@@ -10,6 +11,7 @@ from table import Report, Table, at_least
 
 MATERIALS = []
 SEED, CASES = 29, 4  # of each kind
+JOBS = 2             # records at a time
 INSIDE = 0.9         # of the hidden values of a group: 18 of 20, 7 of 8
 CLASS = 0.005        # of the cell: class 0.5
 
@@ -54,7 +56,7 @@ class Case:
         begun = time.process_time(), os.times()
         out = os.path.join(runner.folder, self.title.replace(" ", "_") + "_fit")
         self.fitted = fit(self.measure(runner), os.path.join(runner.root, "config", self.method + ".yaml"), self.free, out,
-                          {**self.settings, **self.cell}, report=False)
+                          {**self.settings, **self.cell}, jobs=1, report=False)
         ended = os.times()
         self.cpu_time = time.process_time() - begun[0] + ended.children_user + ended.children_system \
             - begun[1].children_user - begun[1].children_system
@@ -73,7 +75,9 @@ def report(runner, _materials):
     sys.path.insert(0, os.path.join(runner.root, "python"))
     from knot_utm import fit  # where the packages of scripts/sweep are installed
     draw = random.Random(SEED)
-    cases = [Case(kind, number, draw).fit(runner, fit) for kind in KINDS for number in range(1, CASES + 1)]
+    cases = [Case(kind, number, draw) for kind in KINDS for number in range(1, CASES + 1)]
+    with multiprocessing.Pool(JOBS) as pool:
+        cases = pool.starmap(Case.fit, [(case, runner, fit) for case in cases], 1)
     return Report("Fits of curves with hidden parameters",
                   f"Curves of specimens whose values are drawn at random (seed {SEED}), read by a cell of class {100 * CLASS:g} "
                   "with noise, and what scripts/fit finds of them when it knows the method but for these values. The specimens are "

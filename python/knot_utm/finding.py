@@ -1,18 +1,15 @@
 """A fit: the values of a method's keys with which it produces a measured curve (doc/fits.md)."""
 import itertools
 import os
-import shutil
+import tempfile
 
 from knot_utm import method_keys, tool
 from knot_utm.errors import WrongInput
-from knot_utm.fitting.curves import is_own, read_other, read_own
-from knot_utm.fitting.errors import require_known
-from knot_utm.fitting.found import WRITTEN, judge, short, write_report
+from knot_utm.fitting.found import WRITTEN, Fitted, short, write_report
 from knot_utm.fitting.keys import method_key, offset_key, parse_free
+from knot_utm.fitting.pulls import EXACT_CELL, Runs, is_own, read_model, read_other, read_own
 from knot_utm.fitting.records import Record
-from knot_utm.fitting.runs import EXACT_CELL, Runs, read_model
-from knot_utm.fitting.scatter import SPECIMENS, Batch
-from knot_utm.fitting.search import Case, Search
+from knot_utm.fitting.search import Search
 from knot_utm.yaml_text import described, value_of
 
 WITHIN = 0.4321  # a place within a range, where a whole number is unlikely
@@ -36,8 +33,9 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     asked += [(os.fspath(file), {**(settings or {}), **more}) for file, more in also]
     free = [parse_free(word) for word in free]
     _require_free([name for name, _ in free], asked)
-    with Runs(method, jobs or len(os.sched_getaffinity(0))) as runs:
-        fitted = judge(_searched(runs, method, asked, free, reading))
+    with tempfile.TemporaryDirectory(prefix="knot_utm_fit.", ignore_cleanup_errors=True) as folder:
+        runs = Runs(method, folder, jobs or len(os.sched_getaffinity(0)))
+        fitted = Fitted(_searched(runs, method, asked, free, reading))
     values = {key: one.value for key, one in fitted.found.items() if not key.startswith("record.")}
     fitted.write(out, [tool.resolved(method, {**given, **values}) for _, given in asked])
     if report:
@@ -47,55 +45,33 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
 
 def _searched(runs, method, asked, free, reading):
     """A search that has ended."""
-    methods = [value_of(tool.resolved(method, given)) for _, given in asked]
+    methods = [value_of(tool.resolved(method, {**given, tool.COUNT: 2})) for _, given in asked]  # one specimen does not scatter
     numbers = tool.key_units(method, asked[0][1])
     keys = {name: method_key(name, limits, methods[0], numbers) for name, limits in free if not name.startswith("record.")}
     _require_allowed(method, list(keys.values()), [given for _, given in asked])
-    records = _read(runs, asked, reading)
+    records = _read(runs, asked, methods, reading)
     keys |= {name: offset_key(name, limits, records) for name, limits in free if name not in keys}
     keys = [keys[name] for name, _ in free]
 
-    def batch(given):
-        """Specimens, where they scatter."""
-        folder = runs.whole({**given, **EXACT_CELL}, "--specimens", str(SPECIMENS), "--jobs", str(runs.jobs))
-        found = Batch(folder)
-        shutil.rmtree(folder)
-        return found if found.draws[0] else None
-
-    def renew(best):
-        for case in cases:
-            if case.batch:
-                values = {key.name: float(key.value(at)) for key, at in zip(keys, best) if key.offset is None}
-                case.renew(batch({**case.record.settings, **values}))
-
     def run(places, first):
-        models = runs.models([case.settings(place, first + i) for case in cases for i, place in enumerate(places)])
-        made = [models[k * len(places):(k + 1) * len(places)] for k in range(len(cases))]
-        for case, of_case in zip(cases, made):
-            if not case.models and not any(case.record.is_reached(model) for model in of_case):
-                raise WrongInput(f"{case.record.name}: no run in the ranges of the free keys reaches as far as the record: narrow "
-                                 "the ranges")
-        return made
-    cases = [Case(record, number, keys, one["machine"]["load_cell"], batch(record.settings))
-             for number, (record, one) in enumerate(zip(records, methods), start=1)]
-    for case in cases:
-        scatter, _ = case.scatter()
-        require_known(case.record, case.cell, scatter)
-    search = Search(cases, keys, run, renew)
-    search.go()
-    return search
+        values = [{key.name: float(key.value(at)) for key, at in zip(keys, place) if not key.offset} for place in places]
+        models = runs.models([record.run_settings(at, (first + i) * len(records) + k) for k, record in enumerate(records)
+                              for i, at in enumerate(values)])
+        return [models[k * len(places):(k + 1) * len(places)] for k in range(len(records))]
+    return Search(records, keys, run).go()
 
 
-def _read(runs, asked, reading):
+def _read(runs, asked, methods, reading):
     """The records, each beside a run of the method as it stands."""
     pulls = [read_own(file) if is_own(file) else None for file, _ in asked]
     records = []
-    for (file, given), pull in zip(asked, pulls):
-        folder, notes = runs.whole(given, "--specimens", "1"), []
+    for (file, given), method, pull in zip(asked, methods, pulls):
+        folder, notes = runs.whole(given), []
         if pull is None:
             pull, notes = read_other(file, os.path.join(folder, "curve.csv"), reading)
-        records.append(Record(file, pull, given, notes))
+        records.append(Record(file, pull, given, method, notes))
         records[-1].require_producible(read_model(folder))
+        records[-1].require_errors()
     return records
 
 

@@ -1,5 +1,4 @@
 """The command line of a fit; scripts/fit has its words."""
-import os
 import shlex
 import signal
 import sys
@@ -70,15 +69,5 @@ def _arguments(words):
     return parsed(parser, words)
 
 
-def only_python():
-    """A stdout for Python alone. SciPy's L-BFGS-B, in Fortran, prints there where a line search is lost in rounding."""
-    out = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
-    os.close(nowhere)
-    return out
-
-
 if __name__ == "__main__":
-    sys.stdout = only_python()
     sys.exit(main(sys.argv[1:]))

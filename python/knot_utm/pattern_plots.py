@@ -7,7 +7,6 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import Patch
 
 from knot_utm import axes, trends
-from knot_utm.neighbours import Neighbours
 
 PATTERN = "motion_pattern"
 OPENED = "jumped open"
@@ -103,7 +102,7 @@ def _bars(panel, rows, key):
 def _with_result(table, keys):
     names = outcomes(table)
     known = [name != FAILED for name in names]
-    return table[known], Neighbours(table[known], keys, [name for name in names if name != FAILED])
+    return table[known], trends.Neighbours(table[known], keys, [name for name in names if name != FAILED])
 
 
 def _axes_of(keys):

@@ -1,13 +1,69 @@
-"""The command line of a refinement; scripts/refine has its words."""
+"""More runs of a study where its result changes from one word to another; scripts/refine has the words of its command line."""
 import argparse
+import os
 import sys
 
-from knot_utm import tool
+import numpy as np
+import yaml
+from scipy.stats import qmc
+
+from knot_utm import axes, pattern_plots, tool
 from knot_utm.command_line import say
 from knot_utm.errors import WrongInput
-from knot_utm.refining import refine
+from knot_utm.sweeping import Sweep
+from knot_utm.trends import Neighbours
 
 PROGRAM = tool.program("refine")
+CANDIDATES = 32  # times as many as are chosen
+
+
+def refine(study, out, runs, seed=1):
+    """Makes a study of the runs of another one, whose sweep is in `out`, and as many more where the motion pattern of the nearest
+    runs is least certain. Returns the path of the study, `out`/refined.yaml, or refined-2.yaml and so on where that is taken. Raises WrongInput where it varies no two numbers."""
+    sweep = Sweep(study, out)
+    table = sweep.table()
+    numbers, words = axes.numbers_and_words(table, sweep.study.keys, sweep.study.cases)
+    if len(numbers) < 2 or words or sweep.study.repeat > 1 or sweep.study.cases:
+        raise WrongInput(f"{study}: refined are studies that vary two numbers or more, without words, for_each or repeat")
+    chosen = more_points(table, numbers, runs, seed, sweep.study.below)
+    path = _free(os.path.join(sweep.folder.path, "refined"))
+    with open(path, "x", encoding="utf-8") as file:
+        yaml.safe_dump(_as_study(sweep, numbers, chosen), file, sort_keys=False, default_flow_style=None, width=120)
+    return path
+
+
+def more_points(table, numbers, count, seed, below=()):
+    """{number: values} of points that lie where the shares of the patterns are most even, among the points of a Sobol sequence
+    over the range of each number; drawn with a probability in proportion to the share of all but the most frequent pattern."""
+    names = pattern_plots.outcomes(table)
+    known = [name != pattern_plots.FAILED for name in names]
+    near = Neighbours(table[known], numbers, [name for name in names if name != pattern_plots.FAILED])
+    candidates = qmc.Sobol(len(numbers), seed=seed).random(1 << int(np.ceil(np.log2(CANDIDATES * count))))
+    values = near.values(candidates)
+    doubt = 1.0 - near.shares(candidates).max(axis=1)
+    for low in below:
+        doubt[values[:, numbers.index(low)] >= values[:, numbers.index(below[low])]] = 0.0
+    if np.count_nonzero(doubt) < count:
+        raise WrongInput(f"the pattern changes too seldom for {count} more runs: at most {np.count_nonzero(doubt)}")
+    chosen = np.random.default_rng(seed).choice(len(candidates), count, replace=False, p=doubt / doubt.sum())
+    return dict(zip(numbers, values[np.sort(chosen)].T))
+
+
+def _free(stem):
+    """The first name that is not taken: a refined study may be refined again."""
+    number = 1
+    while os.path.lexists(path := stem + (".yaml" if number == 1 else f"-{number}.yaml")):
+        number += 1
+    return path
+
+
+def _as_study(sweep, numbers, chosen):
+    """A list of all points; what was the same in all runs is one value."""
+    points = sweep.study.points
+    vary = {key: [point[key] for point in points] + np.asarray(chosen[key]).tolist() if key in numbers else [points[0][key]]
+            for key in sweep.study.keys}
+    method = os.path.relpath(sweep.study.method, sweep.folder.path)
+    return {"method": method, "design": "list", **({"below": sweep.study.below} if sweep.study.below else {}), "vary": vary}
 
 
 def main(words):

@@ -1,19 +1,24 @@
-"""What numbers of a table say: shares, powers, thresholds and differences, each with its error."""
+"""What numbers of a table say: shares, powers, thresholds and differences, each with its error; and what it says of points between its
+runs, by those that are nearest."""
+import functools
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from scipy import optimize, stats
+from scipy import optimize, spatial, stats
+
+from knot_utm import axes
 
 Z = stats.norm.ppf(0.975)  # of 95 % intervals
 STEEP = 50.0               # a logistic that is steeper, in units of the range of x, is a step
+NEAREST = 15               # runs that tell of a point between them
 
 
+@functools.cache  # a map asks the same of thousands of points
 def share(count, n):
     """(share, low, high): count of n with Wilson's 95 % interval."""
-    middle = (count + 0.5 * Z**2) / (n + Z**2)
-    half = Z * np.sqrt(count * (n - count) / n + 0.25 * Z**2) / (n + Z**2)
-    return count / n, max(0.0, middle - half), min(1.0, middle + half)
+    told = stats.binomtest(count, n).proportion_ci(method="wilson")
+    return count / n, told.low, told.high
 
 
 def power(x, y):
@@ -120,3 +125,35 @@ def _difference(first, run, result):
     n, change = len(pairs), pairs["then"] - pairs["first"]
     return {"n": n, "mean": pairs["then"].mean(), "sd": pairs["then"].std(), "difference": change.mean(),
             "standard_error": change.std() / np.sqrt(n) if n else np.nan, "relative": change.mean() / pairs["first"].mean()}
+
+
+class Neighbours:
+    """Runs as points in a unit cube: each key from its smallest to its largest value, as its axis counts."""
+
+    def __init__(self, table, keys, outcomes):
+        self.keys = keys
+        self.scales = [np.log if axes.spans_far(table[key]) else np.asarray for key in keys]
+        columns = [scale(table[key].to_numpy(float)) for scale, key in zip(self.scales, keys)]
+        self.low = np.array([column.min() for column in columns])
+        self.width = np.array([np.ptp(column) for column in columns])
+        self.names = sorted(set(outcomes))
+        self.outcomes = np.array([self.names.index(outcome) for outcome in outcomes])
+        self.tree = spatial.cKDTree((np.stack(columns, axis=1) - self.low) / self.width)
+        self.count = min(NEAREST, len(table) - 1)
+
+    def shares(self, places):
+        """[the share of each name among the nearest runs] of places in the cube."""
+        _, found = self.tree.query(places, self.count)
+        return (self.outcomes[np.reshape(found, (len(places), self.count))][:, :, None] == np.arange(len(self.names))).mean(axis=1)
+
+    def values(self, places):
+        """The values of the keys at places in the cube."""
+        back = [np.exp if scale is np.log else np.asarray for scale in self.scales]
+        return np.stack([one(low + width * column) for one, low, width, column
+                         in zip(back, self.low, self.width, np.asarray(places).T)], axis=1)
+
+    def majority(self, places):
+        """(name, share, low, high) of the most frequent outcome near each place, with Wilson's 95 % interval."""
+        shares = self.shares(places)
+        most = shares.argmax(axis=1)
+        return [(self.names[name], *share(round(row[name] * self.count), self.count)) for name, row in zip(most, shares)]

@@ -37,3 +37,11 @@ prepare() {
   . "$root/scripts/setup"
   if [ $# -gt 1 ]; then "$root/scripts/build" "${@:2}" || exit 1; fi
 }
+
+# The files that changed against the last commit, one a line; where none did, those that the last commit changed.
+changed_files() {
+  local changed
+  changed=$({ command git -C "$root" diff --name-only HEAD; command git -C "$root" ls-files --others --exclude-standard; } | sort -u)
+  if [ -z "$changed" ]; then changed=$(command git -C "$root" show --name-only --format= HEAD); fi
+  echo "$changed"
+}

@@ -203,12 +203,6 @@ MotionPattern MotionPatternTracker::pattern() const {
   return slid() ? MotionPattern::kSliding : MotionPattern::kStretching;
 }
 
-MotionPattern MotionPatternTracker::current() const {
-  if (untangles()) return MotionPattern::kUntangling;
-  if (pull_.empty() || !std::isfinite(slope_)) return MotionPattern::kNone;
-  return slope_ < turnover_ ? MotionPattern::kSliding : MotionPattern::kStretching;
-}
-
 std::optional<double> MotionPatternTracker::lock_extension() const {
   if (pattern() != MotionPattern::kSliding || slope_ < turnover_ || centre_ - last_sliding_ < window_) return {};
   return last_sliding_;

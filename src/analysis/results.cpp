@@ -299,7 +299,7 @@ class Course {
 
   /// Whether the crosshead puts a load on the specimen. In a hold it moves only where a load is kept.
   bool loads(const Sample& sample) const {
-    return pulls(sample.phase) || sample.phase == Phase::kPreload ||
+    return knot_utm::loads(sample.phase) ||
            (sample.phase == Phase::kHold && before_ && sample.displacement != before_->displacement);
   }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "knot_utm/machine/load_control.hpp"
+#include "knot_utm/record/load_control.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

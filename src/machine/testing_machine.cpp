@@ -195,7 +195,7 @@ struct TestingMachine::Impl {
     pulled |= moves(phase) && phase != Phase::kMount;
     if (pulled) grips.turn_rollers_from(time);
     status = BenchStatus::kRunning;
-    has_weight |= !forms(phase) && phase != Phase::kHold;
+    has_weight |= !forms(phase) && !rests(phase);
     if (loop) loop->enter(command, place());
   }
 
@@ -267,7 +267,7 @@ struct TestingMachine::Impl {
   void judge_phase() {
     if (parted()) return;
     if (give_up_loop()) return;
-    if (!traits_of(phase).ends_by_itself || (loop && !loop->done(phase))) return;
+    if (!ends_by_itself(phase) || (loop && !loop->done(phase))) return;
     status = BenchStatus::kPhaseDone;
     if (phase == Phase::kMount || !loop || loop->not_equilibrated().empty()) return;
     status = BenchStatus::kNotEquilibrated;
@@ -326,7 +326,7 @@ struct TestingMachine::Impl {
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
     if (breaks) archive(*breaks);
     archive(time, displacement, grip, extension_zero, raw_extension_zero, step_index, has_weight, work, message);
-    archive.choice("phase", phase, Phase::kDone);
+    archive.choice("phase", phase, last_phase());
     archive(pulled);
     archive.choice("status", status, BenchStatus::kFailed);
     archive.require(parted() == (status == BenchStatus::kBroken), "status of a rod that parted",

@@ -46,7 +46,7 @@ void TiedLoop::enter(const Command& command, const Place& now) {
     rig_.release(command.duration, now.time);
   } else if (rig_.tied()) {
     rig_.let_go(stepper_, now.time);
-  } else if (rig_.released() && phase != Phase::kHold) {
+  } else if (rig_.released() && !rests(phase)) {
     put_on(now);
   } else if (rig_.guides() && phase != Phase::kMount) {
     rig_.take_guides_off(stepper_, now.time);
@@ -62,7 +62,7 @@ void TiedLoop::put_on(const Place& now) {
 
 void TiedLoop::leave(Phase phase, const Place& now) {
   // What the knots and the load do while they are let go is not the slack's.
-  if (rig_.released() && phase != Phase::kRelease && phase != Phase::kHold) put_on(now);
+  if (rig_.released() && phase != Phase::kRelease && !rests(phase)) put_on(now);
   if (rig_.guides() && phase != Phase::kMount) rig_.take_guides_off(stepper_, now.time);
 }
 
@@ -110,16 +110,7 @@ double TiedLoop::mounting_velocity(double speed) const {
 }
 
 bool TiedLoop::done(Phase phase) const {
-  switch (phase) {
-    case Phase::kTie:
-      return rig_.tied();
-    case Phase::kRelease:
-      return rig_.released();
-    case Phase::kMount:
-      return rig_.guides() && take_up_.done();
-    default:
-      return false;
-  }
+  return forms(phase) ? rig_.tied() || rig_.released() : rig_.guides() && take_up_.done();
 }
 
 double TiedLoop::load_on_both() const { return std::min(grips_.force_upper(stepper_), grips_.force_lower(stepper_)); }

@@ -10,11 +10,12 @@
 #include "config_library.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/specimen/capstan.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"
 #include "method_overrides.hpp"
-#include "method_program.hpp"
 #include "method_reader.hpp"
 #include "specimens_section.hpp"
 #include "yaml_text.hpp"
@@ -24,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using fields::as_given;
+using fields::Fields;
 using fields::one_line;
 using fields::Reader;
 
@@ -72,6 +74,32 @@ LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, 
     if (cell.name.empty()) cell.name = path.stem().string();
   }
   return cell;
+}
+
+/// Notes the keys that are `automatic`.
+Program read_program(const YAML::Node& node, const std::string& file, const fields::Defaults& defaults,
+                     std::vector<std::string>& automatic) {
+  const std::vector<std::string> steps = step_names();
+  const std::string form = "a list of steps, such as [{pull: {until: {break: true}}}]";
+  if (!node.IsDefined() || node.IsNull()) throw InvalidInput::missing("program", form).in_file(file);
+  if (!node.IsSequence() || node.size() == 0) throw InvalidInput(file, "program", as_given(node), form);
+  Program program;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::string path = "program." + std::to_string(i);
+    if (!node[i].IsMap() || node[i].size() != 1)
+      throw InvalidInput(file, path, as_given(node[i]), "one step, {NAME: {...}}, where NAME is " + listed(steps));
+    const std::string name = one_line(node[i].begin()->first);
+    std::optional<ProgramStep> step = step_named(name);
+    if (!step) throw InvalidInput::unknown_name(path, name, listed(steps), steps).in_file(file);
+    (*step)->speed *= defaults.scale;
+    Reader reader(node[i].begin()->second, file, path + "." + name);
+    reader.understand(defaults.loads);
+    reader.note_automatic(automatic);
+    (*step)->keys(reader, defaults.way);
+    reader.finish();
+    program.push_back(*step);
+  }
+  return program;
 }
 
 Specification read_specification(const YAML::Node& node, const std::string& file) {
@@ -156,25 +184,24 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   Reader top(root, file, "");
   top.note_automatic(automatic);
   method.material = read_material(top.take("material"), file, library);
-  Reader specimen(top.take("specimen"), file, "specimen");
-  specimen.note_automatic(automatic);
+  Reader specimen = top.in("specimen");
   fields::knot(specimen, method.specimen.knot);
   const fields::Defaults defaults = fields::defaults(method.specimen.knot, method.material, known);
   method.specimen = defaults.specimen;
   fields::specimen(specimen, method.specimen);
   specimen.finish();
   method.machine = defaults.machine;
-  top.section("machine", [&](Reader& reader) {
-    fields::machine(reader, method.machine);
-    method.machine.load_cell =
-        read_load_cell(reader.take("load_cell"), file, method.material, defaults.machine.load_cell, library, automatic);
-  });
+  Reader machine = top.in("machine");
+  fields::machine(machine, method.machine);
+  method.machine.load_cell =
+      read_load_cell(machine.take("load_cell"), file, method.material, defaults.machine.load_cell, library, automatic);
+  machine.finish();
   method.program = read_program(top.take("program"), file, defaults, automatic);
   if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
-  top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
-  top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
-  top.section("analysis", [&](Reader& reader) { fields::analysis(reader, method.analysis); });
-  top.section("report", [&](Reader& reader) { fields::report(reader, method.report); });
+  top.section("ends", [&](Fields& f) { fields::ends(f, method.ends); });
+  top.section("physics", [&](Fields& f) { fields::physics(f, method.physics); });
+  top.section("analysis", [&](Fields& f) { fields::analysis(f, method.analysis); });
+  top.section("report", [&](Fields& f) { fields::report(f, method.report); });
   method.specification = read_specification(top.take("specification"), file);
   bool usual_scatter = true;
   method.specimens = read_specimens(top.take("specimens"), file, usual_scatter);
@@ -225,21 +252,17 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     const Method first = read_method(root, file, library, nullptr, noted_first);
     Method method = read_method(root, file, library, &first, noted);
     method.name = path.stem().string();
-    method.specimen.to_be_tied = std::any_of(method.program.begin(), method.program.end(),
-                                             [](const ProgramStep& step) { return step.phase == Phase::kTie; });
+    method.specimen.to_be_tied = has_step<TieStep>(method.program);
 
     const Material& material = method.material;
     if (!method.specimen.preload && knot_of(method.specimen).has("preload")) {
       method.specimen.preload = default_preload(material);
       noted.emplace_back("specimen.preload");
     }
-    if (!method.specimen.file.empty()) {
-      method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
+    if (!method.specimen.tail_load && knot_of(method.specimen).has("tail_load")) {
+      method.specimen.tail_load = tail_load(method.specimen, material);
+      noted.emplace_back("specimen.tail_load");
     }
-    if (!method.report.logo.empty())
-      method.report.logo = fs::absolute(folder / method.report.logo).lexically_normal().string();
-    for (ProgramStep& step : method.program)
-      if (!step.record.empty()) step.record = fs::absolute(folder / step.record).lexically_normal().string();
     check_method(method);
     keep_own_keys(method);
     keep_automatic(noted, method);

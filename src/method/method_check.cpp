@@ -13,9 +13,10 @@
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"
@@ -42,11 +43,6 @@ void has_effect(bool has, const char* key, const Value& value, const Value& unse
   }
   throw InvalidInput::sentence(
       key, given, std::string(key) + " is " + shown(given) + ", but has an effect only " + where + "; leave it out");
-}
-
-/// A step of the program that cannot stand where it stands, and why not.
-[[noreturn]] void misplaced(const std::string& key, const std::string& name, const std::string& why) {
-  throw InvalidInput::sentence(key, name, key + ": " + name + " " + why);
 }
 
 /// A law has all keys that it needs, and none of another law.
@@ -174,29 +170,6 @@ void check_load(const std::string& key, double load, double highest, const char*
     reject(key, load, std::string("at most the load cell's ") + what + ", " + format_number(highest) + " N");
 }
 
-void check_step(const ProgramStep& step, const std::string& key, double capacity) {
-  if (step.phase == Phase::kPreload) check_load(key + ".load", step.load, capacity);
-  if (step.phase == Phase::kPull && step.until.load) check_load(key + ".until.load", *step.until.load, capacity);
-  if (step.phase == Phase::kReturn && step.until.load) check_load(key + ".load", *step.until.load, capacity);
-  if (step.phase == Phase::kHold && step.held_load) {
-    has_effect(step.hold_load, (key + ".load").c_str(), *step.held_load, Sample::kNone, "with control: load");
-    check_load(key + ".load", *step.held_load, capacity);
-  }
-  if (step.phase == Phase::kCycle) {
-    if (step.extension_turns.has_value() == step.load_turns.has_value())
-      throw InvalidInput::sentence(key, step.load_turns ? "extension and load" : "neither extension nor load",
-                                   key + " has " +
-                                       (step.load_turns ? "both extension and load" : "neither extension nor load") +
-                                       ": give one of them");
-    if (step.load_turns) {
-      check_load(key + ".load", step.load_turns->low, capacity);
-      check_load(key + ".load", step.load_turns->high, capacity);
-    }
-    if (step.cycles == 0 && !step.until.time)
-      throw InvalidInput::sentence(key, "no end", key + " has no end: give count, time or both");
-  }
-}
-
 void check_ends(const Method& m) {
   const double capacity = m.machine.load_cell.capacity;
   const double overload = m.machine.load_cell.overload;
@@ -204,54 +177,31 @@ void check_ends(const Method& m) {
   if (m.ends.load && std::isinf(overload)) check_load("ends.load", *m.ends.load, capacity);
 }
 
-void check_pull(const Method& m, const ProgramStep& step, const std::string& key) {
+void check_pull(const Method& m, const PullStep& step, const std::string& key) {
   const std::optional<double> longest = knot_of(m.specimen).longest_pull(m.specimen, m.material.radius);
-  if (!longest || step.phase != Phase::kPull || !step.until.extension || *step.until.extension <= *longest) return;
+  if (!longest || !step.until.extension || *step.until.extension <= *longest) return;
   if (*longest <= 0.0)
     reject("specimen.tail", m.specimen.tail,
            "more than " + least_text(m.specimen.tail - *longest) +
                " m, so that the rod's lower end does not lie on the post");
-  reject(key + ".pull.until.extension", *step.until.extension,
+  reject(key + ".until.extension", *step.until.extension,
          "at most " + most_text(*longest) + " m, where the rod's lower end comes to the post: a longer " +
              "specimen.tail allows more");
 }
 
 void check_program(const Method& m) {
-  const bool loop = knot_of(m.specimen).about().loop;
-  const std::string loop_only = "needs specimen.knot: " + loops() + "; begin the program with another step";
-  bool pulled = false;
-  for (std::size_t i = 0; i < m.program.size(); ++i) {
-    const ProgramStep& step = m.program[i];
-    const std::string key = "program." + std::to_string(i);
-    const std::string name = phase_name(step.phase);
-    switch (step.phase) {
-      case Phase::kTie:
-        if (i != 0) misplaced(key, name, "can only be the first step");
-        if (!loop) misplaced(key, name, loop_only);
-        break;
-      case Phase::kRelease:
-        if (i != 1 || m.program[0].phase != Phase::kTie) misplaced(key, name, "can only stand right after tie");
-        break;
-      case Phase::kMount:
-        if (!loop) misplaced(key, name, loop_only);
-        if (pulled) misplaced(key, name, "can only stand before the first step that moves the crosshead");
-        pulled = true;
-        break;
-      default:
-        pulled |= moves(step.phase);
-        break;
-    }
-    if (step.phase == Phase::kPull && !step.until.extension && !step.until.load && !step.until.time &&
-        !step.until.broken) {
-      throw InvalidInput::missing(key + ".pull.until", "one or more of extension, load, time and break");
-    }
-    check_step(step, key + "." + name, m.machine.load_cell.capacity);
-    check_pull(m, step, key);
+  StepPlace place{m.program, 0, knot_of(m.specimen).about().loop ? "" : loops()};
+  for (; place.index < m.program.size(); ++place.index) {
+    const ProgramStep& step = m.program[place.index];
+    step->check(place);
+    for (const KeyUnit& number : step_numbers(step, place.key()))
+      if (number.unit == "N") check_load(number.key, number.value.value_or(0.0), m.machine.load_cell.capacity);
+    if (const PullStep* pull = step.as<PullStep>()) check_pull(m, *pull, place.key());
   }
 }
 
 bool pulls_anything(const Method& m) {
-  return std::any_of(m.program.begin(), m.program.end(), [](const ProgramStep& step) { return pulls(step.phase); });
+  return std::any_of(m.program.begin(), m.program.end(), [](const ProgramStep& step) { return pulls(step->phase()); });
 }
 
 void check_analysis(const Method& m) {

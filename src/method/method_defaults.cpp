@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "knot_utm/method/method_keys.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
@@ -19,29 +21,20 @@ constexpr double kCreep = 1.0 / 3.3;  // friction that creeps is Coulomb's well 
 constexpr double kMarginOfCell = 2.5;                            // over the strength of one strand: a loop has two
 constexpr double kLeastCapacity = 1e-3, kLargestCapacity = 1e8;  // [N]
 
-double asked_travel(const Program& program) {
+/// The largest of the program's numbers that have this unit.
+double largest(const Program& program, const std::string& unit) {
   double out = 0.0;
-  for (const ProgramStep& step : program) {
-    if (step.until.extension) out = std::max(out, *step.until.extension);
-    if (step.extension_turns) out = std::max({out, step.extension_turns->high, -step.extension_turns->low});
-  }
+  for (const ProgramStep& step : program)
+    for (const KeyUnit& number : step_numbers(step, ""))
+      if (number.unit == unit) out = std::max(out, std::abs(number.value.value_or(0.0)));
   return out;
 }
 
 /// The slowest speed of the steps that pull; where there is none, the paper's [m/s].
 double slowest_pull(const Program& program, double scale) {
-  double out = ProgramStep{}.speed * scale;
+  double out = PullStep().speed * scale;
   for (const ProgramStep& step : program)
-    if (pulls(step.phase)) out = std::min(out, step.speed);
-  return out;
-}
-
-double asked_load(const Method& method) {
-  double out = method.ends.load.value_or(0.0);
-  for (const ProgramStep& step : method.program) {
-    out = std::max({out, step.load, std::abs(step.until.load.value_or(0.0)), std::abs(step.held_load.value_or(0.0))});
-    if (step.load_turns) out = std::max({out, step.load_turns->high, -step.load_turns->low});
-  }
+    if (pulls(step->phase())) out = std::min(out, step->speed);
   return out;
 }
 
@@ -63,7 +56,7 @@ double next_cell(double load) {
 }
 
 double capacity(const Material& material, const Method* known) {
-  const double asked = known ? asked_load(*known) : 0.0;
+  const double asked = known ? std::max(known->ends.load.value_or(0.0), largest(known->program, "N")) : 0.0;
   const double load = std::max(kMarginOfCell * strength(material), asked);
   return std::min(next_cell(std::max(load, kLeastCapacity)), kLargestCapacity);
 }
@@ -80,7 +73,7 @@ Defaults defaults(KnotKind kind, const Material& material, const Method* known) 
   out.machine.roller_diameter = knot.roller_diameter(h).value_or(out.machine.roller_diameter);
   if (known) knot.suit(known->specimen, known->machine.roller_diameter, h, out.specimen);
   out.way = knot.pull(known ? known->specimen : out.specimen, h);
-  const double asked = known ? asked_travel(known->program) : out.way;
+  const double asked = known ? largest(known->program, "m") : out.way;
   out.machine.travel = std::min(std::max({kLeastTravel, kLeastTravel * r, kTravelOverWay * asked}), kLargestTravel);
   out.machine.load_cell.capacity = capacity(material, known);
   out.slip_tolerance = kCreep * slowest_pull(known ? known->program : Program{}, r);

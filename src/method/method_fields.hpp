@@ -6,69 +6,42 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/numeric/fields.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
-/// All keys of a method with their ranges. Reading and writing walk the same lists.
-///
-/// A `Fields` has
-///   number(key, double&, Range)                 optional_number(key, optional<double>&, Range, word[, automatic])
-///   scaled_number(key, double&, Range)
-///   integer(key, Integer&, min, max)            text(key, string&)          flag(key, bool&)
-///   short_text(key, string&, most characters)
-///   choice(key, Enum&, names in enum order)     vector(key, Vector3d&, Range)
-///   turns(key, optional<TurningPoints>&, Range)
-///   section(key, [](Fields&) {...})
-/// `word` is what a file has for a value that is not set. A scaled number may be `auto`, which stands for its default
-/// (method_defaults.hpp). An optional number may be `auto` if it has an `automatic` value.
+/// All keys of a method with their ranges, section by section. Each step of the program has its own (Step::keys).
 namespace knot_utm::fields {
-
-/// The range of a number, both ends included. It is so narrow that a value given in millimetres or gigapascals is
-/// noticed.
-struct Range {
-  double min;
-  double max;
-  const char* unit;
-};
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The keys of all laws of a kind. Those that the chosen law does not have may stand with their plain value only
 /// (method_check.cpp).
-template <class Registry, class Fields, class Number>
+template <class Registry, class Number>
 void law_keys(Fields& f, LawOptions<Number>& o) {
   for (const LawKey& key : Registry::keys()) {
     std::optional<double> value = o.value(key.name);
     const Range range{key.min, key.max, key.unit};
     const bool automatic = key.otherwise == LawDefault::kAccuracy || key.otherwise == LawDefault::kCreep;
     const char* word = automatic ? "auto" : "";
-    if (value)
-      f.optional_number(key.name, value, range, word, *value);
-    else
-      f.optional_number(key.name, value, range, word);
+    f.optional_number(key.name, value, range, word, value);
     o.set(key.name, value);
   }
 }
 
 /// A law by its name, and its keys. Where there is only one law of a kind there is nothing to choose, and no name.
-template <class Registry, class Fields, class Number>
+template <class Registry, class Number>
 void chosen_law(Fields& f, const char* name, LawOptions<Number>& o) {
   if constexpr (Registry::kCount > 1) f.choice(name, o.law, Registry::kNames);
   law_keys<Registry>(f, o);
 }
 
-template <class Fields>
-void knot(Fields& f, KnotKind& knot) {
-  f.choice("knot", knot, knot_names());
-}
+inline void knot(Fields& f, KnotKind& knot) { f.choice("knot", knot, knot_names()); }
 
-template <class Fields>
-void specimen(Fields& f, SpecimenOptions& o) {
+inline void specimen(Fields& f, SpecimenOptions& o) {
   knot(f, o.knot);
   f.choice("handedness", o.handedness, std::array{"same", "opposite"});
   f.integer("turns", o.turns, 1, 4);
-  f.text("file", o.file);
+  f.file("file", o.file);
   f.flag("closed", o.closed);
   f.scaled_number("knot_distance", o.knot_distance, Range{1e-4, 5.0, "m"});
   f.scaled_number("end_to_end", o.end_to_end, Range{1e-4, 20.0, "m"});
@@ -83,8 +56,7 @@ void specimen(Fields& f, SpecimenOptions& o) {
 }
 
 /// `name` is that of the file unless it is given.
-template <class Fields>
-void material(Fields& f, Material& o) {
+inline void material(Fields& f, Material& o) {
   f.text("name", o.name);
   f.required_number("radius", o.radius, Range{1e-5, 0.05, "m"});
   f.required_number("density", o.density, Range{10.0, 25e3, "kg/m3"});
@@ -105,10 +77,7 @@ void material(Fields& f, Material& o) {
   f.text("notes", o.notes);
 }
 
-constexpr Range kSpeeds{1e-7, kFastestCrosshead, "m/s"};  // of the crosshead and of tail grips
-
-template <class Fields>
-void load_cell(Fields& f, LoadCellOptions& o) {
+inline void load_cell(Fields& f, LoadCellOptions& o) {
   f.text("name", o.name);
   f.scaled_number("capacity", o.capacity, Range{1e-3, 1e8, "N"});
   f.number("sampling_rate", o.sampling_rate, Range{1e-2, 1e4, "Hz"});
@@ -127,8 +96,7 @@ void load_cell(Fields& f, LoadCellOptions& o) {
 inline constexpr std::array kRotations{"fixed", "free", "turned"};
 
 /// All keys of `machine` except the load cell, which may also be a name.
-template <class Fields>
-void machine(Fields& f, MachineOptions& o) {
+inline void machine(Fields& f, MachineOptions& o) {
   f.choice("grips", o.grips, std::array{"rollers", "nodes", "clamps"});
   f.scaled_number("roller_diameter", o.roller_diameter, Range{1e-5, 1.0, "m"});
   f.number("roller_friction", o.roller_friction, Range{0.0, 5.0, "-"});
@@ -139,81 +107,20 @@ void machine(Fields& f, MachineOptions& o) {
   f.scaled_number("travel", o.travel, Range{1e-3, 100.0, "m"});
 }
 
-/// The keys of a program step with the phase `o.phase`. `way`: extension of a pull whose `until.extension` is auto [m].
-template <class Fields>
-void step(Fields& f, ProgramStep& o, double way = 0.0) {
-  switch (o.phase) {
-    case Phase::kTie:
-    case Phase::kMount:
-      f.scaled_number("speed", o.speed, kSpeeds);
-      break;
-    case Phase::kRelease:
-      f.number("duration", o.duration, Range{1e-3, 1e4, "s"});
-      break;
-    case Phase::kHold:
-      f.required_number("duration", o.duration, Range{1e-3, 1e6, "s"});
-      f.choice("control", o.hold_load, std::array{"extension", "load"});
-      f.optional_number("load", o.held_load, Range{-1e8, 1e8, "N"}, "auto");
-      if (o.hold_load) f.scaled_number("speed", o.speed, kSpeeds);
-      break;
-    case Phase::kPreload:
-      f.required_number("load", o.load, Range{1e-6, 1e8, "N"});
-      f.scaled_number("speed", o.speed, kSpeeds);
-      f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
-      f.flag("balance", o.balance);
-      break;
-    case Phase::kCycle:
-      f.turns("extension", o.extension_turns, Range{-100.0, 100.0, "m"});
-      f.turns("load", o.load_turns, Range{-1e8, 1e8, "N"});
-      f.scaled_number("speed", o.speed, kSpeeds);
-      f.integer("count", o.cycles, 0, 1000000);
-      f.optional_number("time", o.until.time, Range{1e-3, 1e6, "s"}, "none");
-      break;
-    case Phase::kReturn:
-      f.scaled_number("speed", o.speed, kSpeeds);
-      f.number("extension", o.return_extension, Range{-100.0, 100.0, "m"});
-      f.optional_number("load", o.until.load, Range{-1e8, 1e8, "N"}, "none");
-      break;
-    case Phase::kFollow:
-      f.text("record", o.record);
-      f.text("columns", o.words.columns);
-      f.text("units", o.words.units);
-      f.text("specimen", o.words.specimen);
-      f.text("invert", o.words.invert);
-      break;
-    case Phase::kPull:
-      f.scaled_number("speed", o.speed, kSpeeds);
-      f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
-      f.section("until", [&o, way](auto& until) {
-        until.optional_number("extension", o.until.extension, Range{1e-6, 100.0, "m"}, "none", way);
-        until.optional_number("load", o.until.load, Range{1e-6, 1e8, "N"}, "none");
-        until.optional_number("time", o.until.time, Range{1e-3, 1e6, "s"}, "none");
-        until.flag("break", o.until.broken);
-      });
-      break;
-    case Phase::kIdle:
-    case Phase::kBalance:
-    case Phase::kDone:
-      break;
-  }
-}
-
-template <class Fields>
-void ends(Fields& f, EndOptions& o) {
+inline void ends(Fields& f, EndOptions& o) {
   f.optional_number("load", o.load, Range{1e-6, 1e8, "N"}, "auto");
   f.optional_number("time", o.time, Range{1e-3, 1e8, "s"}, "none");
   f.optional_number("break_at_fraction_of_peak", o.break_at_fraction_of_peak, Range{0.0, 0.99, "of the peak"}, "none");
 }
 
-template <class Fields>
-void physics(Fields& f, PhysicsOptions& o) {
+inline void physics(Fields& f, PhysicsOptions& o) {
   f.vector("gravity", o.gravity, Range{-100.0, 100.0, "m/s2"});
-  f.section("friction", [&o](auto& friction) {
+  f.section("friction", [&o](Fields& friction) {
     friction.choice("law", o.friction.law, kFrictionLawNames);
     friction.choice("at", o.friction_at, std::array{"surface", "centreline"});
     law_keys<FrictionRegistry>(friction, o.friction);
   });
-  f.section("contact", [&o](auto& contact) {
+  f.section("contact", [&o](Fields& contact) {
     contact.choice("law", o.contact_law, std::array{"smooth", "edge"});
     contact.optional_number("tolerance", o.contact_tolerance, Range{1e-3, 0.5, "of the radius"}, "auto");
   });
@@ -225,33 +132,28 @@ void physics(Fields& f, PhysicsOptions& o) {
   f.optional_number("residual", o.residual, Range{1e-12, 0.1, "of k_b/h2"}, "auto");
 }
 
-template <class Fields>
-void analysis(Fields& f, AnalysisOptions& o) {
-  f.flag("margin", o.margin);
-}
+inline void analysis(Fields& f, AnalysisOptions& o) { f.flag("margin", o.margin); }
 
 /// The texts in the head and the foot of a report.
-template <class Fields>
-void report(Fields& f, ReportOptions& o) {
-  f.short_text("specimen_id", o.specimen_id, 80);
-  f.short_text("operator", o.operator_name, 80);
-  f.short_text("customer", o.customer, 200);
-  f.short_text("date", o.date, 80);
-  f.short_text("standard", o.standard, 200);
-  f.short_text("conditioning", o.conditioning, 200);
-  f.short_text("terminations", o.terminations, 200);
-  f.short_text("notes", o.notes, 4000);
-  f.short_text("logo", o.logo, 4000);
-  f.short_text("signature", o.signature, 80);
-  f.section("units", [&o](auto& units) {
+inline void report(Fields& f, ReportOptions& o) {
+  f.text("specimen_id", o.specimen_id, 80);
+  f.text("operator", o.operator_name, 80);
+  f.text("customer", o.customer, 200);
+  f.text("date", o.date, 80);
+  f.text("standard", o.standard, 200);
+  f.text("conditioning", o.conditioning, 200);
+  f.text("terminations", o.terminations, 200);
+  f.text("notes", o.notes, 4000);
+  f.file("logo", o.logo);
+  f.text("signature", o.signature, 80);
+  f.section("units", [&o](Fields& units) {
     units.choice("force", o.force, std::array{"N", "kN", "lbf"});
     units.choice("length", o.length, std::array{"mm", "in", "m"});
   });
 }
 
 /// The limits of one number of result.yaml, in the unit of that file.
-template <class Fields>
-void requirement(Fields& f, Requirement& o) {
+inline void requirement(Fields& f, Requirement& o) {
   f.optional_number("min", o.min, Range{-1e12, 1e12, "-"}, "none");
   f.optional_number("max", o.max, Range{-1e12, 1e12, "-"}, "none");
 }

@@ -10,52 +10,57 @@
 namespace knot_utm {
 namespace {
 
+using fields::Fields;
+using fields::LowHigh;
+using fields::Range;
+using fields::Unset;
+
 /// A key of a method that a walk over its fields came by.
-struct WalkedKey {
-  std::string key;   ///< dotted, as overrides name it
-  std::string unit;  ///< "-": none
+struct WalkedKey : KeyUnit {
   bool number;
 };
 
-/// A `Fields` (method_fields.hpp) that keeps the keys.
-class KeyWalk {
+/// Keeps the keys.
+class KeyWalk : public Fields {
  public:
   KeyWalk(std::string path, std::vector<WalkedKey>& found) : path_(std::move(path)), found_(found) {}
 
-  using Range = fields::Range;
-  void number(const char* key, double&, const Range& range) { add_number(key, range.unit); }
-  void scaled_number(const char* key, double&, const Range& range) { add_number(key, range.unit); }
-  void required_number(const char* key, double&, const Range& range) { add_number(key, range.unit); }
-  template <class... Words>
-  void optional_number(const char* key, std::optional<double>&, const Range& range, Words...) {
-    add_number(key, range.unit);
+  void optional_number(const char* key, std::optional<double>& value, const Range& range, const char*,
+                       std::optional<double> = {}) override {
+    add_number(key, range.unit, value);
   }
-  template <class Integer>
-  void integer(const char* key, Integer&, Integer, Integer) {
-    add_number(key, "-");
+  void text(const char* key, std::string&, std::size_t = kAnyLength) override { add_other(key); }
+  void flag(const char* key, bool&) override { add_other(key); }
+  void vector(const char* key, Eigen::Vector3d& value, const Range& range) override {
+    add_list(key, {value.begin(), value.end()}, range);
   }
-  void text(const char* key, std::string&) { add_other(key); }
-  void short_text(const char* key, std::string&, std::size_t) { add_other(key); }
-  void flag(const char* key, bool&) { add_other(key); }
-  template <class Enum, class Names>
-  void choice(const char* key, Enum&, const Names&) {
-    add_other(key);
+  void low_high(const char* key, std::optional<LowHigh>& value, const Range& range) override {
+    if (value)
+      add_list(key, {value->low, value->high}, range);
+    else
+      add_list(key, {std::nullopt, std::nullopt}, range);
   }
-  void vector(const char* key, Eigen::Vector3d&, const Range& range) {
-    for (const char* axis : {"", ".0", ".1", ".2"}) add_number(key + std::string(axis), range.unit);
-  }
-  void turns(const char* key, std::optional<TurningPoints>&, const Range& range) {
-    for (const char* end : {"", ".0", ".1"}) add_number(key + std::string(end), range.unit);
-  }
-  template <class Body>
-  void section(const char* key, Body body) {
+  void section(const char* key, const std::function<void(Fields&)>& body) override {
     KeyWalk inner(path_ + key + ".", found_);
     body(inner);
   }
+  bool lists_all() const override { return true; }
 
  private:
-  void add_number(const std::string& key, const char* unit) { found_.push_back({path_ + key, unit, true}); }
-  void add_other(const char* key) { found_.push_back({path_ + key, "-", false}); }
+  void visit_number(const char* key, double& value, const Range& range, Unset) override {
+    add_number(key, range.unit, value);
+  }
+  void visit_whole_number(const char* key, double& value, double, double) override { add_number(key, "-", value); }
+  void visit_name(const char* key, std::size_t&, const std::vector<std::string>&) override { add_other(key); }
+
+  void add_list(const std::string& key, const std::vector<std::optional<double>>& values, const Range& range) {
+    add_number(key, range.unit, std::nullopt);
+    for (std::size_t i = 0; i < values.size(); ++i) add_number(key + "." + std::to_string(i), range.unit, values[i]);
+  }
+  void add_number(const std::string& key, const char* unit, std::optional<double> value) {
+    found_.push_back({{path_ + key, unit, value}, true});
+  }
+  void add_other(const char* key) { found_.push_back({{path_ + key, "-", std::nullopt}, false}); }
 
   std::string path_;
   std::vector<WalkedKey>& found_;
@@ -65,23 +70,23 @@ std::vector<WalkedKey> walked_keys(const Method& method) {
   Method m = method;
   std::vector<WalkedKey> found;
   KeyWalk top("", found);
-  top.section("specimen", [&](KeyWalk& f) { fields::specimen(f, m.specimen); });
-  top.section("material", [&](KeyWalk& f) { fields::material(f, m.material); });
-  top.section("machine", [&](KeyWalk& f) {
+  top.section("specimen", [&](Fields& f) { fields::specimen(f, m.specimen); });
+  top.section("material", [&](Fields& f) { fields::material(f, m.material); });
+  top.section("machine", [&](Fields& f) {
     fields::machine(f, m.machine);
-    f.section("load_cell", [&](KeyWalk& cell) { fields::load_cell(cell, m.machine.load_cell); });
+    f.section("load_cell", [&](Fields& cell) { fields::load_cell(cell, m.machine.load_cell); });
   });
   for (std::size_t i = 0; i < m.program.size(); ++i) {
-    const std::string name = phase_name(m.program[i].phase);
+    const std::string name = m.program[i]->name();
     std::vector<std::string> names{std::to_string(i) + "." + name};
     if (step_called(m.program, name)) names.push_back(name);
     for (const std::string& entry : names) {
       KeyWalk step("program." + entry + ".", found);
-      fields::step(step, m.program[i]);
+      m.program[i]->keys(step, 0.0);
     }
   }
-  top.section("ends", [&](KeyWalk& f) { fields::ends(f, m.ends); });
-  top.section("physics", [&](KeyWalk& f) { fields::physics(f, m.physics); });
+  top.section("ends", [&](Fields& f) { fields::ends(f, m.ends); });
+  top.section("physics", [&](Fields& f) { fields::physics(f, m.physics); });
   return found;
 }
 
@@ -143,25 +148,20 @@ std::string words_of(const std::string& key) {
   return words;
 }
 
-/// A method with every step that there is.
-Method with_every_step() {
-  Method method;
-  for (const std::string& name : step_names()) {
-    ProgramStep step;
-    step.phase = *phase_named(name);
-    step.hold_load = true;
-    method.program.push_back(step);
-  }
-  return method;
-}
-
 }  // namespace
 
 std::vector<KeyUnit> key_units(const Method& method) {
   std::vector<KeyUnit> found;
   for (const WalkedKey& one : walked_keys(method))
-    if (one.number) found.push_back({one.key, one.unit});
+    if (one.number) found.push_back(one);
   return found;
+}
+
+std::vector<KeyUnit> step_numbers(ProgramStep step, const std::string& path) {
+  std::vector<WalkedKey> found;
+  KeyWalk walk(path + ".", found);
+  step->keys(walk, 0.0);
+  return {found.begin(), found.end()};
 }
 
 std::string unit_of_key(const Method& method, const std::string& key) {
@@ -172,7 +172,9 @@ std::string unit_of_key(const Method& method, const std::string& key) {
 
 std::vector<MethodKey> method_keys() {
   std::vector<MethodKey> keys;
-  for (const WalkedKey& one : walked_keys(with_every_step()))
+  Method any;
+  any.program = all_steps();
+  for (const WalkedKey& one : walked_keys(any))
     if (!is_numbered(one.key)) keys.push_back({one.key, words_of(one.key), one.unit});
   for (const Label& label : kLabels) {
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const MethodKey& one) { return one.key == label.key; });

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -77,6 +79,8 @@ inline std::string with_unit(const std::string& text, const Range& range) {
   return std::string(range.unit) == "-" ? text : text + " " + range.unit;
 }
 
+inline std::string whole_text(double value) { return std::to_string(static_cast<long long>(value)); }
+
 /// "0.0001 to 100000 N".
 inline std::string range_text(const Range& range) {
   if (std::isinf(range.max)) return "at least " + with_unit(plain_number(range.min), range);
@@ -93,7 +97,7 @@ inline std::string number_text(const Range& range) {
 
 /// Reads one map of a method. A key that the map does not have keeps its value. `finish` throws InvalidInput for keys
 /// of the map that nobody has asked for.
-class Reader {
+class Reader : public Fields {
  public:
   /// `path`: dotted path of the map, empty for the top of a file. `of`: what the file describes, for messages.
   Reader(const YAML::Node& map, std::string file, std::string path, std::string of = "a method")
@@ -107,76 +111,38 @@ class Reader {
   /// Notes the dotted keys of the numbers that are left to `auto`.
   void note_automatic(std::vector<std::string>& keys) { automatic_ = &keys; }
 
-  void number(const char* key, double& value, const Range& range) {
-    const YAML::Node node = take(key);
-    if (node.IsDefined()) value = checked(key, node, range, "");
-  }
-
-  /// `auto` leaves the value as it is.
-  void scaled_number(const char* key, double& value, const Range& range) {
-    const YAML::Node node = take(key);
-    if (node.IsDefined() && !node.IsNull() && !is_auto(node))
-      value = checked(key, node, range, "auto");
-    else
-      note(key);
-  }
-
-  void required_number(const char* key, double& value, const Range& range) {
-    const YAML::Node node = take(key);
-    if (!node.IsDefined()) throw InvalidInput::missing(path_of(key), number_text(range)).in_file(file_);
-    value = checked(key, node, range, "");
-  }
-
-  void optional_number(const char* key, std::optional<double>& value, const Range& range, const char* word) {
+  void optional_number(const char* key, std::optional<double>& value, const Range& range, const char* word,
+                       std::optional<double> automatic = {}) override {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
-    if (node.IsNull() || (node.IsScalar() && node.Scalar() == word)) {
+    if (automatic && is_auto(node)) {
+      value = automatic;
+      note(key);
+    } else if (node.IsNull() || (node.IsScalar() && node.Scalar() == word)) {
       value.reset();
     } else {
       value = checked(key, node, range, word);
     }
   }
 
-  /// `auto` stands for the value `automatic`.
-  void optional_number(const char* key, std::optional<double>& value, const Range& range, const char* word,
-                       double automatic) {
-    if (const YAML::Node node = take(key); node.IsDefined() && is_auto(node)) {
-      value = automatic;
-      note(key);
-    } else {
-      optional_number(key, value, range, word);
-    }
-  }
-
-  template <class Integer>
-  void integer(const char* key, Integer& value, Integer min, Integer max) {
-    const YAML::Node node = take(key);
-    if (!node.IsDefined()) return;
-    const std::optional<double> number = number_in(node);
-    if (!number || !(*number >= static_cast<double>(min) && *number <= static_cast<double>(max)) ||
-        *number != std::floor(*number)) {
-      fail_range(key, node, "a whole number from " + std::to_string(min) + " to " + std::to_string(max),
-                 static_cast<double>(min), static_cast<double>(max));
-    }
-    value = static_cast<Integer>(*number);
-  }
-
-  void text(const char* key, std::string& value) {
+  /// The limit counts characters, not bytes.
+  void text(const char* key, std::string& value, std::size_t most = kAnyLength) override {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
     if (!node.IsNull() && !node.IsScalar()) fail(key, node, "a text");
     value = node.IsNull() ? "" : node.Scalar();
-  }
-
-  /// The limit counts characters, not bytes.
-  void short_text(const char* key, std::string& value, std::size_t most) {
-    text(key, value);
     const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; };
     const auto characters = static_cast<std::size_t>(std::count_if(value.begin(), value.end(), begins));
     if (characters > most) fail(key, YAML::Node(value), "a text of at most " + std::to_string(most) + " characters");
   }
 
-  void flag(const char* key, bool& value) {
+  void file(const char* key, std::string& value) override {
+    text(key, value);
+    namespace fs = std::filesystem;
+    if (!value.empty()) value = fs::absolute(fs::path(file_).parent_path() / value).lexically_normal().string();
+  }
+
+  void flag(const char* key, bool& value) override {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
     const std::string given = node.IsScalar() ? node.Scalar() : "";
@@ -184,20 +150,7 @@ class Reader {
     value = given == "true";
   }
 
-  template <class Enum, class Names>
-  void choice(const char* key, Enum& value, const Names& names) {
-    const YAML::Node node = take(key);
-    if (!node.IsDefined()) return;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (node.IsScalar() && node.Scalar() == names[i]) {
-        value = static_cast<Enum>(i);
-        return;
-      }
-    }
-    fail_name(key, node, {names.begin(), names.end()});
-  }
-
-  void vector(const char* key, Eigen::Vector3d& value, const Range& range) {
+  void vector(const char* key, Eigen::Vector3d& value, const Range& range) override {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
     const std::string allowed = "a list [x, y, z], each " + number_text(range);
@@ -209,7 +162,7 @@ class Reader {
     }
   }
 
-  void turns(const char* key, std::optional<TurningPoints>& value, const Range& range) {
+  void low_high(const char* key, std::optional<LowHigh>& value, const Range& range) override {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
     const std::string allowed = "a list [low, high] with low below high, each " + number_text(range) + or_term(range);
@@ -221,17 +174,22 @@ class Reader {
       numbers[i] = *number;
     }
     if (numbers[0] >= numbers[1]) fail(key, node, allowed);
-    value = TurningPoints{numbers[0], numbers[1]};
+    value = LowHigh{numbers[0], numbers[1]};
   }
 
-  template <class Body>
-  void section(const char* key, Body body) {
+  void section(const char* key, const std::function<void(Fields&)>& body) override {
+    Reader inner = in(key);
+    body(inner);
+    inner.finish();
+  }
+
+  /// The reader of a section.
+  Reader in(const char* key) {
     const YAML::Node node = take(key);
     Reader inner(node.IsDefined() ? node : YAML::Node(), file_, path_of(key), of_);
     inner.loads_ = loads_;
     inner.automatic_ = automatic_;
-    body(inner);
-    inner.finish();
+    return inner;
   }
 
   /// The YAML value of a key, for keys that need more than the functions above. Undefined where the map does not have
@@ -271,6 +229,32 @@ class Reader {
   }
 
  private:
+  void visit_number(const char* key, double& value, const Range& range, Unset unset) override {
+    const YAML::Node node = take(key);
+    const bool left_out = unset == Unset::kAuto && (!node.IsDefined() || node.IsNull() || is_auto(node));
+    if (left_out) return note(key);  // it stays as it is
+    if (!node.IsDefined() && unset == Unset::kRefused)
+      throw InvalidInput::missing(path_of(key), number_text(range)).in_file(file_);
+    if (node.IsDefined()) value = checked(key, node, range, unset == Unset::kAuto ? "auto" : "");
+  }
+
+  void visit_whole_number(const char* key, double& value, double min, double max) override {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    const std::optional<double> number = number_in(node);
+    if (!number || !(*number >= min && *number <= max) || *number != std::floor(*number))
+      fail_range(key, node, "a whole number from " + whole_text(min) + " to " + whole_text(max), min, max);
+    value = *number;
+  }
+
+  void visit_name(const char* key, std::size_t& index, const std::vector<std::string>& names) override {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    const auto found = std::find(names.begin(), names.end(), node.IsScalar() ? node.Scalar() : "");
+    if (found == names.end()) fail_name(key, node, names);
+    index = static_cast<std::size_t>(found - names.begin());
+  }
+
   [[noreturn]] void fail_range(const char* key, const YAML::Node& value, const std::string& allowed, double min,
                                double max) const {
     throw OutOfRange({file_, path_of(key), as_given(value), allowed}, min, max);
@@ -328,46 +312,23 @@ class Reader {
 };
 
 /// Writes the same keys, in the same order, into a map. Values that are not set are left out.
-class Writer {
+class Writer : public Fields {
  public:
-  void number(const char* key, const double& value, const Range&) { map_[key] = format_yaml_number(value); }
-  void scaled_number(const char* key, const double& value, const Range& range) { number(key, value, range); }
-  void required_number(const char* key, const double& value, const Range&) { map_[key] = format_yaml_number(value); }
-  void optional_number(const char* key, const std::optional<double>& value, const Range&, const char*) {
+  void optional_number(const char* key, std::optional<double>& value, const Range&, const char*,
+                       std::optional<double> = {}) override {
     if (value) map_[key] = format_yaml_number(*value);
   }
-  void optional_number(const char* key, const std::optional<double>& value, const Range& range, const char* word,
-                       double) {
-    optional_number(key, value, range, word);
-  }
-  template <class Integer>
-  void integer(const char* key, const Integer& value, Integer, Integer) {
-    map_[key] = std::to_string(value);
-  }
-  void text(const char* key, const std::string& value) {
+  void text(const char* key, std::string& value, std::size_t = kAnyLength) override {
     if (!value.empty()) map_[key] = value;
   }
-  void short_text(const char* key, const std::string& value, std::size_t) { text(key, value); }
-  void flag(const char* key, const bool& value) { map_[key] = value ? "true" : "false"; }
-  template <class Enum, class Names>
-  void choice(const char* key, const Enum& value, const Names& names) {
-    map_[key] = names[static_cast<std::size_t>(value)];
+  void flag(const char* key, bool& value) override { map_[key] = value ? "true" : "false"; }
+  void vector(const char* key, Eigen::Vector3d& value, const Range&) override {
+    list(key, {value.begin(), value.end()});
   }
-  void vector(const char* key, const Eigen::Vector3d& value, const Range&) {
-    YAML::Node list;
-    for (const double x : value) list.push_back(format_yaml_number(x));
-    list.SetStyle(YAML::EmitterStyle::Flow);
-    map_[key] = list;
+  void low_high(const char* key, std::optional<LowHigh>& value, const Range&) override {
+    if (value) list(key, {value->low, value->high});
   }
-  void turns(const char* key, const std::optional<TurningPoints>& value, const Range&) {
-    if (!value) return;
-    YAML::Node list;
-    for (const double x : {value->low, value->high}) list.push_back(format_yaml_number(x));
-    list.SetStyle(YAML::EmitterStyle::Flow);
-    map_[key] = list;
-  }
-  template <class Body>
-  void section(const char* key, Body body) {
+  void section(const char* key, const std::function<void(Fields&)>& body) override {
     Writer inner;
     body(inner);
     map_[key] = inner.map();
@@ -376,6 +337,20 @@ class Writer {
   YAML::Node map() const { return map_; }
 
  private:
+  void visit_number(const char* key, double& value, const Range&, Unset) override {
+    map_[key] = format_yaml_number(value);
+  }
+  void visit_whole_number(const char* key, double& value, double, double) override { map_[key] = whole_text(value); }
+  void visit_name(const char* key, std::size_t& index, const std::vector<std::string>& names) override {
+    map_[key] = names[index];
+  }
+  void list(const char* key, const std::vector<double>& values) {
+    YAML::Node list;
+    for (const double x : values) list.push_back(format_yaml_number(x));
+    list.SetStyle(YAML::EmitterStyle::Flow);
+    map_[key] = list;
+  }
+
   YAML::Node map_{YAML::NodeType::Map};
 };
 

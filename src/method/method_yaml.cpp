@@ -8,6 +8,7 @@
 
 namespace knot_utm {
 
+using fields::Fields;
 using fields::Writer;
 
 namespace {
@@ -29,24 +30,24 @@ void leave_out_idle_keys(const Method& m, YAML::Node& root) {
 std::string method_yaml(const Method& method) {
   Method m = method;
   Writer top;
-  top.section("specimen", [&](Writer& f) { fields::specimen(f, m.specimen); });
-  top.section("material", [&](Writer& f) { fields::material(f, m.material); });
-  top.section("machine", [&](Writer& f) {
+  top.section("specimen", [&](Fields& f) { fields::specimen(f, m.specimen); });
+  top.section("material", [&](Fields& f) { fields::material(f, m.material); });
+  top.section("machine", [&](Fields& f) {
     fields::machine(f, m.machine);
-    f.section("load_cell", [&](Writer& cell) { fields::load_cell(cell, m.machine.load_cell); });
+    f.section("load_cell", [&](Fields& cell) { fields::load_cell(cell, m.machine.load_cell); });
   });
   YAML::Node root = top.map();
   for (ProgramStep& step : m.program) {
     Writer entry;
-    entry.section(phase_name(step.phase), [&](Writer& f) { fields::step(f, step); });
+    entry.section(step->name(), [&](Fields& f) { step->keys(f, 0.0); });
     YAML::Node entry_map = entry.map();
     entry_map.SetStyle(YAML::EmitterStyle::Flow);
     root["program"].push_back(entry_map);
   }
-  top.section("ends", [&](Writer& f) { fields::ends(f, m.ends); });
-  top.section("physics", [&](Writer& f) { fields::physics(f, m.physics); });
-  top.section("analysis", [&](Writer& f) { fields::analysis(f, m.analysis); });
-  top.section("report", [&](Writer& f) { fields::report(f, m.report); });
+  top.section("ends", [&](Fields& f) { fields::ends(f, m.ends); });
+  top.section("physics", [&](Fields& f) { fields::physics(f, m.physics); });
+  top.section("analysis", [&](Fields& f) { fields::analysis(f, m.analysis); });
+  top.section("report", [&](Fields& f) { fields::report(f, m.report); });
   for (Requirement& required : m.specification) {
     Writer limits;
     fields::requirement(limits, required);

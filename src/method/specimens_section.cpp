@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"
 
@@ -86,9 +87,7 @@ std::vector<Scatter> default_scatter(const Method& method) {
   } else if (knot.about().knots > 0 && knot.has("end_to_end")) {
     add("specimen.end_to_end", kByRuler);
   }
-  const bool tied = std::any_of(method.program.begin(), method.program.end(),
-                                [](const ProgramStep& step) { return step.phase == Phase::kTie; });
-  if (tied) {
+  if (has_step<TieStep>(method.program)) {
     add("specimen.preload", kByMachine);
     add("program.tie.speed", kByHand);
   }

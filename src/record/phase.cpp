@@ -1,57 +1,58 @@
 #include "knot_utm/record/phase.hpp"
 
-#include <array>
+#include "knot_utm/record/program.hpp"
 
 namespace knot_utm {
 namespace {
 
-constexpr bool kYes = true, kNo = false;
+struct Row {
+  const char* name;
+  unsigned traits;
+};
 
-// clang-format off
-constexpr std::array<PhaseTraits, 12> kPhases{{
-    //                              step  prepares forms ends  moves pulls can_break
-    {Phase::kIdle,     "idle",      kNo,  kYes,    kNo,  kNo,  kNo,  kNo,  kNo},
-    {Phase::kTie,      "tie",       kYes, kYes,    kYes, kYes, kNo,  kNo,  kNo},
-    {Phase::kRelease,  "release",   kYes, kYes,    kYes, kYes, kNo,  kNo,  kNo},
-    {Phase::kMount,    "mount",     kYes, kYes,    kNo,  kYes, kYes, kNo,  kNo},
-    {Phase::kPreload,  "preload",   kYes, kYes,    kNo,  kNo,  kYes, kNo,  kYes},
-    {Phase::kBalance,  "balance",   kYes, kYes,    kNo,  kNo,  kNo,  kNo,  kNo},
-    {Phase::kPull,     "pull",      kYes, kNo,     kNo,  kNo,  kYes, kYes, kYes},
-    {Phase::kHold,     "hold",      kYes, kNo,     kNo,  kNo,  kNo,  kNo,  kYes},
-    {Phase::kCycle,    "cycle",     kYes, kNo,     kNo,  kNo,  kYes, kYes, kYes},
-    {Phase::kReturn,   "return",    kYes, kNo,     kNo,  kNo,  kYes, kNo,  kNo},
-    {Phase::kFollow,   "follow",    kYes, kNo,     kNo,  kNo,  kYes, kYes, kNo},
-    {Phase::kDone,     "done",      kNo,  kYes,    kNo,  kNo,  kNo,  kNo,  kNo},
-}};
-// clang-format on
-
-constexpr bool stand_in_order() {
-  for (std::size_t i = 0; i < kPhases.size(); ++i)
-    if (static_cast<std::size_t>(kPhases[i].phase) != i) return false;
-  return true;
+/// In the order of the numbers.
+const std::vector<Row>& rows() {
+  static const std::vector<Row> all = [] {
+    std::vector<Row> out{{"idle", Step::kPrepares}};
+    for (const ProgramStep& step : all_steps()) out.push_back({step->name(), step->traits()});
+    out.insert(out.begin() + static_cast<std::ptrdiff_t>(Phase::kDone), {"done", Step::kPrepares});
+    return out;
+  }();
+  return all;
 }
-static_assert(stand_in_order());
+
+const Row& row(Phase phase) {
+  const std::size_t place = static_cast<std::size_t>(phase);
+  return rows()[place < rows().size() ? place : 0];
+}
+
+bool has(Phase phase, Step::Trait trait) { return (row(phase).traits & trait) != 0; }
 
 }  // namespace
 
-const PhaseTraits& traits_of(Phase phase) {
-  const std::size_t place = static_cast<std::size_t>(phase);
-  return kPhases[place < kPhases.size() ? place : 0];
-}
+const char* phase_name(Phase phase) { return row(phase).name; }
 
 std::optional<Phase> phase_named(const std::string& name) {
-  for (const PhaseTraits& traits : kPhases)
-    if (name == traits.name) return traits.phase;
+  for (std::size_t i = 0; i < rows().size(); ++i)
+    if (name == rows()[i].name) return static_cast<Phase>(i);
   return std::nullopt;
 }
 
-std::vector<PhaseTraits> all_phases() { return {kPhases.begin(), kPhases.end()}; }
+Phase last_phase() { return static_cast<Phase>(rows().size() - 1); }
 
-std::vector<std::string> step_names() {
-  std::vector<std::string> names;
-  for (const PhaseTraits& traits : kPhases)
-    if (traits.is_step) names.emplace_back(traits.name);
-  return names;
+std::vector<Phase> all_phases() {
+  std::vector<Phase> out;
+  for (std::size_t i = 0; i < rows().size(); ++i) out.push_back(static_cast<Phase>(i));
+  return out;
 }
+
+bool prepares(Phase phase) { return has(phase, Step::kPrepares); }
+bool forms(Phase phase) { return has(phase, Step::kForms); }
+bool ends_by_itself(Phase phase) { return has(phase, Step::kEndsByItself); }
+bool rests(Phase phase) { return has(phase, Step::kRests); }
+bool moves(Phase phase) { return has(phase, Step::kMoves); }
+bool loads(Phase phase) { return has(phase, Step::kLoads); }
+bool pulls(Phase phase) { return has(phase, Step::kPulls); }
+bool can_break(Phase phase) { return has(phase, Step::kCanBreak); }
 
 }  // namespace knot_utm

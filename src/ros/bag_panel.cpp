@@ -144,7 +144,7 @@ std::string condition_of(const Sample& sample, const std::string& motion_pattern
 }
 
 void BagPanel::add(const Sample& reading, bool slides) {
-  if (traits_of(reading.phase).prepares && reading.phase != Phase::kBalance) return;
+  if (prepares(reading.phase) && reading.phase != Phase::kBalance) return;
   if (reading.balance_offset != zero_) {
     points_.clear();
     readings_ = 0;

@@ -13,6 +13,7 @@
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/raw/raw_zero.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/names.hpp"
@@ -51,7 +52,7 @@ std::string method_file(const TestWords& words, const fs::path& base) {
 /// The override by which a program follows a record instead of its last pull.
 std::string following(const std::string& data, const RecordWords& words, const Program& program) {
   const auto pull = std::find_if(program.rbegin(), program.rend(),
-                                 [](const ProgramStep& step) { return step.phase == Phase::kPull; });
+                                 [](const ProgramStep& step) { return step.as<PullStep>() != nullptr; });
   if (pull == program.rend())
     throw InvalidInput::sentence(
         "data", data,

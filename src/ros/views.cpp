@@ -18,7 +18,7 @@ void follow(Look& look, const Look& wanted) {
 }
 
 /// Before these the specimen is another thing to look at than after them.
-bool looks_anew(Phase phase) { return phase == Phase::kTie || phase == Phase::kRelease || phase == Phase::kMount; }
+bool looks_anew(Phase phase) { return ends_by_itself(phase); }
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/raw/raw_zero.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/verdict/verdict.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr double kArmingFraction = 0.02;  // of the cell's capacity
 
 /// A record that is faster than any testing machine is in other units than it says, or is none.
-void check_speed(const ProgramStep& step, const std::string& key) {
+void check_speed(const FollowStep& step, const std::string& key) {
   for (std::size_t i = 1; i < step.recorded.size(); ++i) {
     const RecordedPlace &from = step.recorded[i - 1], &to = step.recorded[i];
     const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
@@ -32,7 +33,7 @@ void check_speed(const ProgramStep& step, const std::string& key) {
 
 /// Reads the motion of the crosshead that a step follows, from the record of another test (curve.csv or raw data).
 /// `follow`: the key of the step.
-void read_record(const std::string& follow, ProgramStep& step, const Tell& tell) {
+void read_record(const std::string& follow, FollowStep& step, const Tell& tell) {
   const std::string key = follow + ".record";
   const RawSpelling spelling{follow + ".", ": ", false};
   const RawOptions options = raw_options(step.words, spelling);
@@ -58,8 +59,8 @@ void read_record(const std::string& follow, ProgramStep& step, const Tell& tell)
 /// Reads the records that have not been read yet.
 void read_records(Program& program, const Tell& tell) {
   for (std::size_t i = 0; i < program.size(); ++i)
-    if (program[i].phase == Phase::kFollow && program[i].recorded.empty())
-      read_record("program." + std::to_string(i) + ".follow", program[i], tell);
+    if (FollowStep* follow = program[i].as<FollowStep>(); follow && follow->recorded.empty())
+      read_record("program." + std::to_string(i) + ".follow", *follow, tell);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/run/cannot_write.hpp"
 #include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/samples.hpp"
@@ -99,9 +100,10 @@ std::string method_file_text(const Method& method) {
 void require_no_record_in(const std::string& folder, const Method& method) {
   std::error_code error;
   for (const ProgramStep& step : method.program)
-    if (step.phase == Phase::kFollow && fs::equivalent(fs::path(step.record).parent_path(), folder, error))
+    if (const FollowStep* follow = step.as<FollowStep>();
+        follow && fs::equivalent(fs::path(follow->record).parent_path(), folder, error))
       throw InvalidInput::sentence("--out", folder,
-                                   "the method follows " + shown(step.record) + ", which stands in the folder " +
+                                   "the method follows " + shown(follow->record) + ", which stands in the folder " +
                                        shown(folder) + " itself: choose another folder to write to");
 }
 

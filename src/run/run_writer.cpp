@@ -97,7 +97,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   known_.inertia = inertia_of(method);
   for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
   for (const ProgramStep& step : method.program)
-    if (pulls(step.phase)) known_.pull_speed = std::max(known_.pull_speed, step.speed);
+    if (pulls(step->phase())) known_.pull_speed = std::max(known_.pull_speed, step->speed);
   known_.specification = method.specification;
   known_.version = version();
 }

@@ -1,5 +1,3 @@
-#include "knot_utm/specimen/capstan.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "shape_checks.hpp"
@@ -64,6 +63,12 @@ class Winding {
   Mat3 tilt_;
 };
 
+/// T1 [N]; `specimen.tail_load: auto` is k_b/h^2, but at most k_s/100.
+double tail_load(const SpecimenOptions& specimen, const Material& material) {
+  return specimen.tail_load.value_or(
+      std::min(specimen_scales(material).force, kTailStrain * material.stretching_stiffness));
+}
+
 /// A load that the rod can bear, and a stretch that the drawn shape, which has none, can reach.
 void check_tail_load(const SpecimenOptions& specimen, const Material& material) {
   const double load = tail_load(specimen, material);
@@ -85,64 +90,72 @@ KnotDescription describe_capstan() {
   return out;
 }
 
+/// knot: capstan. A rod lies around a fixed post by the angle `wrap` [rad]. A dead load T1, `tail_load` [N], pulls at
+/// its first node along the `tail` [m], as a weight does over a pulley that turns freely. The upper grip pulls its last
+/// node along +z with T2. A rod without bending stiffness that slides has T2/T1 = exp(mu wrap), mu being
+/// `machine.roller_friction`.
+///
+/// The rod's centreline lies on a circle of radius rho = post_diameter/2 + h around the post's axis, which goes through
+/// the origin along y. Beyond half a turn the tails would cross. The rod then lies on a helix of pitch 4 h, whose
+/// tangents turn by `wrap` in all, and the axis is tilted so that the strand to the grip still runs along z.
+class CapstanSpecimen final : public Knot {
+ public:
+  CapstanSpecimen() : Knot(describe_capstan()) {}
+
+  SpecimenOptions defaults(double h) const override {
+    SpecimenOptions out;
+    out.edge_length = kPaperEdge * (h / kPaperRadius);
+    out.post_diameter = kPost * h;
+    out.tail = out.end_to_end = kStrand * h;
+    return out;
+  }
+
+  void suit(const SpecimenOptions& known, double, double h, SpecimenOptions& out) const override {
+    out.edge_length = std::min(kPaperEdge * (h / kPaperRadius), bend_radius(known, h) / kEdgesARadian);
+    out.tail = std::max(kStrand * h, pull(known, h) + kBeyondPull * h);
+  }
+
+  std::optional<double> longest_pull(const SpecimenOptions& specimen, double h) const override {
+    return specimen.tail - kLeastTail * h;
+  }
+
+  double pull(const SpecimenOptions& specimen, double h) const override { return kPull * bend_radius(specimen, h); }
+
+  void check(const SpecimenOptions& specimen, double h) const override {
+    const double longest = bend_radius(specimen, h) / kFewestARadian;
+    if (specimen.edge_length > longest)
+      throw InvalidInput("specimen.edge_length", text(specimen.edge_length),
+                         "at most " + most_text(longest) + " m, half the radius of the bend around the post");
+  }
+
+  Centreline centreline(const SpecimenOptions& specimen, const Material& material, const Mounting&) const override {
+    check_tail_load(specimen, material);
+    const Winding winding(specimen, material.radius);
+    const double length = specimen.tail + winding.length() + specimen.end_to_end;
+    const int edges = std::max(4, static_cast<int>(std::lround(length / specimen.edge_length)));
+    Centreline out;
+    out.points.resize(3, edges + 1);
+    for (int i = 0; i <= edges; ++i) out.points.col(i) = winding.at(length * (edges - i) / edges - specimen.end_to_end);
+    return out;
+  }
+
+  Supports supports(const SpecimenOptions& specimen, const Material& material) const override {
+    const Winding winding(specimen, material.radius);
+    Supports out;
+    Roller post;
+    post.axis = winding.axis();
+    post.radius = 0.5 * specimen.post_diameter;
+    out.posts.push_back(post);
+    out.loads.push_back({0, -tail_load(specimen, material) * winding.tangent(winding.length())});
+    return out;
+  }
+};
+
 }  // namespace
 
-double tail_load(const SpecimenOptions& specimen, const Material& material) {
-  return specimen.tail_load.value_or(
-      std::min(specimen_scales(material).force, kTailStrain * material.stretching_stiffness));
-}
-
-CapstanSpecimen::CapstanSpecimen() : Knot(describe_capstan()) {}
-
-SpecimenOptions CapstanSpecimen::defaults(double h) const {
-  SpecimenOptions out;
-  out.edge_length = kPaperEdge * (h / kPaperRadius);
-  out.post_diameter = kPost * h;
-  out.tail = out.end_to_end = kStrand * h;
-  return out;
-}
-
-void CapstanSpecimen::suit(const SpecimenOptions& known, double, double h, SpecimenOptions& out) const {
-  out.edge_length = std::min(kPaperEdge * (h / kPaperRadius), bend_radius(known, h) / kEdgesARadian);
-  out.tail = std::max(kStrand * h, pull(known, h) + kBeyondPull * h);
-}
-
-std::optional<double> CapstanSpecimen::longest_pull(const SpecimenOptions& specimen, double h) const {
-  return specimen.tail - kLeastTail * h;
-}
-
-double CapstanSpecimen::pull(const SpecimenOptions& specimen, double h) const {
-  return kPull * bend_radius(specimen, h);
-}
-
-void CapstanSpecimen::check(const SpecimenOptions& specimen, double h) const {
-  const double longest = bend_radius(specimen, h) / kFewestARadian;
-  if (specimen.edge_length > longest)
-    throw InvalidInput("specimen.edge_length", text(specimen.edge_length),
-                       "at most " + most_text(longest) + " m, half the radius of the bend around the post");
-}
-
-Centreline CapstanSpecimen::centreline(const SpecimenOptions& specimen, const Material& material,
-                                       const Mounting&) const {
-  check_tail_load(specimen, material);
-  const Winding winding(specimen, material.radius);
-  const double length = specimen.tail + winding.length() + specimen.end_to_end;
-  const int edges = std::max(4, static_cast<int>(std::lround(length / specimen.edge_length)));
-  Centreline out;
-  out.points.resize(3, edges + 1);
-  for (int i = 0; i <= edges; ++i) out.points.col(i) = winding.at(length * (edges - i) / edges - specimen.end_to_end);
-  return out;
-}
-
-Supports CapstanSpecimen::supports(const SpecimenOptions& specimen, const Material& material) const {
-  const Winding winding(specimen, material.radius);
-  Supports out;
-  Roller post;
-  post.axis = winding.axis();
-  post.radius = 0.5 * specimen.post_diameter;
-  out.posts.push_back(post);
-  out.loads.push_back({0, -tail_load(specimen, material) * winding.tangent(winding.length())});
-  return out;
+const Knot& capstan() {
+  static const CapstanSpecimen knot;
+  return knot;
 }
 
 }  // namespace knot_utm

@@ -32,24 +32,22 @@ int Centreline::nearest_node(double arclength) const {
 
 void check_no_overlap(const Centreline& centreline, double radius, const char* key, const std::string& value) {
   const Points& points = centreline.points;
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidInput::sentence(key, value, std::string(key) + " " + shown(value) + ": " + why);
+  };
   const NearestPlaces nearest = nearest_places(points, 1.5 * M_PI * radius, centreline.closed);
-  if (nearest.distance < 2.0 * radius) {
-    throw InvalidInput::sentence(key, value,
-                                 std::string(key) + " " + shown(value) + ": strands overlap at " + text(nearest.first) +
-                                     " m and " + text(nearest.second) + " m along the rod, where they are " +
-                                     text(nearest.distance) + " m apart, but must be at least a diameter apart, " +
-                                     text(2.0 * radius) + " m");
-  }
+  if (nearest.distance < 2.0 * radius)
+    refuse("strands overlap at " + text(nearest.first) + " m and " + text(nearest.second) +
+           " m along the rod, where they are " + text(nearest.distance) +
+           " m apart, but must be at least a diameter apart, " + text(2.0 * radius) + " m");
   if (const std::optional<Tunnelling> passage = TunnellingSearch(points.cols()).find(points, points)) {
     const std::vector<double> at = arclengths(points);
     auto place = [&](int edge, double fraction) {
       const auto i = static_cast<std::size_t>(edge);
       return text(at[i] + fraction * (at[i + 1] - at[i]));
     };
-    throw InvalidInput::sentence(key, value,
-                                 std::string(key) + " " + shown(value) + ": the rod runs through itself at " +
-                                     place(passage->edge_a, passage->on_a) + " m and " +
-                                     place(passage->edge_b, passage->on_b) + " m along it");
+    refuse("the rod runs through itself at " + place(passage->edge_a, passage->on_a) + " m and " +
+           place(passage->edge_b, passage->on_b) + " m along it");
   }
 }
 
@@ -70,37 +68,26 @@ Centreline straight(double length, double radius, double edge_length) {
 Centreline from_points(const Points& points, bool closed, double radius, double edge_length, const std::string& name) {
   check_radius(radius);
   check_edge_length(edge_length, radius);
-  if (!points.allFinite())
-    throw InvalidInput::sentence("specimen.file", name,
-                                 "specimen.file " + shown(name) + " has a point that is not finite");
-  if (points.cols() < (closed ? 3 : 2)) {
-    throw InvalidInput::sentence("specimen.file", name,
-                                 "specimen.file " + shown(name) + " has " + std::to_string(points.cols()) +
-                                     " points, but must have " + (closed ? "three or more" : "two or more"));
-  }
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidInput::sentence("specimen.file", name, "specimen.file " + shown(name) + why);
+  };
+  if (!points.allFinite()) refuse(" has a point that is not finite");
+  if (points.cols() < (closed ? 3 : 2))
+    refuse(" has " + std::to_string(points.cols()) + " points, but must have " +
+           (closed ? "three or more" : "two or more"));
   const bool add_first = closed && points.leftCols(1) != points.rightCols(1);
   Points way(3, points.cols() + (add_first ? 1 : 0));
   way.leftCols(points.cols()) = points;
   if (add_first) way.rightCols(1) = points.leftCols(1);
-  for (Eigen::Index i = 1; i < way.cols(); ++i) {
-    if (way.col(i) == way.col(i - 1)) {
-      throw InvalidInput::sentence("specimen.file", name,
-                                   "specimen.file " + shown(name) + ": points " + std::to_string(i) + " and " +
-                                       std::to_string(i + 1) + " are the same; leave one of them out");
-    }
-  }
+  for (Eigen::Index i = 1; i < way.cols(); ++i)
+    if (way.col(i) == way.col(i - 1))
+      refuse(": points " + std::to_string(i) + " and " + std::to_string(i + 1) +
+             " are the same; leave one of them out");
   const double length = (way.rightCols(way.cols() - 1) - way.leftCols(way.cols() - 1)).colwise().norm().sum();
-  if (!(length >= 4.0 * edge_length)) {
-    throw InvalidInput::sentence("specimen.file", name,
-                                 "specimen.file " + shown(name) + " is a rod of " + text(length) +
-                                     " m, but must be at least four edges long, " + text(4.0 * edge_length) + " m");
-  }
-  if (!(length <= kMostEdges * edge_length)) {
-    throw InvalidInput::sentence("specimen.file", name,
-                                 "specimen.file " + shown(name) + " is a rod of " + text(length) +
-                                     " m, but must be at most " + text(kMostEdges) + " edges long, " +
-                                     text(kMostEdges * edge_length) + " m");
-  }
+  const std::string rod = " is a rod of " + text(length) + " m, but must be at ";
+  if (!(length >= 4.0 * edge_length)) refuse(rod + "least four edges long, " + text(4.0 * edge_length) + " m");
+  if (!(length <= kMostEdges * edge_length))
+    refuse(rod + "most " + text(kMostEdges) + " edges long, " + text(kMostEdges * edge_length) + " m");
   Centreline centreline;
   centreline.closed = closed;
   centreline.points = resample_evenly(way, edge_length);

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
@@ -245,6 +248,20 @@ EdgeGrading grading_of(const FishermanShape& shape, const Coil& coil, const Draw
   return grading;
 }
 
+/// Distance that a knot of several windings may run outwards, as it tightens, beyond that of a single winding [m]. Its
+/// coils are drawn with the radius R = looseness h. Three strands run through a tight coil, each against the other two:
+/// standing part, threaded strand and tail. Its centreline therefore has the radius (2 + 2/sqrt 3) h, and each winding
+/// gives up
+///
+///     2 pi (R - (2 + 2/sqrt 3) h)
+///
+/// of the rod, half of it to the standing part and half to the tail, as friction is the same towards both. Where the
+/// standing part is held, the knot runs outwards by its half.
+double runs_out(int windings, double looseness, double h) {
+  const double tight = 2.0 + 2.0 / std::sqrt(3.0);
+  return M_PI * (looseness - tight) * h * (windings - 1);
+}
+
 /// `way` leads from `middle`, where the knot's own strand begins, to its tail: 1 or -1 along the rod. `threaded`: where
 /// this knot's coil holds the other end's strand.
 KnotLandmarks landmarks_of(const FishermanShape& shape, const Resampled& rod, const KnotMarks& marks, double middle,
@@ -262,11 +279,6 @@ KnotLandmarks landmarks_of(const FishermanShape& shape, const Resampled& rod, co
 }
 
 }  // namespace
-
-double runs_out(int windings, double looseness, double h) {
-  const double tight = 2.0 + 2.0 / std::sqrt(3.0);
-  return M_PI * (looseness - tight) * h * (windings - 1);
-}
 
 Centreline fisherman_loop(const FishermanShape& shape) {
   check_fisherman(shape);
@@ -321,86 +333,139 @@ double least_end_to_end(double knot_distance, double roller_diameter, double h) 
   return std::max(between, roller_diameter + 4.0 * h);
 }
 
+/// knot: fisherman.
+class FishermanKnot : public Knot {
+ public:
+  FishermanKnot() : FishermanKnot(description()) {}
+
+  SpecimenOptions defaults(double h) const override {
+    const double r = h / kPaperRadius;
+    SpecimenOptions out;
+    out.edge_length = kPaperKnottedEdge * r;
+    out.knot_distance = kKnotDistance * r;
+    out.end_to_end = kEndToEnd * r;
+    out.tail = kTail * r;
+    return out;
+  }
+
+  void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override {
+    const double r = h / kPaperRadius, e = known.knot_distance;
+    out.knot_distance = std::min(kKnotDistance * r, kFractionOfLoop * known.end_to_end);
+    // What further windings take up: of the strands outside of both coils, and of the tails.
+    const double longer = 2.0 * runs_out(windings(known), FishermanShape().looseness, h);
+    const bool roomy = kEndToEnd * r >= e + 12.0 * h + longer && roller_diameter <= kRollerDiameter * r;
+    if (!roomy) out.end_to_end = std::max(kEndToEnd * r, least_end_to_end(e, roller_diameter, h) + longer);
+    out.tail = kTail * r * windings(known);
+  }
+
+  std::optional<double> roller_diameter(double h) const override { return kRollerDiameter * (h / kPaperRadius); }
+
+  double pull(const SpecimenOptions& specimen, double h) const override {
+    return std::max(kWay * (h / kPaperRadius), kWayOfDistance * specimen.knot_distance);
+  }
+
+  void check(const SpecimenOptions& specimen, double h) const override {
+    // Coarse: room for the coils themselves. The shape that is really laid judges itself.
+    if (specimen.knot_distance < kLeastDistance * h)
+      throw InvalidInput("specimen.knot_distance", format_number(specimen.knot_distance),
+                         "at least 12 radii, " + least_text(kLeastDistance * h) + " m");
+    if (specimen.end_to_end < specimen.knot_distance + 12.0 * h)
+      throw InvalidInput(
+          "specimen.end_to_end", format_number(specimen.end_to_end),
+          "at least knot_distance plus 12 radii, " + least_text(specimen.knot_distance + 12.0 * h) + " m");
+  }
+
+  Centreline centreline(const SpecimenOptions& specimen, const Material& material,
+                        const Mounting& mounting) const override {
+    FishermanShape shape;
+    shape.radius = material.radius;
+    shape.knot_distance = specimen.knot_distance;
+    shape.windings = windings(specimen);
+    if (specimen.to_be_tied && mounting.rollers)
+      shape.straight =
+          TyingRig::straight_strand(material.radius, runs_out(shape.windings, shape.looseness, material.radius));
+    shape.outward_shift = specimen.to_be_tied ? outward_shift(specimen, material, shape.windings) : 0.0;
+    shape.end_to_end = specimen.end_to_end;
+    shape.roller_radius = 0.5 * mounting.roller_diameter;
+    shape.tail = specimen.tail;
+    shape.handedness = specimen.handedness;
+    shape.edge_length = specimen.edge_length;
+    shape.refinement = mounting.refinement;
+    shape.coarsening = kCoarsening;
+    return fisherman_loop(shape);
+  }
+
+  /// The bottom and the top of the loop.
+  HeldNode held_below(const Centreline& centreline, bool) const override {
+    const int node = centreline.nearest_node(centreline.lower_apex);
+    return {node, node + 1};
+  }
+
+  HeldNode held_above(const Centreline& centreline, bool) const override {
+    const int node = centreline.nearest_node(centreline.upper_apex);
+    return {node, node + 1};
+  }
+
+ protected:
+  /// Another knot of the same loop.
+  explicit FishermanKnot(KnotDescription about) : Knot(std::move(about)) {}
+  static KnotDescription description() {
+    KnotDescription out;
+    out.name = "fisherman";
+    out.title = "Fisherman's knot";
+    out.keys = {"handedness", "knot_distance", "end_to_end", "tail", "preload", "refinement"};
+    out.knots = 2;
+    out.loop = true;
+    out.drawn_coil = FishermanShape().looseness;
+    out.error_study = ErrorStudy::kFisherman;
+    return out;
+  }
+
+ private:
+  /// How often each tail is wound around.
+  virtual int windings(const SpecimenOptions&) const { return 1; }
+};
+
+/// knot: multiple_fisherman. The double fisherman's knot (grapevine) and those with more windings: the loop of the
+/// fisherman's knot, with each tail wound `turns` times around the other strand and itself before it goes through.
+class MultipleFishermanKnot final : public FishermanKnot {
+ public:
+  MultipleFishermanKnot() : FishermanKnot(description()) {}
+
+  SpecimenOptions defaults(double h) const override {
+    SpecimenOptions out = FishermanKnot::defaults(h);
+    out.turns = 2;
+    return out;
+  }
+  void check(const SpecimenOptions& specimen, double h) const override {
+    if (specimen.turns < 2 || specimen.turns > 3)
+      throw InvalidInput("specimen.turns", std::to_string(specimen.turns),
+                         "2 or 3; knot: fisherman winds its tails once");
+    FishermanKnot::check(specimen, h);
+  }
+
+ private:
+  static KnotDescription description() {
+    KnotDescription out = FishermanKnot::description();
+    out.name = "multiple_fisherman";
+    out.title = "Multiple fisherman's knot";
+    out.keys.insert(out.keys.begin(), "turns");
+    out.error_study = ErrorStudy::kNone;
+    return out;
+  }
+  int windings(const SpecimenOptions& specimen) const override { return specimen.turns; }
+};
+
 }  // namespace
 
-FishermanKnot::FishermanKnot() : FishermanKnot(description()) {}
-
-KnotDescription FishermanKnot::description() {
-  KnotDescription out;
-  out.name = "fisherman";
-  out.title = "Fisherman's knot";
-  out.keys = {"handedness", "knot_distance", "end_to_end", "tail", "preload", "refinement"};
-  out.knots = 2;
-  out.loop = true;
-  out.drawn_coil = FishermanShape().looseness;
-  out.error_study = ErrorStudy::kFisherman;
-  return out;
+const Knot& fisherman_knot() {
+  static const FishermanKnot knot;
+  return knot;
 }
 
-SpecimenOptions FishermanKnot::defaults(double h) const {
-  const double r = h / kPaperRadius;
-  SpecimenOptions out;
-  out.edge_length = kPaperKnottedEdge * r;
-  out.knot_distance = kKnotDistance * r;
-  out.end_to_end = kEndToEnd * r;
-  out.tail = kTail * r;
-  return out;
-}
-
-void FishermanKnot::suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const {
-  const double r = h / kPaperRadius, e = known.knot_distance;
-  out.knot_distance = std::min(kKnotDistance * r, kFractionOfLoop * known.end_to_end);
-  // What further windings take up: of the strands outside of both coils, and of the tails.
-  const double longer = 2.0 * runs_out(windings(known), FishermanShape().looseness, h);
-  const bool roomy = kEndToEnd * r >= e + 12.0 * h + longer && roller_diameter <= kRollerDiameter * r;
-  if (!roomy) out.end_to_end = std::max(kEndToEnd * r, least_end_to_end(e, roller_diameter, h) + longer);
-  out.tail = kTail * r * windings(known);
-}
-
-std::optional<double> FishermanKnot::roller_diameter(double h) const { return kRollerDiameter * (h / kPaperRadius); }
-
-double FishermanKnot::pull(const SpecimenOptions& specimen, double h) const {
-  return std::max(kWay * (h / kPaperRadius), kWayOfDistance * specimen.knot_distance);
-}
-
-void FishermanKnot::check(const SpecimenOptions& specimen, double h) const {
-  // Coarse: room for the coils themselves. The shape that is really laid judges itself.
-  if (specimen.knot_distance < kLeastDistance * h)
-    throw InvalidInput("specimen.knot_distance", format_number(specimen.knot_distance),
-                       "at least 12 radii, " + least_text(kLeastDistance * h) + " m");
-  if (specimen.end_to_end < specimen.knot_distance + 12.0 * h)
-    throw InvalidInput("specimen.end_to_end", format_number(specimen.end_to_end),
-                       "at least knot_distance plus 12 radii, " + least_text(specimen.knot_distance + 12.0 * h) + " m");
-}
-
-Centreline FishermanKnot::centreline(const SpecimenOptions& specimen, const Material& material,
-                                     const Mounting& mounting) const {
-  FishermanShape shape;
-  shape.radius = material.radius;
-  shape.knot_distance = specimen.knot_distance;
-  shape.windings = windings(specimen);
-  if (specimen.to_be_tied && mounting.rollers)
-    shape.straight =
-        TyingRig::straight_strand(material.radius, runs_out(shape.windings, shape.looseness, material.radius));
-  shape.outward_shift = specimen.to_be_tied ? outward_shift(specimen, material, shape.windings) : 0.0;
-  shape.end_to_end = specimen.end_to_end;
-  shape.roller_radius = 0.5 * mounting.roller_diameter;
-  shape.tail = specimen.tail;
-  shape.handedness = specimen.handedness;
-  shape.edge_length = specimen.edge_length;
-  shape.refinement = mounting.refinement;
-  shape.coarsening = kCoarsening;
-  return fisherman_loop(shape);
-}
-
-HeldNode FishermanKnot::held_below(const Centreline& centreline, bool) const {
-  const int node = centreline.nearest_node(centreline.lower_apex);
-  return {node, node + 1};
-}
-
-HeldNode FishermanKnot::held_above(const Centreline& centreline, bool) const {
-  const int node = centreline.nearest_node(centreline.upper_apex);
-  return {node, node + 1};
+const Knot& multiple_fisherman_knot() {
+  static const MultipleFishermanKnot knot;
+  return knot;
 }
 
 }  // namespace knot_utm

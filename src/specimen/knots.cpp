@@ -2,25 +2,22 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
-#include "knot_utm/specimen/capstan.hpp"
-#include "knot_utm/specimen/drawn_rod.hpp"
-#include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
-#include "knot_utm/specimen/multiple_fisherman.hpp"
-#include "knot_utm/specimen/overhand.hpp"
-#include "knot_utm/specimen/straight_rod.hpp"
 
 namespace knot_utm {
 
+// Each is defined in a file of this folder.
+const Knot& fisherman_knot();
+const Knot& multiple_fisherman_knot();
+const Knot& overhand_knot();
+const Knot& straight_rod();
+const Knot& drawn_rod();
+const Knot& capstan();
+
 const std::vector<const Knot*>& knots() {
-  static const FishermanKnot fisherman;
-  static const MultipleFishermanKnot multiple_fisherman;
-  static const OverhandKnot overhand;
-  static const StraightRod straight;
-  static const DrawnRod file;
-  static const CapstanSpecimen capstan;
-  static const std::vector<const Knot*> all = {&fisherman, &multiple_fisherman, &overhand, &straight, &file, &capstan};
+  static const std::vector<const Knot*> all = {
+      &fisherman_knot(), &multiple_fisherman_knot(), &overhand_knot(), &straight_rod(), &drawn_rod(), &capstan()};
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "path.hpp"
@@ -161,15 +162,6 @@ double fitting_loop(const OverhandShape& shape, double spacing) {
                               {largest_loop(shape, smallest), longest + shape.end_to_end - shape.length}, spacing);
 }
 
-KnotDescription describe_overhand() {
-  KnotDescription out;
-  out.name = "overhand";
-  out.title = "Overhand knot";
-  out.keys = {"turns", "length", "end_to_end", "refinement"};
-  out.knots = 1;
-  return out;
-}
-
 }  // namespace
 
 Centreline overhand(const OverhandShape& shape) {
@@ -182,46 +174,69 @@ Centreline overhand(const OverhandShape& shape) {
   return centreline;
 }
 
-OverhandKnot::OverhandKnot() : Knot(describe_overhand()) {}
+namespace {
 
-SpecimenOptions OverhandKnot::defaults(double h) const {
-  const double r = h / kPaperRadius;
-  SpecimenOptions out;
-  out.edge_length = kPaperKnottedEdge * r;
-  out.length = kLength * r;
-  out.end_to_end = kEndToEnd * out.length;
+KnotDescription describe_overhand() {
+  KnotDescription out;
+  out.name = "overhand";
+  out.title = "Overhand knot";
+  out.keys = {"turns", "length", "end_to_end", "refinement"};
+  out.knots = 1;
   return out;
 }
 
-void OverhandKnot::suit(const SpecimenOptions& known, double, double h, SpecimenOptions& out) const {
-  const double r = h / kPaperRadius, length = known.length, least = taken_up(known.turns, h);
-  const double loose = (1.0 - kEndToEnd) * length;
-  out.end_to_end = loose >= least ? kEndToEnd * length : length - least;
-  const double end_to_end = known.end_to_end;
-  const bool is_default = end_to_end == kEndToEnd * kLength * r;  // it makes room for the knot itself
-  if (!is_default && kLength * r - end_to_end < least)
-    out.length = end_to_end + std::max((1.0 - kEndToEnd) * kLength * r, least);
-}
+/// knot: overhand.
+class OverhandKnot final : public Knot {
+ public:
+  OverhandKnot() : Knot(describe_overhand()) {}
 
-double OverhandKnot::pull(const SpecimenOptions& specimen, double) const { return specimen.length / 10.0; }
+  SpecimenOptions defaults(double h) const override {
+    const double r = h / kPaperRadius;
+    SpecimenOptions out;
+    out.edge_length = kPaperKnottedEdge * r;
+    out.length = kLength * r;
+    out.end_to_end = kEndToEnd * out.length;
+    return out;
+  }
 
-void OverhandKnot::check(const SpecimenOptions& specimen, double) const {
-  if (specimen.end_to_end >= specimen.length)
-    throw InvalidInput("specimen.end_to_end", format_number(specimen.end_to_end),
-                       "less than length, " + format_number(specimen.length) + " m");
-  check_edges_of_length(specimen);
-}
+  void suit(const SpecimenOptions& known, double, double h, SpecimenOptions& out) const override {
+    const double r = h / kPaperRadius, length = known.length, least = taken_up(known.turns, h);
+    const double loose = (1.0 - kEndToEnd) * length;
+    out.end_to_end = loose >= least ? kEndToEnd * length : length - least;
+    const double end_to_end = known.end_to_end;
+    const bool is_default = end_to_end == kEndToEnd * kLength * r;  // it makes room for the knot itself
+    if (!is_default && kLength * r - end_to_end < least)
+      out.length = end_to_end + std::max((1.0 - kEndToEnd) * kLength * r, least);
+  }
 
-Centreline OverhandKnot::centreline(const SpecimenOptions& specimen, const Material& material,
-                                    const Mounting& mounting) const {
-  OverhandShape shape;
-  shape.radius = material.radius;
-  shape.turns = specimen.turns;
-  shape.length = specimen.length;
-  shape.end_to_end = specimen.end_to_end;
-  shape.edge_length = specimen.edge_length;
-  shape.refinement = mounting.refinement;
-  return overhand(shape);
+  double pull(const SpecimenOptions& specimen, double) const override { return specimen.length / 10.0; }
+
+  void check(const SpecimenOptions& specimen, double) const override {
+    if (specimen.end_to_end >= specimen.length)
+      throw InvalidInput("specimen.end_to_end", format_number(specimen.end_to_end),
+                         "less than length, " + format_number(specimen.length) + " m");
+    check_edges_of_length(specimen);
+  }
+
+  Centreline centreline(const SpecimenOptions& specimen, const Material& material,
+                        const Mounting& mounting) const override {
+    OverhandShape shape;
+    shape.radius = material.radius;
+    shape.turns = specimen.turns;
+    shape.length = specimen.length;
+    shape.end_to_end = specimen.end_to_end;
+    shape.edge_length = specimen.edge_length;
+    shape.refinement = mounting.refinement;
+    return overhand(shape);
+  }
+  std::string what_keeps_it() const override { return "a larger specimen.end_to_end"; }
+};
+
+}  // namespace
+
+const Knot& overhand_knot() {
+  static const OverhandKnot knot;
+  return knot;
 }
 
 }  // namespace knot_utm

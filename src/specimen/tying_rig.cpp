@@ -240,31 +240,25 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
         enter(Stage::kTied, time);
       }
       break;
-    case Stage::kTailsRamp:
-      if (elapsed >= ramp_time_) enter(Stage::kTailsRest, time);
-      break;
     case Stage::kTailsRest:
       if (waited_for_rest(stepper, time, stage_begin_, "the tails were released")) {
         for (Clamp& clamp : clamps_) clamp.reaction = stepper.readings().reaction(clamp.node);
         enter(Stage::kClampsRamp, time);
       }
       break;
-    case Stage::kClampsRamp:
-      if (elapsed >= ramp_time_) enter(Stage::kClampsRest, time);
-      break;
     case Stage::kClampsRest:
       if (elapsed >= ramp_time_ && waited_for_rest(stepper, time, stage_begin_, "the clamps were released")) {
         enter(Stage::kReleased, time);
       }
       break;
+    case Stage::kTailsRamp:
+    case Stage::kClampsRamp:
+    case Stage::kPuttingOn:
+    case Stage::kGuidesRamp:
+      if (elapsed >= ramp_time_) enter(static_cast<Stage>(static_cast<int>(stage_) + 1), time);
+      break;
     case Stage::kLettingGo:
       if (elapsed >= ramp_time_) enter(Stage::kReleased, time);
-      break;
-    case Stage::kPuttingOn:
-      if (elapsed >= ramp_time_) enter(Stage::kGuided, time);
-      break;
-    case Stage::kGuidesRamp:
-      if (elapsed >= ramp_time_) enter(Stage::kFree, time);
       break;
     case Stage::kIdle:
     case Stage::kTied:

@@ -14,7 +14,6 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
-#include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/specimens.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
@@ -123,14 +122,6 @@ class SideBySide {
   std::string fault_;
 };
 
-ClaimedFolder folder_of_batch(const BatchOptions& options) {
-  const std::string& asked = options.folder;
-  if (options.resume || options.overwrite) return ClaimedFolder(asked);
-  ClaimedFolder claimed = ClaimedFolder::first_free(asked);
-  if (claimed.path() != asked) options.tell(moved_notice(asked, claimed.path()));
-  return claimed;
-}
-
 /// Removes the specimens of an earlier batch that is written over.
 void remove_specimens(const std::string& folder) {
   std::error_code error;
@@ -154,7 +145,7 @@ BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
                                  "cannot resume " + shown(options.folder) + ": all of its specimens have been tested");
   const std::vector<DrawnSpecimen> specimens = draw_specimens(method);
   require_no_record_in(options.folder, method);
-  const ClaimedFolder claimed = folder_of_batch(options);
+  const ClaimedFolder claimed = options.resume ? ClaimedFolder(options.folder) : options.claim();
   if (options.overwrite && !options.resume) remove_specimens(claimed.path());
   if (!options.resume) begin_run_folder(claimed.path(), method);
   SideBySide tests(claimed.path(), specimens, options);

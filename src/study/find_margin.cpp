@@ -10,6 +10,7 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -22,13 +23,14 @@ constexpr double kPulledPart = 0.2;  // of the first knot distance
 Program beginning(const Program& program, double extension) {
   Program out;
   for (const ProgramStep& step : program) {
+    if (pulls(step->phase())) {
+      PullStep pull;
+      pull.speed = step->speed;
+      pull.until.extension = extension;
+      out.emplace_back(pull);
+      break;
+    }
     out.push_back(step);
-    if (!pulls(step.phase)) continue;
-    out.back() = ProgramStep{};
-    out.back().phase = Phase::kPull;
-    out.back().speed = step.speed;
-    out.back().until.extension = extension;
-    break;
   }
   return out;
 }

@@ -124,7 +124,7 @@ std::optional<int> step_to_stop_before(const Arguments& arguments, const Method&
   if (step && *step > 0) return step;
   std::vector<std::string> steps;
   for (std::size_t i = 0; i < method.program.size(); ++i)
-    steps.push_back(std::to_string(i) + " " + phase_name(method.program[i].phase));
+    steps.push_back(std::to_string(i) + " " + method.program[i]->name());
   throw InvalidInput::sentence("--stop-before", arguments.stop_before,
                                "--stop-before " + shown(arguments.stop_before) +
                                    " names no step to stop before: give the number of a step from 1 on, or a name that "
@@ -292,9 +292,9 @@ void add_listing(CLI::App& app, const char* name, std::string (*table)(), const 
 
 std::string phases_csv() {
   std::string text = "name,prepares,forms,pulls\n";
-  for (const PhaseTraits& one : all_phases())
-    text += std::string(one.name) + (one.prepares ? ",1" : ",0") + (one.forms ? ",1" : ",0") +
-            (one.pulls ? ",1\n" : ",0\n");
+  for (const Phase one : all_phases())
+    text += std::string(phase_name(one)) + (prepares(one) ? ",1" : ",0") + (forms(one) ? ",1" : ",0") +
+            (pulls(one) ? ",1\n" : ",0\n");
   return text;
 }
 

@@ -6,7 +6,10 @@
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -72,32 +75,30 @@ void add_never_reached(const Method& method, std::vector<std::string>& all) {
   };
   const double travel = method.machine.travel;
   const EndOptions& ends = method.ends;
-  const auto extension = [&](const std::string& key, const std::optional<double>& asked) {
-    never(key + ".extension", asked, travel, " m",
-          "the crosshead is at the end of machine.travel, " + short_number(travel) + " m");
-  };
-  const auto load = [&](const std::string& key, const std::optional<double>& asked) {
-    never(key + ".load", asked, ends.load, " N",
-          "the load is at ends.load, " + short_number(ends.load.value_or(0.0)) + " N");
-  };
   for (std::size_t i = 0; i < method.program.size(); ++i) {
     const ProgramStep& step = method.program[i];
-    const Until& until = step.until;
-    std::string key = "program." + std::to_string(i) + "." + phase_name(step.phase);
-    if (step.phase == Phase::kPreload) load(key, step.load);
-    if (step.phase == Phase::kCycle && step.extension_turns) extension(key, step.extension_turns->high);
-    if (step.phase == Phase::kCycle && step.load_turns) load(key, step.load_turns->high);
-    if (step.phase != Phase::kPull) continue;
+    if (!loads(step->phase())) continue;
+    std::string key = "program." + std::to_string(i) + "." + step->name();
+    for (const KeyUnit& number : step_numbers(step, key)) {
+      if (number.unit == "m")
+        never(number.key, number.value, travel, " m",
+              "the crosshead is at the end of machine.travel, " + short_number(travel) + " m");
+      if (number.unit == "N")
+        never(number.key, number.value, ends.load, " N",
+              "the load is at ends.load, " + short_number(ends.load.value_or(0.0)) + " N");
+      if (number.unit == "s")
+        never(number.key, number.value, ends.time, " s",
+              "the test's time is over by ends.time, " + short_number(ends.time.value_or(0.0)) + " s");
+    }
+    const PullStep* pull = step.as<PullStep>();
+    if (!pull) continue;
+    const Until& until = pull->until;
     key += ".until";
-    extension(key, until.extension);
-    load(key, until.load);
-    never(key + ".time", until.time, ends.time, " s",
-          "the test's time is over by ends.time, " + short_number(ends.time.value_or(0.0)) + " s");
-    const double longest = travel / step.speed;
-    if (!step.load_rate && !until.load && !until.extension)
+    const double longest = travel / pull->speed;
+    if (!pull->load_rate && !until.load && !until.extension)
       never(key + ".time", until.time, longest, " s",
             "the crosshead is at the end of machine.travel after " + short_number(longest) + " s at " +
-                short_number(step.speed) + " m/s");
+                short_number(pull->speed) + " m/s");
     const Material& rod = method.material;
     if (until.broken && !until.extension && !until.load && !until.time && !rod.breaking_force && !rod.breaking_strain &&
         !ends.break_at_fraction_of_peak)
@@ -206,12 +207,12 @@ std::vector<std::string> foreseen_warnings(const Method& method) {
 std::vector<std::string> speed_warnings(const Method& method) {
   std::vector<std::string> all;
   for (const ProgramStep& step : method.program) {
-    const double speed = step.speed / method.material.radius;
+    const double speed = step->speed / method.material.radius;
     const std::string told = format_number(std::round(10.0 * speed) / 10.0);
-    if (step.phase == Phase::kTie && speed > kTiedSlow)
+    if (step.as<TieStep>() && speed > kTiedSlow)
       all.push_back("the knots are tied at " + told + " radii a second, by default at " +
                     format_number(kTiedByDefault) + kTiedFast);
-    if (pulls(step.phase) && speed > kPulledSlow && knot_of(method.specimen).about().loop)
+    if (pulls(step->phase()) && speed > kPulledSlow && knot_of(method.specimen).about().loop)
       all.push_back("the loop is pulled at " + told + " radii a second, as shipped at " +
                     format_number(kPulledAsShipped) + kPulledFast);
   }

@@ -7,8 +7,6 @@
 namespace knot_utm {
 namespace {
 
-constexpr const char* kNoClass = "the load cell has neither accuracy nor floor";
-
 /// `reason` of a reading that any pull has.
 std::string of_the_pull(const ResultSource& source, const std::string& reason) {
   const std::string not_pulled = why_not_pulled(source);
@@ -61,6 +59,10 @@ std::string why_no_error(const ResultSource& source, const std::string& no_readi
 
 }  // namespace
 
+std::string NullReason::operator()(const ResultSource& source) const {
+  return of_a_pull_ ? of_the_pull(source, always_) : find_ ? find_(source) : always_;
+}
+
 std::string why_not_pulled(const ResultSource& source) {
   if (source.results.true_peak_force) return "";
   return source.results.never_in_tension ? "the specimen was never in tension" : "nothing was pulled";
@@ -83,17 +85,9 @@ std::string why_no_plateau_error(const ResultSource& source) {
   return why_no_error(source, why_no_plateau(source), source.facts.errors.plateau_force);
 }
 
-std::string why_no_drop(const ResultSource& source) {
-  return of_the_pull(source, "the load was read fewer than 20 times before the lock");
-}
-
 std::string why_no_place_of_drop(const ResultSource& source) {
   return source.results.curve.largest_drop ? of_the_pull(source, "the load only rose before the lock")
-                                           : why_no_drop(source);
-}
-
-std::string why_no_contact(const ResultSource& source) {
-  return of_the_pull(source, "no two knots touched each other while pulled");
+                                           : of_the_pull(source, kFewForDrops);
 }
 
 std::string why_no_lock(const ResultSource& source) {
@@ -127,10 +121,6 @@ std::string why_no_snap(const ResultSource& source) {
                      source.results.tied_knot_distance ? "a loop of two knots has jump_force" : "nothing snapped");
 }
 
-std::string why_no_chord(const ResultSource& source) {
-  return of_the_pull(source, "the true force was never below a tenth of the peak");
-}
-
 std::string why_no_break(const ResultSource& source) {
   if (source.results.break_extension) return "it did not break in a pull";
   return source.results.break_place == BreakPlace::kNone ? "the rod did not break"
@@ -151,12 +141,6 @@ std::string why_no_hole(const ResultSource& source) {
   if (!source.facts.ends_with_hold) return "the test does not end with a hold, in which a knot is measured";
   return source.results.knot_type == KnotType::kKept ? "no shape of the rod is known" : "the knot is another one";
 }
-
-std::string why_no_touch(const ResultSource& source) {
-  return of_the_pull(source, "no roller bore on a knot or its tail while pulled");
-}
-
-std::string why_no_cell_error(const ResultSource& source) { return of_the_pull(source, kNoClass); }
 
 std::string why_no_cell_error_in_plateau(const ResultSource& source) {
   return source.results.true_plateau_force ? kNoClass : why_no_plateau(source);

@@ -19,35 +19,33 @@ using Number = std::optional<double>;
 using Count = std::optional<std::uint64_t>;
 using Flag = std::optional<bool>;
 
-// What is a member of something is read by its name.
+// Where a member is read from, by the struct that it is a member of; null: the test has none.
+const Results* part(const Source& of, const Results*) { return &of.results; }
+const CurveReadings* part(const Source& of, const CurveReadings*) { return &of.results.curve; }
+const RateShares* part(const Source& of, const RateShares*) { return &of.results.rate; }
+const EnergyParts* part(const Source& of, const EnergyParts*) {
+  return of.results.energy ? &*of.results.energy : nullptr;
+}
+const Elongations* part(const Source& of, const Elongations*) {
+  return of.results.elongations ? &*of.results.elongations : nullptr;
+}
+const Relaxation* part(const Source& of, const Relaxation*) {
+  return of.results.relaxation ? &*of.results.relaxation : nullptr;
+}
+const RunFacts* part(const Source& of, const RunFacts*) { return &of.facts; }
+const Margin* part(const Source& of, const Margin*) { return &of.facts.margin; }
+const ReadingErrors* part(const Source& of, const ReadingErrors*) { return &of.errors; }
 
-template <auto Member>
-Number result(const Source& of) {
-  return of.results.*Member;
+template <class Struct, class Value>
+const Struct* part(const Source& of, Value Struct::*) {
+  return part(of, static_cast<const Struct*>(nullptr));
 }
+
+/// What is a member of something is read by its name.
 template <auto Member>
-Number curve(const Source& of) {
-  return of.results.curve.*Member;
-}
-template <auto Member>
-Number rate(const Source& of) {
-  return of.results.rate.*Member;
-}
-template <auto Member>
-Number energy(const Source& of) {
-  return of.results.energy ? Number((*of.results.energy).*Member) : std::nullopt;
-}
-template <auto Member>
-Number margin(const Source& of) {
-  return of.facts.margin.*Member;
-}
-template <auto Member>
-Number fact(const Source& of) {
-  return of.facts.*Member;
-}
-template <auto Member>
-Number error(const Source& of) {
-  return of.errors.*Member;
+Number read(const Source& of) {
+  const auto* const from = part(of, Member);
+  return from ? Number(from->*Member) : std::nullopt;
 }
 template <auto Member>
 Count counted(const Source& of) {
@@ -89,11 +87,6 @@ std::string why_no_force_ratio(const Source& of) {
                                  : "the force is not steady: the strand does not slide all along the post yet";
 }
 
-template <auto Part>
-Number elongation(const Source& of) {
-  return of.results.elongations ? Number((*of.results.elongations).*Part) : std::nullopt;
-}
-
 /// The largest load over what as many straight rods would bear. A breaking force parts a knotted rod at the tension of
 /// a straight one, so that it predicts nothing; a breaking strain is that of the outermost fibre, also where the knot
 /// bends it.
@@ -109,10 +102,6 @@ Number knotability(const Source& of) {
   return of.facts.knot_hole ? Number(*of.facts.knot_hole / (2.0 * of.facts.material.radius)) : std::nullopt;
 }
 
-template <auto Force>
-Number held(const Source& of) {
-  return of.results.relaxation ? Number((*of.results.relaxation).*Force) : std::nullopt;
-}
 Number relaxation(const Source& of) {
   return of.results.relaxation ? Number(of.results.relaxation->lost()) : std::nullopt;
 }
@@ -156,6 +145,11 @@ constexpr const char* kNoHold = "the crosshead was not held under a load";
 constexpr const char* kNoCycle = "no cycle was closed";
 constexpr const char* kNoKnots = "there are no two knots";
 constexpr const char* kNoLoop = "the specimen is no loop";
+constexpr NullReason kNoDrop = NullReason::of_a_pull(kFewForDrops);
+constexpr NullReason kNoContact = NullReason::of_a_pull("no two knots touched each other while pulled");
+constexpr NullReason kNoTouch = NullReason::of_a_pull("no roller bore on a knot or its tail while pulled");
+constexpr NullReason kNoChord = NullReason::of_a_pull("the true force was never below a tenth of the peak");
+constexpr NullReason kNoCellError = NullReason::of_a_pull(kNoClass);
 
 using R = Results;
 using C = CurveReadings;
@@ -167,7 +161,7 @@ constexpr ResultKey kKeys[] = {
     // How the test went.
     {"motion_pattern", "-", kHappened, "Motion pattern", motion_pattern, kNoReason},
     {"motion_pattern_confidence", "0 to 1", kHappened, "Confidence in the motion pattern, from 0 to 1",
-     result<&R::motion_pattern_confidence>, kNoReason},
+     read<&R::motion_pattern_confidence>, kNoReason},
     {"ended_by", "-", kHappened, "What ended the test", ended_by, kNoReason},
     {"reason", "-", kHead, "Why the test ended", reason, kNoReason},
     {"warnings", "-", kHead, "Warnings", warnings, kNoReason},
@@ -175,154 +169,152 @@ constexpr ResultKey kKeys[] = {
      kNoReason},
 
     // The knots as they were tied.
-    {"preload", "N", kKnots, "Pre-load by which each overhand was tied", fact<&F::preload>, "nothing was tied"},
-    {"tied_knot_distance", "m", kKnots, "Knot distance once tied", result<&R::tied_knot_distance>, kNoKnots},
+    {"preload", "N", kKnots, "Pre-load by which each overhand was tied", read<&F::preload>, "nothing was tied"},
+    {"tied_knot_distance", "m", kKnots, "Knot distance once tied", read<&R::tied_knot_distance>, kNoKnots},
     {"excess_length", "m", kKnots, "Length of rod within each knot once tied", of_knots<&R::tied_excess_length>,
      kNoLoop},
     {"final_excess_length", "m", kKnots, "Length of rod within each knot at the end", of_knots<&R::final_excess_length>,
      kNoLoop},
     {"opened_when_mounted", "m", kKnots,
-     "How much nearer the knots came as the loop was mounted and one of them opened", result<&R::opened_when_mounted>,
+     "How much nearer the knots came as the loop was mounted and one of them opened", read<&R::opened_when_mounted>,
      "no knot opened as the loop was mounted"},
 
     // While the knots slide.
-    {"plateau_force", "N", kCurve, "Plateau force, the mean while the knots slide", curve<&C::plateau_force>,
+    {"plateau_force", "N", kCurve, "Plateau force, the mean while the knots slide", read<&C::plateau_force>,
      why_no_plateau},
-    {"plateau_force_sd", "N", kCurve, "Standard deviation of the plateau force", curve<&C::plateau_force_sd>,
+    {"plateau_force_sd", "N", kCurve, "Standard deviation of the plateau force", read<&C::plateau_force_sd>,
      why_no_plateau},
-    {"plateau_force_low", "N", kCurve, "Smallest force within the plateau", curve<&C::plateau_force_low>,
+    {"plateau_force_low", "N", kCurve, "Smallest force within the plateau", read<&C::plateau_force_low>,
      why_no_plateau},
-    {"plateau_force_high", "N", kCurve, "Largest force within the plateau", curve<&C::plateau_force_high>,
+    {"plateau_force_high", "N", kCurve, "Largest force within the plateau", read<&C::plateau_force_high>,
      why_no_plateau},
     {"plateau_force_slope", "N/m", kCurve, "Slope of the force over the extension within the plateau",
-     curve<&C::plateau_force_slope>, why_no_plateau},
+     read<&C::plateau_force_slope>, why_no_plateau},
     {"plateau_force_error", "N", kBeside, "Estimated numerical error of the plateau force",
-     error<&ReadingErrors::plateau_force>, why_no_plateau_error},
+     read<&ReadingErrors::plateau_force>, why_no_plateau_error},
     {"plateau_slope", "-", kCurve,
      "Slope de/ds of the knot distance within the plateau; \u2013\u20602 is rigid sliding on rollers",
-     result<&R::plateau_slope>, why_no_plateau},
-    {"breakaway_force", "N", kCurve, "Breakaway force, the largest before the plateau", curve<&C::breakaway_force>,
+     read<&R::plateau_slope>, why_no_plateau},
+    {"breakaway_force", "N", kCurve, "Breakaway force, the largest before the plateau", read<&C::breakaway_force>,
      why_no_plateau},
     {"margin_friction", "-", kCurve, "Share of the friction coefficient that may be missing before the knots open",
-     margin<&Margin::friction>, why_no_margin},
+     read<&Margin::friction>, why_no_margin},
     {"margin_preload", "-", kCurve, "Share of the pre-load that may be missing before the knots open",
-     margin<&Margin::preload>, why_no_margin},
+     read<&Margin::preload>, why_no_margin},
     {"force_ratio", "-", kCurve, "Mean true force over the second half of a pull that slides, over the tail load",
      force_ratio, why_no_force_ratio},
     {"no_plateau_because", "-", kCurve, "Why there is no plateau", no_plateau_because, "there is a plateau"},
-    {"largest_drop", "N", kCurve, "Largest sudden fall of the force before the lock", curve<&C::largest_drop>,
-     why_no_drop},
-    {"largest_drop_at", "m", kCurve, "Extension at which it began", curve<&C::largest_drop_at>, why_no_place_of_drop},
-    {"jump_force", "N", kCurve, "Force at which a knot jumped open", curve<&C::jump_force>, kNoJump},
-    {"jump_extension", "m", kCurve, "Extension at which it jumped open", curve<&C::jump_extension>, kNoJump},
-    {"force_after_jump", "N", kCurve, "Force that was left when it had jumped", curve<&C::force_after_jump>, kNoJump},
-    {"snap_extension", "m", kCurve, "Extension at which the knot snapped into another shape",
-     result<&R::snap_extension>, why_no_snap},
-    {"snap_drop", "N", kCurve, "Force by which the load fell as it snapped", result<&R::snap_drop>, why_no_snap},
+    {"largest_drop", "N", kCurve, "Largest sudden fall of the force before the lock", read<&C::largest_drop>, kNoDrop},
+    {"largest_drop_at", "m", kCurve, "Extension at which it began", read<&C::largest_drop_at>, why_no_place_of_drop},
+    {"jump_force", "N", kCurve, "Force at which a knot jumped open", read<&C::jump_force>, kNoJump},
+    {"jump_extension", "m", kCurve, "Extension at which it jumped open", read<&C::jump_extension>, kNoJump},
+    {"force_after_jump", "N", kCurve, "Force that was left when it had jumped", read<&C::force_after_jump>, kNoJump},
+    {"snap_extension", "m", kCurve, "Extension at which the knot snapped into another shape", read<&R::snap_extension>,
+     why_no_snap},
+    {"snap_drop", "N", kCurve, "Force by which the load fell as it snapped", read<&R::snap_drop>, why_no_snap},
 
     // Where the knots lock, and what the loop is like then.
     {"first_contact_extension", "m", kCurve, "Extension at which the two knots first touch each other",
-     result<&R::first_contact_extension>, why_no_contact},
+     read<&R::first_contact_extension>, kNoContact},
     {"lock_extension", "m", kCurve, "Lock extension, where the motion of the knots shows that they lock",
-     result<&R::lock_extension>, why_no_lock},
+     read<&R::lock_extension>, why_no_lock},
     {"lock_extension_error", "m", kBeside, "Estimated numerical error of the lock extension",
-     error<&ReadingErrors::lock_extension>, why_no_lock_error},
+     read<&ReadingErrors::lock_extension>, why_no_lock_error},
     {"lock_extension_by_load", "m", kCurve,
      "Lock extension by the load alone, where it last rises through twice the plateau",
-     curve<&C::lock_extension_by_load>, why_no_lock_by_load},
-    {"locked_stiffness", "N/m", kCurve, "Locked stiffness", curve<&C::locked_stiffness>, why_no_stiffness},
+     read<&C::lock_extension_by_load>, why_no_lock_by_load},
+    {"locked_stiffness", "N/m", kCurve, "Locked stiffness", read<&C::locked_stiffness>, why_no_stiffness},
     {"locked_stiffness_error", "N/m", kBeside, "Estimated numerical error of the locked stiffness",
-     error<&ReadingErrors::locked_stiffness>, why_no_stiffness_error},
-    {"peak_force", "N", kCurve, "Peak force", curve<&C::peak_force>, why_no_peak},
-    {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", error<&ReadingErrors::peak_force>,
+     read<&ReadingErrors::locked_stiffness>, why_no_stiffness_error},
+    {"peak_force", "N", kCurve, "Peak force", read<&C::peak_force>, why_no_peak},
+    {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", read<&ReadingErrors::peak_force>,
      why_no_peak_error},
 
     // Without what the balance has set to zero.
-    {"true_plateau_force", "N", kBeside, "Plateau force, the true one", result<&R::true_plateau_force>, why_no_plateau},
-    {"true_breakaway_force", "N", kBeside, "Breakaway force, the true one", result<&R::true_breakaway_force>,
+    {"true_plateau_force", "N", kBeside, "Plateau force, the true one", read<&R::true_plateau_force>, why_no_plateau},
+    {"true_breakaway_force", "N", kBeside, "Breakaway force, the true one", read<&R::true_breakaway_force>,
      why_no_plateau},
-    {"true_peak_force", "N", kBeside, "Peak force, the true one", result<&R::true_peak_force>, why_not_pulled},
-    {"true_jump_force", "N", kBeside, "True force at which a knot jumped open", result<&R::true_jump_force>, kNoJump},
+    {"true_peak_force", "N", kBeside, "Peak force, the true one", read<&R::true_peak_force>, why_not_pulled},
+    {"true_jump_force", "N", kBeside, "True force at which a knot jumped open", read<&R::true_jump_force>, kNoJump},
     {"true_force_after_jump", "N", kBeside, "True force that was left when it had jumped",
-     result<&R::true_force_after_jump>, kNoJump},
+     read<&R::true_force_after_jump>, kNoJump},
     {"balance_offset", "N", kCurve, "Balance offset, by which the true force is larger than the load",
-     result<&R::balance_offset>, why_not_pulled},
+     read<&R::balance_offset>, why_not_pulled},
 
     // Where the rod parted or the knot came undone.
-    {"break_extension", "m", kCurve, "Extension at break", result<&R::break_extension>, why_no_break},
-    {"break_arclength", "m", kCurve, "Place of the break, measured along the rod", result<&R::break_arclength>,
+    {"break_extension", "m", kCurve, "Extension at break", read<&R::break_extension>, why_no_break},
+    {"break_arclength", "m", kCurve, "Place of the break, measured along the rod", read<&R::break_arclength>,
      why_no_break},
     {"break_place", "-", kCurve, "What touched the rod at the place of the break", break_place, kNoReason},
     {"knot_efficiency", "of the strength without a knot", kCurve,
      "Knot efficiency, the strength with the knot over that of as many straight strands", knot_efficiency,
      why_no_efficiency},
     {"knot_inner_diameter", "m", kKnots, "Inner diameter of the knot at the end, that of the thickest straight pin",
-     fact<&F::knot_hole>, why_no_hole},
+     read<&F::knot_hole>, why_no_hole},
     {"knotability", "-", kKnots, "Knotability, the inner diameter of the knot over the diameter of the rod",
      knotability, why_no_hole},
     {"failure_mode", "-", kHappened, "Failure mode", failure_mode, "the specimen did not fail"},
     {"roller_touched_at", "m", kHappened, "Extension from which a roller bore on a knot or its tail",
-     result<&R::roller_touched_at>, why_no_touch},
-    {"untangled_at", "s", kHappened, "Time at which the knot came undone", result<&R::untangled_at>,
+     read<&R::roller_touched_at>, kNoTouch},
+    {"untangled_at", "s", kHappened, "Time at which the knot came undone", read<&R::untangled_at>,
      "the knot did not come undone"},
     {"knot_type_preserved", "-", kCertificate, "Whether the knot remained the same knot", knot_type_preserved,
      kNoReason},
 
     // What the run should be judged by.
-    {"max_penetration", "of the radius", kCertificate, "Deepest contact", result<&R::max_penetration>, kNoReason},
-    {"fastest_node", "m/s", kKnots, "Largest speed of a node until the knots lock", result<&R::fastest_node>,
-     kNoReason},
-    {"drag_share", "-", kEnergy, "Share of drag in the force", rate<&RateShares::drag>, why_not_pulled},
-    {"inertia_share", "-", kEnergy, "Share of inertia in the force", rate<&RateShares::inertia>, why_not_pulled},
-    {"numerical_share", "-", kEnergy, "Share of numerical dissipation in the force", rate<&RateShares::numerical>,
+    {"max_penetration", "of the radius", kCertificate, "Deepest contact", read<&R::max_penetration>, kNoReason},
+    {"fastest_node", "m/s", kKnots, "Largest speed of a node until the knots lock", read<&R::fastest_node>, kNoReason},
+    {"drag_share", "-", kEnergy, "Share of drag in the force", read<&RateShares::drag>, why_not_pulled},
+    {"inertia_share", "-", kEnergy, "Share of inertia in the force", read<&RateShares::inertia>, why_not_pulled},
+    {"numerical_share", "-", kEnergy, "Share of numerical dissipation in the force", read<&RateShares::numerical>,
      why_not_pulled},
     {"force_balance_error", "-", kCertificate,
-     "Difference of the forces at both grips, as a share of the largest force", result<&R::force_balance_error>,
+     "Difference of the forces at both grips, as a share of the largest force", read<&R::force_balance_error>,
      why_not_pulled},
     {"moment_balance_error", "-", kComputation,
      "Moment of friction at the surfaces of strands that acts on their centrelines, over force times radius",
      moment_balance_error, why_not_pulled},
 
     // Where the work went.
-    {"work", "J", kEnergy, "Work of the grips", energy<&E::work>, why_not_pulled},
-    {"stored_energy", "J", kEnergy, "Energy stored in rod and contacts", energy<&E::stored>, why_not_pulled},
-    {"kinetic_energy", "J", kEnergy, "Kinetic energy at the end", result<&R::kinetic_energy>, why_not_pulled},
-    {"friction_loss", "J", kEnergy, "Energy lost to friction", energy<&E::friction>, why_not_pulled},
-    {"plastic_loss", "J", kEnergy, "Energy lost as bends yield", energy<&E::plastic>, why_not_pulled},
-    {"drag_loss", "J", kEnergy, "Energy lost to drag", energy<&E::drag>, why_not_pulled},
+    {"work", "J", kEnergy, "Work of the grips", read<&E::work>, why_not_pulled},
+    {"stored_energy", "J", kEnergy, "Energy stored in rod and contacts", read<&E::stored>, why_not_pulled},
+    {"kinetic_energy", "J", kEnergy, "Kinetic energy at the end", read<&R::kinetic_energy>, why_not_pulled},
+    {"friction_loss", "J", kEnergy, "Energy lost to friction", read<&E::friction>, why_not_pulled},
+    {"plastic_loss", "J", kEnergy, "Energy lost as bends yield", read<&E::plastic>, why_not_pulled},
+    {"drag_loss", "J", kEnergy, "Energy lost to drag", read<&E::drag>, why_not_pulled},
     {"numerical_dissipation", "J", kEnergy, "Energy lost in the time steps (numerical dissipation)",
-     energy<&E::numerical>, why_not_pulled},
-    {"reweighting_loss", "J", kEnergy, "Energy lost as the weights of contacts change", energy<&E::reweighting>,
+     read<&E::numerical>, why_not_pulled},
+    {"reweighting_loss", "J", kEnergy, "Energy lost as the weights of contacts change", read<&E::reweighting>,
      why_not_pulled},
     {"energy_balance_error", "-", kCertificate, "Error of the energy balance, as a share of the largest energy",
-     result<&R::energy_balance_error>, why_not_pulled},
+     read<&R::energy_balance_error>, why_not_pulled},
 
     // More of the curve, as standards ask for it.
     {"load_cell_error", "N", kCurve, "Error of the load cell at the largest load, by its class",
-     class_error_at<&R::true_peak_force>, why_no_cell_error},
+     class_error_at<&R::true_peak_force>, kNoCellError},
     {"plateau_load_cell_error", "N", kCurve, "Error of the load cell within the plateau, by its class",
      class_error_at<&R::true_plateau_force>, why_no_cell_error_in_plateau},
-    {"energy_to_peak", "J", kCurve, "Energy up to the largest load", result<&R::energy_to_peak>, why_not_pulled},
-    {"energy_to_break", "J", kCurve, "Energy up to the break", result<&R::energy_to_break>, why_no_break},
-    {"chord_stiffness", "N/m", kCurve, "Chord stiffness", result<&R::chord_stiffness>, why_no_chord},
-    {"secant_stiffness", "N/m", kCurve, "Secant stiffness", result<&R::secant_stiffness>, why_not_pulled},
-    {"tangent_stiffness", "N/m", kCurve, "Tangent stiffness", result<&R::tangent_stiffness>, why_not_pulled},
-    {"hold_force_begin", "N", kCurve, "Force at the beginning of the last hold", held<&Relaxation::from>, kNoHold},
-    {"hold_force_end", "N", kCurve, "Force at the end of the last hold", held<&Relaxation::to>, kNoHold},
+    {"energy_to_peak", "J", kCurve, "Energy up to the largest load", read<&R::energy_to_peak>, why_not_pulled},
+    {"energy_to_break", "J", kCurve, "Energy up to the break", read<&R::energy_to_break>, why_no_break},
+    {"chord_stiffness", "N/m", kCurve, "Chord stiffness", read<&R::chord_stiffness>, kNoChord},
+    {"secant_stiffness", "N/m", kCurve, "Secant stiffness", read<&R::secant_stiffness>, why_not_pulled},
+    {"tangent_stiffness", "N/m", kCurve, "Tangent stiffness", read<&R::tangent_stiffness>, why_not_pulled},
+    {"hold_force_begin", "N", kCurve, "Force at the beginning of the last hold", read<&Relaxation::from>, kNoHold},
+    {"hold_force_end", "N", kCurve, "Force at the end of the last hold", read<&Relaxation::to>, kNoHold},
     {"relaxation", "-", kCurve, "Relaxation, the share of the force that the last hold lost", relaxation, kNoHold},
     {"cycles", "-", kCurve, "Cycles that were completed", counted<&R::cycles>, kNoReason},
-    {"hysteresis", "J", kCurve, "Energy lost in one cycle (hysteresis)", result<&R::hysteresis>, kNoCycle},
-    {"gauge_length", "m", kCurve, "Gauge length, between the grips where the pull begins", result<&R::gauge_length>,
+    {"hysteresis", "J", kCurve, "Energy lost in one cycle (hysteresis)", read<&R::hysteresis>, kNoCycle},
+    {"gauge_length", "m", kCurve, "Gauge length, between the grips where the pull begins", read<&R::gauge_length>,
      why_not_pulled},
     {"elongation_total", kOfGauge, kCurve, "Total elongation, at the outermost place of the last cycle",
-     elongation<&L::total>, kNoCycle},
-    {"elongation_elastic", kOfGauge, kCurve, "Elastic elongation, which the last cycle gives back",
-     elongation<&L::elastic>, kNoCycle},
-    {"elongation_residual", kOfGauge, kCurve, "Residual elongation, at the end of the last cycle",
-     elongation<&L::residual>, kNoCycle},
+     read<&L::total>, kNoCycle},
+    {"elongation_elastic", kOfGauge, kCurve, "Elastic elongation, which the last cycle gives back", read<&L::elastic>,
+     kNoCycle},
+    {"elongation_residual", kOfGauge, kCurve, "Residual elongation, at the end of the last cycle", read<&L::residual>,
+     kNoCycle},
     {"elongation_working", kOfGauge, kCurve, "Working elongation in the last cycle, over the length where it ends",
-     elongation<&L::working>, kNoCycle},
-    {"elongation_at_break", kOfGauge, kCurve, "Elongation at break", result<&R::elongation_at_break>, why_no_break},
+     read<&L::working>, kNoCycle},
+    {"elongation_at_break", kOfGauge, kCurve, "Elongation at break", read<&R::elongation_at_break>, why_no_break},
 
     // What the run cost.
     {"steps", "-", kComputation, "Time steps", counted<&R::steps>, kNoReason},
@@ -330,8 +322,8 @@ constexpr ResultKey kKeys[] = {
      kNoReason},
     {"newton_iterations", "-", kComputation, "Iterations of Newton's method", counted<&R::newton_iterations>,
      kNoReason},
-    {"simulated_time", "s", kComputation, "Duration of the test", result<&R::simulated_time>, kNoReason},
-    {"wall_time", "s", kComputation, "Duration of the computation", fact<&F::wall_time>, kNoReason},
+    {"simulated_time", "s", kComputation, "Duration of the test", read<&R::simulated_time>, kNoReason},
+    {"wall_time", "s", kComputation, "Duration of the computation", read<&F::wall_time>, kNoReason},
     {"real_time_factor", "-", kComputation, "Duration of the test over that of the computation", real_time_factor,
      kNoReason},
     {"peak_memory", "bytes", kComputation, "Largest memory in use", peak_memory_of, "not known"},

@@ -8,7 +8,6 @@
 #include "knot_utm/sim/step_control.hpp"
 #include "rod/own_laws.hpp"
 #include "sim/capstan.hpp"
-#include "sim/drawn_overhand.hpp"
 
 namespace {
 std::size_t allocations = 0;

@@ -268,19 +268,6 @@ TEST(EdgeContact, FrictionKeepsItsMemoryAsStrandsSlideOnFromEdgeToEdge) {
   for (int i = 0; i < 100; ++i) EXPECT_NEAR(scene.drive(contact, 0.0, 0.01), back, 1e-9 * mu);
 }
 
-TEST(R11Creep, SmoothedFrictionBetweenEdgesFollowsTheSpeed) {
-  const double mu = 0.4, tolerance = 1e-3, dt = 0.01;
-  for (const double ratio : {0.5, 0.9, 0.99}) {
-    Crossing scene;
-    EdgeContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, SmoothedFriction{mu, tolerance}, 0.5 * kRadius);
-    const double creep = tolerance * std::log((1.0 + ratio) / (1.0 - ratio)) / 15.0;
-    const double driven = scene.drive(contact, creep * dt, dt);
-    EXPECT_NEAR(driven, ratio * mu, 1e-3 * mu);
-    hold_against(formatted("R11 smoothed friction between edges, v/v_s = %.3f: r", creep / tolerance), ratio,
-                 driven / mu, 1e-3);
-  }
-}
-
 TEST(EdgeContact, PairsHoldEveryPairThatBruteForceFinds) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(0.0, 0.04);

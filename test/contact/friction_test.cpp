@@ -106,19 +106,6 @@ TEST(FrictionLaws, TheTractionOpposesTheSlipWithinItsCone) {
   });
 }
 
-/// Of these laws, under a load no smaller than any at which a coefficient is given.
-template <typename Law>
-void expect_no_more_than_the_methods_coefficient(const Law& law) {
-  for (const Vec3& slip : slips()) EXPECT_LE(law.traction(input(slip, 1e9)).coefficient, law.coefficient);
-}
-
-TEST(FrictionLaws, TheCoefficientIsNoLargerThanTheMethods) {
-  expect_no_more_than_the_methods_coefficient(MemoryFriction{kMu, kPresliding});
-  expect_no_more_than_the_methods_coefficient(SmoothedFriction{kMu, 1e-3});
-  expect_no_more_than_the_methods_coefficient(StribeckFriction{kMu, kPresliding, 0.5, 1e-3});
-  expect_no_more_than_the_methods_coefficient(PowerFriction{kMu, kPresliding, 0.7, 1e3});
-}
-
 TEST(FrictionLaws, FourContactsAreFourTimesOne) {
   const std::vector<Vec3> all = slips();
   for_each_law([&](const auto& law) {

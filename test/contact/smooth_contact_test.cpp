@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <random>
 
 #include "contact/candidate_pairs.hpp"
@@ -18,7 +17,7 @@ namespace knot_utm {
 namespace {
 
 constexpr double kRadius = 3e-3;
-constexpr int kHalf = 30;
+constexpr int kHalf = 20;
 constexpr int kDetour = 2;  // nodes far away between the strands, so that what joins them touches nothing
 
 /// Two strands of one rod: the first straight along z, the second a helix around it, overlapping a little.
@@ -145,8 +144,8 @@ std::vector<std::pair<int, int>> near_pairs(const Points& x, double edge, double
 TEST(Candidates, OfRodsOfAnyNumberOfNodesAreThoseOfBruteForceWhetherPartedOrNot) {
   std::mt19937 random(7);
   const double edge = 2e-3, reach = 6e-3, margin = 1e-3, exclusion = 9e-3;
-  std::vector<int> numbers = {255, 256, 257, 258, 259, 260, 300};
-  for (int nodes = 2; nodes <= 140; ++nodes) numbers.push_back(nodes);
+  std::vector<int> numbers = {127, 128, 129, 130, 255, 256, 257, 258, 259, 260};
+  for (int nodes = 2; nodes <= 70; ++nodes) numbers.push_back(nodes);
   std::size_t found = 0;
   for (const int nodes : numbers)
     for (const int parted : {kWhole, nodes / 2}) {
@@ -177,61 +176,6 @@ TEST(Candidates, OfRodsOfAnyNumberOfNodesAreThoseOfBruteForceWhetherPartedOrNot)
       found += listed;
     }
   EXPECT_GT(found, 10000u);
-}
-
-/// Segments of the smooth centreline that come within `reach` of each other, as seen at places along them.
-std::vector<std::pair<int, int>> segments_within(double reach, const Points& x, double edge, double exclusion) {
-  constexpr int kPlaces = 21;
-  const int nodes = static_cast<int>(x.cols());
-  auto place = [&](int segment, int k) {
-    return combine(SegmentWeights(static_cast<double>(k) / (kPlaces - 1)).value, x, segment);
-  };
-  std::vector<std::pair<int, int>> pairs;
-  for (int i = 1; i + 1 < nodes; ++i)
-    for (int j = i + 1; j + 1 < nodes; ++j) {
-      if (edge * (j - i) < exclusion) continue;
-      double nearest = std::numeric_limits<double>::infinity();
-      for (int k = 0; k < kPlaces; ++k)
-        for (int l = 0; l < kPlaces; ++l) nearest = std::min(nearest, (place(i, k) - place(j, l)).norm());
-      if (nearest < reach) pairs.push_back({i, j});
-    }
-  return pairs;
-}
-
-TEST(Candidates, OfARodStretchedToTwiceItsLengthLackNone) {
-  Material material;
-  material.radius = kRadius;
-  const int nodes = 40, half = nodes / 2;
-  const double edge = 2.0 * kRadius, reach = 2.3 * kRadius, margin = kRadius, exclusion = 5.0 * kRadius;
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, edge));
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> share(-1.0, 1.0);
-  int seen = 0, beyond_rest_length = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    // A strand along x, and the rod's end that comes down on it, with the last of its smooth centreline within reach.
-    Points x(3, nodes);
-    const double shift = share(random), tilt = 0.5 * share(random);
-    for (int i = 0; i < half; ++i) x.col(i) << 1.9 * edge * (i - half / 2 + shift), 0.0, 0.0;
-    for (int i = 0; i < half; ++i)
-      x.col(nodes - 1 - i) =
-          Vec3(0.0, 0.0, 0.99 * reach) + 1.9 * edge * (i - 0.5) * Vec3(std::sin(tilt), 0.0, std::cos(tilt));
-    // The list is made where they are further apart, as far as it is good for.
-    const Vec3 up(0.0, 0.0, 0.499 * margin);
-    Points before = x;
-    before.leftCols(half).colwise() -= up;
-    before.rightCols(half).colwise() += up;
-    Candidates candidates(rod, reach, margin, exclusion);
-    candidates.refresh(before);
-    ASSERT_FALSE(candidates.refresh(x));
-    const auto near = segments_within(reach, x, edge, exclusion);
-    const auto found = pairs_of(candidates);
-    EXPECT_TRUE(std::includes(found.begin(), found.end(), near.begin(), near.end()));
-    seen += static_cast<int>(near.size());
-    for (const auto& [i, j] : near)
-      if ((before.col(i) - before.col(j)).norm() > reach + margin + edge) ++beyond_rest_length;
-  }
-  EXPECT_GT(seen, 100);
-  EXPECT_GT(beyond_rest_length, 5) << "which lengths at rest would not have found";
 }
 
 }  // namespace

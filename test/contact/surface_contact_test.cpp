@@ -23,7 +23,7 @@ namespace knot_utm {
 namespace {
 
 constexpr double kRadius = 3e-3, kEdge = 0.7 * kRadius, kStep = 0.01;
-constexpr int kHalf = 24, kDetour = 2;  // nodes of a strand, and far away between them
+constexpr int kHalf = 16, kDetour = 2;  // nodes of a strand, and far away between them
 
 /// A rod whose second half winds around its first one, or lies on a roller in its place; in the step every node has
 /// moved, and every edge has spun.

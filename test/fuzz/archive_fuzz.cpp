@@ -11,6 +11,7 @@
 #include "fuzz/scratch_folder.hpp"
 #include "fuzz/target.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/run/checkpoint.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/sim/saved_step.hpp"
@@ -115,8 +116,7 @@ class Resumed {
     return TestingMachine(specimen, thread(), machine, physics);
   }
   static ProgramRunner make_program(const TestingMachine& bench) {
-    ProgramStep pull;
-    pull.phase = Phase::kPull;
+    PullStep pull;
     pull.until.extension = 0.001;
     return {{pull}, 10.0, bench.longest_step(), {}};
   }

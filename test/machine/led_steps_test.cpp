@@ -12,8 +12,8 @@ namespace {
 using namespace programs;
 using ::testing::HasSubstr;
 
-ProgramStep preload(double load, bool balance = true) {
-  ProgramStep out = step(Phase::kPreload, 0.001);
+PreloadStep preload(double load, bool balance = true) {
+  auto out = step<PreloadStep>(0.001);
   out.load = load;
   out.balance = balance;
   return out;
@@ -21,7 +21,7 @@ ProgramStep preload(double load, bool balance = true) {
 
 TEST(LedSteps, PreloadMeetsItsLoadAndBalancesStandingStill) {
   ProgramRunner program({preload(2.0), pull(0.01)}, 3.0, 0.1, {});
-  const Course result = run(FakeBench(), program);
+  const Answered result = run(FakeBench(), program);
   std::size_t first = 1;
   while (result.commands[first].phase == Phase::kPreload) ++first;
   const Command& last = result.commands[first - 1];
@@ -37,15 +37,16 @@ TEST(LedSteps, PreloadMeetsItsLoadAndBalancesStandingStill) {
 
 /// The next step begins in the new zero.
 TEST(LedSteps, WhatFollowsAPreloadBeginsAtZero) {
-  ProgramStep hold = step(Phase::kHold, 0.0033, 2.0), by_load = step(Phase::kPull);
+  auto hold = step<HoldStep>(0.0033, 2.0);
+  PullStep by_load;
   hold.hold_load = true;
   by_load.load_rate = 1.0;
   by_load.until.load = 3.0;
-  ProgramStep cycle = step(Phase::kCycle);
-  cycle.extension_turns = TurningPoints{0.0, 0.001};
+  CycleStep cycle;
+  cycle.extension = fields::LowHigh{0.0, 0.001};
   cycle.cycles = 1;
-  ProgramRunner program({preload(2.0), hold, by_load, step(Phase::kBalance), cycle}, 3.0, 0.1, {});
-  const Course result = run(FakeBench(), program);
+  ProgramRunner program({preload(2.0), hold, by_load, BalanceStep(), cycle}, 3.0, 0.1, {});
+  const Answered result = run(FakeBench(), program);
   double begin = 0.0;
   for (std::size_t n = 1; n < result.samples.size(); ++n) {
     const Sample& sample = result.samples[n];
@@ -63,7 +64,7 @@ TEST(LedSteps, WhatFollowsAPreloadBeginsAtZero) {
 }
 
 TEST(LedSteps, ABalanceByTheOperatorMovesNoHeldLoadAndIsNoBreak) {
-  ProgramStep hold = step(Phase::kHold, 0.0033, 5.0);
+  auto hold = step<HoldStep>(0.0033, 5.0);
   hold.hold_load = true;
   ProgramRunner::Limits limits;
   limits.breaks.fraction_of_peak = 0.5;
@@ -91,7 +92,7 @@ TEST(LedSteps, ErrorsOfTheCellLeadNothing) {
       return sample;
     }
   };
-  ProgramStep hold = step(Phase::kHold, 0.0033, 3.0);
+  auto hold = step<HoldStep>(0.0033, 3.0);
   hold.hold_load = true;
   hold.held_load = 7.0;
   ProgramRunner program({preload(2.0, false), hold}, 3.0, 0.1, {});
@@ -110,7 +111,7 @@ TEST(LedSteps, ARateOfLoadGoesOnFromWhereTheCrossheadCouldNotKeepUp) {
       return sample;
     }
   };
-  ProgramStep by_load = step(Phase::kPull, 0.0033);
+  PullStep by_load;
   by_load.load_rate = 1.0;
   by_load.until.load = 5.0;
   ProgramRunner program({by_load}, 3.0, 0.1, {});
@@ -126,11 +127,11 @@ TEST(LedSteps, ARateOfLoadGoesOnFromWhereTheCrossheadCouldNotKeepUp) {
 }
 
 TEST(LedSteps, PullsAtARateOfLoad) {
-  ProgramStep by_load = step(Phase::kPull, 0.01);
+  auto by_load = step<PullStep>(0.01);
   by_load.load_rate = 2.0;
   by_load.until.load = 10.0;
   ProgramRunner program({by_load}, 3.0, 0.1, {});
-  const Course result = run(FakeBench(), program);
+  const Answered result = run(FakeBench(), program);
   // The first command finds out how stiff the spring is.
   for (std::size_t n = 2; n < result.samples.size(); ++n)
     EXPECT_NEAR(result.samples[n].load, 2.0 * result.samples[n].time, 1e-9);
@@ -138,11 +139,11 @@ TEST(LedSteps, PullsAtARateOfLoad) {
 }
 
 TEST(LedSteps, CyclesBetweenExtensionsThatItMeets) {
-  ProgramStep cycle = step(Phase::kCycle, 0.0033);
-  cycle.extension_turns = TurningPoints{0.001, 0.004};
+  CycleStep cycle;
+  cycle.extension = fields::LowHigh{0.001, 0.004};
   cycle.cycles = 3;
-  ProgramRunner program({step(Phase::kBalance), cycle}, 3.0, 0.1, {});
-  const Course result = run(FakeBench(), program);
+  ProgramRunner program({BalanceStep(), cycle}, 3.0, 0.1, {});
+  const Answered result = run(FakeBench(), program);
   int highs = 0, lows = 0;
   for (const Sample& sample : result.samples) {
     EXPECT_LE(sample.extension, 0.004 + 1e-12);
@@ -156,11 +157,11 @@ TEST(LedSteps, CyclesBetweenExtensionsThatItMeets) {
 }
 
 TEST(LedSteps, CyclesBetweenLoadsByCountOrTime) {
-  ProgramStep cycle = step(Phase::kCycle, 0.0033);
-  cycle.load_turns = TurningPoints{1.0, 4.0};
+  CycleStep cycle;
+  cycle.load = fields::LowHigh{1.0, 4.0};
   cycle.cycles = 2;
   ProgramRunner by_count({cycle}, 3.0, 0.1, {});
-  const Course counted = run(FakeBench(), by_count);
+  const Answered counted = run(FakeBench(), by_count);
   constexpr double kMet = 3e-3;  // kMetLoad of the range
   double highest = 0.0;
   for (const Sample& sample : counted.samples) highest = std::max(highest, sample.load);
@@ -168,29 +169,29 @@ TEST(LedSteps, CyclesBetweenLoadsByCountOrTime) {
   EXPECT_NEAR(counted.samples.back().load, 1.0, kMet);
 
   cycle.cycles = 0;
-  cycle.until.time = 10.0;
+  cycle.time = 10.0;
   ProgramRunner by_time({cycle}, 3.0, 0.1, {});
   EXPECT_DOUBLE_EQ(run(FakeBench(), by_time).samples.back().time, 10.0);
   EXPECT_EQ(by_time.ended_by(), EndedBy::kProgram);
 }
 
 TEST(LedSteps, ReturnsToAnExtensionOrALoad) {
-  ProgramRunner home({step(Phase::kBalance), pull(0.01), step(Phase::kReturn)}, 3.0, 0.1, {});
+  ProgramRunner home({BalanceStep(), pull(0.01), ReturnStep()}, 3.0, 0.1, {});
   EXPECT_NEAR(run(FakeBench(), home).samples.back().extension, 0.0, 1e-12);
   EXPECT_EQ(home.ended_by(), EndedBy::kExtension);
 
-  ProgramStep unload = step(Phase::kReturn);
-  unload.until.load = 3.0;
-  ProgramRunner to_load({step(Phase::kBalance), pull(0.01), unload}, 3.0, 0.1, {});
+  ReturnStep unload;
+  unload.load = 3.0;
+  ProgramRunner to_load({BalanceStep(), pull(0.01), unload}, 3.0, 0.1, {});
   EXPECT_NEAR(run(FakeBench(), to_load).samples.back().load, 3.0, 1e-3 * 10.3);  // kMetLoad of where it began
   EXPECT_EQ(to_load.ended_by(), EndedBy::kLoad);
 }
 
 TEST(LedSteps, FollowsARecordFromWhereItStands) {
-  ProgramStep follow = step(Phase::kFollow);
+  FollowStep follow;
   follow.recorded = {{0.0, 0.5}, {1.0, 0.502}, {1.5, 0.501}, {3.0, 0.507}};
   ProgramRunner program({pull(0.01), follow}, 3.0, 0.1, {});
-  const Course result = run(FakeBench(), program);
+  const Answered result = run(FakeBench(), program);
   double begin = 0.0, from = 0.0;
   for (std::size_t n = 1; n < result.samples.size(); ++n) {
     const Sample& sample = result.samples[n];
@@ -213,25 +214,25 @@ TEST(LedSteps, ADropThatIsABreakEndsIt) {
   limits.breaks.fraction_of_peak = 0.4;
   limits.breaks.arming_load = 5.0;
   ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
-  const Course result = run(weak, program);
+  const Answered result = run(weak, program);
   EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
   EXPECT_THAT(program.reason(), HasSubstr("the load fell"));
   EXPECT_NEAR(result.samples.back().displacement, 0.008, 0.0033 * program.period());
 
   // On the way in of a cycle loads fall as they should.
-  ProgramStep cycle = step(Phase::kCycle, 0.0033);
-  cycle.extension_turns = TurningPoints{0.0, 0.007};
+  CycleStep cycle;
+  cycle.extension = fields::LowHigh{0.0, 0.007};
   cycle.cycles = 2;
-  ProgramRunner cycles({step(Phase::kBalance), cycle}, 3.0, 0.1, limits);
+  ProgramRunner cycles({BalanceStep(), cycle}, 3.0, 0.1, limits);
   run(weak, cycles);
   EXPECT_EQ(cycles.ended_by(), EndedBy::kProgram);
 }
 
 TEST(LedSteps, AReturnNeverMovesOutwards) {
-  ProgramStep home = step(Phase::kReturn);
-  home.return_extension = 0.02;
-  ProgramRunner program({step(Phase::kBalance), pull(0.01), home}, 3.0, 0.1, {});
-  const Course result = run(FakeBench(), program);
+  ReturnStep home;
+  home.extension = 0.02;
+  ProgramRunner program({BalanceStep(), pull(0.01), home}, 3.0, 0.1, {});
+  const Answered result = run(FakeBench(), program);
   EXPECT_NEAR(result.samples.back().displacement, 0.01, 0.0033 * program.period());
   for (const Command& command : result.commands)
     if (command.phase == Phase::kReturn) {
@@ -240,8 +241,8 @@ TEST(LedSteps, AReturnNeverMovesOutwards) {
 }
 
 TEST(LedSteps, GripsThatMeetEndIt) {
-  ProgramStep home = step(Phase::kReturn, 0.01);
-  home.return_extension = -1.0;
+  auto home = step<ReturnStep>(0.01);
+  home.extension = -1.0;
   ProgramRunner::Limits limits;
   limits.least_distance = 0.1;  // from 0.25 m on
   ProgramRunner program({home}, 3.0, 0.1, limits);
@@ -251,7 +252,7 @@ TEST(LedSteps, GripsThatMeetEndIt) {
 }
 
 TEST(LedSteps, UnloadingAsProgrammedIsNoBreak) {
-  ProgramStep hold = step(Phase::kHold, 0.01, 5.0);
+  auto hold = step<HoldStep>(0.01, 5.0);
   hold.hold_load = true;
   hold.held_load = 2.0;
   ProgramRunner::Limits limits;
@@ -270,8 +271,8 @@ TEST(LedSteps, MeetsExtensionsOnACompliantFrameAtSpeed) {
       return sample;
     }
   };
-  ProgramStep cycle = step(Phase::kCycle, 0.001);
-  cycle.extension_turns = TurningPoints{0.0, 0.002};
+  auto cycle = step<CycleStep>(0.001);
+  cycle.extension = fields::LowHigh{0.0, 0.002};
   cycle.cycles = 2;
   ProgramRunner program({cycle}, 3.0, 0.1, {});
   Compliant bench;

@@ -25,7 +25,7 @@ TEST(ProgramRunner, PeriodIsTheSamplingPeriodDividedUntilNoLongerThanTheLongest)
 
 TEST(ProgramRunner, CommandTimesComeFromWholeNumbers) {
   ProgramRunner program(paper_program(), 3.0, 0.1, {});
-  const Course result = run(FakeBench(), program);
+  const Answered result = run(FakeBench(), program);
   for (std::size_t n = 0; n < result.commands.size(); ++n) {
     EXPECT_EQ(result.commands[n].sequence, n);
     EXPECT_EQ(result.commands[n].time, static_cast<double>(n) / 12.0);
@@ -36,7 +36,7 @@ TEST(ProgramRunner, CommandTimesComeFromWholeNumbers) {
 
 TEST(ProgramRunner, RunsThePapersPhasesInOrder) {
   ProgramRunner program(paper_program(), 3.0, 0.1, {});
-  const Course result = run(FakeBench(), program);
+  const Answered result = run(FakeBench(), program);
   std::vector<Phase> phases;
   int balances = 0;
   for (const Command& command : result.commands) {
@@ -52,12 +52,12 @@ TEST(ProgramRunner, RunsThePapersPhasesInOrder) {
 }
 
 TEST(ProgramRunner, CrossheadMovesOnlyInMountPreloadAndPull) {
-  ProgramStep preload = step(Phase::kPreload, 0.001);
+  auto preload = step<PreloadStep>(0.001);
   preload.load = 20.0;
-  ProgramRunner program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0), step(Phase::kMount), preload,
-                         step(Phase::kBalance), pull(0.01), step(Phase::kHold, 0.0033, 2.0)},
+  ProgramRunner program({TieStep(), step<ReleaseStep>(0.0033, 1.0), MountStep(), preload, BalanceStep(), pull(0.01),
+                         step<HoldStep>(0.0033, 2.0)},
                         3.0, 0.1, {});
-  const Course result = run(FakeBench(), program);
+  const Answered result = run(FakeBench(), program);
   for (std::size_t n = 1; n < result.commands.size(); ++n) {
     const Command& command = result.commands[n];
     const double moved = command.displacement - result.commands[n - 1].displacement;
@@ -75,8 +75,8 @@ TEST(ProgramRunner, CrossheadMovesOnlyInMountPreloadAndPull) {
 }
 
 TEST(ProgramRunner, PullEndsAtTheFirstSampleAtOrBeyondItsExtension) {
-  ProgramRunner program({step(Phase::kBalance), pull(0.01)}, 3.0, 1.0, {});
-  const Course result = run(FakeBench(), program);
+  ProgramRunner program({BalanceStep(), pull(0.01)}, 3.0, 1.0, {});
+  const Answered result = run(FakeBench(), program);
   const std::size_t n = result.samples.size();
   EXPECT_GE(result.samples[n - 1].extension, 0.01);
   EXPECT_LT(result.samples[n - 2].extension, 0.01);
@@ -84,7 +84,7 @@ TEST(ProgramRunner, PullEndsAtTheFirstSampleAtOrBeyondItsExtension) {
 
 TEST(ProgramRunner, HoldLastsItsDurationInWholePeriods) {
   for (const auto& [duration, commands] : {std::pair{2.0, 24}, std::pair{2.01, 25}, std::pair{0.001, 1}}) {
-    ProgramRunner program({step(Phase::kHold, 0.0033, duration)}, 3.0, 0.1, {});
+    ProgramRunner program({step<HoldStep>(0.0033, duration)}, 3.0, 0.1, {});
     EXPECT_EQ(run(FakeBench(), program).commands.size(), static_cast<std::size_t>(commands + 1)) << duration;
     EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
   }
@@ -107,17 +107,18 @@ ProgramRunner parted_in_step(const Program& steps, int last) {
   return program;
 }
 
-ProgramStep preload(double load) {
-  ProgramStep out = step(Phase::kPreload);
+PreloadStep preload(double load) {
+  PreloadStep out;
   out.load = load;
   out.balance = false;
   return out;
 }
 
 TEST(ProgramRunner, ARodThatPartsBeforeItIsLoadedFailsTheTest) {
-  const ProgramStep hold = step(Phase::kHold, 0.0033, 5.0);
+  const auto hold = step<HoldStep>(0.0033, 5.0);
   for (const Phase phase : {Phase::kTie, Phase::kRelease, Phase::kMount, Phase::kBalance, Phase::kHold}) {
-    const ProgramStep first = step(phase, 0.0033, 5.0);
+    ProgramStep first = *step_named(phase_name(phase));
+    first->duration = 5.0;
     for (const Program& steps : {Program{first, pull(0.1)}, Program{first, preload(20.0), hold}}) {
       const ProgramRunner program = parted_in_step(steps, 0);
       EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
@@ -125,21 +126,20 @@ TEST(ProgramRunner, ARodThatPartsBeforeItIsLoadedFailsTheTest) {
       EXPECT_EQ(program.reason(), std::string(phase_name(phase)) + ": the rod parted, before it was pulled");
     }
   }
-  EXPECT_TRUE(parted_in_step({step(Phase::kBalance), hold}, 0).failed()) << "it is being prepared";
+  EXPECT_TRUE(parted_in_step({BalanceStep(), hold}, 0).failed()) << "it is being prepared";
 }
 
 /// A rod that creeps, and one that bears its own weight: their break is what the test waits for.
 TEST(ProgramRunner, ARodThatPartsUnderItsLoadFailsNoTest) {
-  const ProgramStep hold = step(Phase::kHold, 0.0033, 5.0);
-  ProgramStep at_load = hold;
+  const auto hold = step<HoldStep>(0.0033, 5.0);
+  HoldStep at_load = hold;
   at_load.hold_load = true;
   at_load.held_load = 20.0;
-  for (const Program& steps :
-       {Program{hold}, Program{preload(20.0), hold}, Program{preload(20.0), hold, pull(0.1)},
-        Program{at_load, pull(0.1)}, Program{step(Phase::kTie), step(Phase::kRelease), step(Phase::kMount), hold},
-        Program{preload(20.0), pull(0.1)}})
+  for (const Program& steps : {Program{hold}, Program{preload(20.0), hold}, Program{preload(20.0), hold, pull(0.1)},
+                               Program{at_load, pull(0.1)}, Program{TieStep(), ReleaseStep(), MountStep(), hold},
+                               Program{preload(20.0), pull(0.1)}})
     for (int i = 0; i < static_cast<int>(steps.size()); ++i) {
-      if (traits_of(steps[static_cast<std::size_t>(i)].phase).ends_by_itself) continue;
+      if (ends_by_itself(steps[static_cast<std::size_t>(i)]->phase())) continue;
       const ProgramRunner program = parted_in_step(steps, i);
       EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
       EXPECT_FALSE(program.failed()) << steps.size() << " steps, parted in step " << i;
@@ -185,9 +185,8 @@ TEST(ProgramRunner, AKnotThatComesUndoneBeforeItIsPulledEndsTheTest) {
   for (const Case& one : {Case{0.2, "tie"}, Case{1.1, "release"}, Case{1.8, "mount"}}) {
     FakeBench bench;
     bench.undone_from = one.undone_from;
-    ProgramRunner program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0), step(Phase::kMount), pull(0.1)}, 3.0,
-                          0.1, {});
-    const Course result = run(bench, program);
+    ProgramRunner program({TieStep(), step<ReleaseStep>(0.0033, 1.0), MountStep(), pull(0.1)}, 3.0, 0.1, {});
+    const Answered result = run(bench, program);
     EXPECT_EQ(program.ended_by(), EndedBy::kUntangled);
     EXPECT_EQ(program.reason(), std::string(one.phase) + ": the knot came undone");
     EXPECT_TRUE(program.failed());
@@ -198,8 +197,7 @@ TEST(ProgramRunner, AKnotThatComesUndoneBeforeItIsPulledEndsTheTest) {
 TEST(ProgramRunner, WhatComesUndoneWhilePulledIsPulledOn) {
   FakeBench bench;
   bench.undone_from = 2.5;
-  ProgramRunner program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0), step(Phase::kMount), pull(0.01)}, 3.0,
-                        0.1, {});
+  ProgramRunner program({TieStep(), step<ReleaseStep>(0.0033, 1.0), MountStep(), pull(0.01)}, 3.0, 0.1, {});
   run(bench, program);
   EXPECT_EQ(program.ended_by(), EndedBy::kExtension);
   EXPECT_FALSE(program.failed());
@@ -209,8 +207,8 @@ TEST(ProgramRunner, WhatComesUndoneWhilePulledIsPulledOn) {
 TEST(ProgramRunner, AProgramThatOnlyTiesGoesOnToItsEnd) {
   FakeBench bench;
   bench.undone_from = 0.3;
-  ProgramRunner program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0)}, 3.0, 0.1, {});
-  const Course result = run(bench, program);
+  ProgramRunner program({TieStep(), step<ReleaseStep>(0.0033, 1.0)}, 3.0, 0.1, {});
+  const Answered result = run(bench, program);
   EXPECT_GT(result.samples.back().time, 1.4);
   EXPECT_EQ(program.ended_by(), EndedBy::kUntangled);
   EXPECT_EQ(program.reason(), "");

@@ -6,38 +6,37 @@
 
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "machine/fake_bench.hpp"
 
 /// Steps and programs for tests of the program runner, and what a bench without a specimen answers to them.
 namespace knot_utm::programs {
 
-inline ProgramStep step(Phase phase, double speed = 0.0033, double duration = 0.0) {
-  ProgramStep result;
-  result.phase = phase;
+template <class Own>
+Own step(double speed = 0.0033, double duration = 0.0) {
+  Own result;
   result.speed = speed;
   result.duration = duration;
   return result;
 }
 
-inline ProgramStep pull(double extension, double speed = 0.0033) {
-  ProgramStep result = step(Phase::kPull, speed);
+inline PullStep pull(double extension, double speed = 0.0033) {
+  auto result = step<PullStep>(speed);
   result.until.extension = extension;
   result.until.broken = true;
   return result;
 }
 
-inline Program paper_program() {
-  return {step(Phase::kTie), step(Phase::kRelease, 0.0033, 3.0), step(Phase::kMount), step(Phase::kBalance),
-          pull(0.12)};
-}
+inline Program paper_program() { return {TieStep(), ReleaseStep(), MountStep(), BalanceStep(), pull(0.12)}; }
 
-struct Course {
+struct Answered {
   std::vector<Command> commands;
   std::vector<Sample> samples;
 };
 
-inline Course run(FakeBench bench, ProgramRunner& program) {
-  Course result;
+inline Answered run(FakeBench bench, ProgramRunner& program) {
+  Answered result;
   run_test(bench, program, [&](const Command& command, const Sample& sample) {
     result.commands.push_back(command);
     result.samples.push_back(sample);

@@ -13,7 +13,9 @@
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
@@ -63,16 +65,15 @@ struct WholeTest {
   }
 };
 
-ProgramStep step(Phase phase, double duration = 0.0) {
-  ProgramStep out;
-  out.phase = phase;
+template <class Own>
+Own step(double duration = 0.0) {
+  Own out;
   out.duration = duration;
   return out;
 }
 
-ProgramStep pull(double extension) {
-  ProgramStep out;
-  out.phase = Phase::kPull;
+PullStep pull(double extension) {
+  PullStep out;
   out.until.extension = extension;
   return out;
 }
@@ -96,7 +97,7 @@ struct Scene {
 void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
 
 Scene straight() {
-  Scene out{"straight", {}, nylon(), {}, {}, {step(Phase::kBalance), pull(0.01)}, 2};
+  Scene out{"straight", {}, nylon(), {}, {}, {BalanceStep(), pull(0.01)}, 2};
   out.specimen.knot = knot_named("straight");
   out.specimen.length = 0.25;
   out.specimen.edge_length = 0.005;
@@ -112,13 +113,15 @@ Scene programmed_on_a_compliant_frame() {
   Scene out = straight();
   out.name = "programmedOnACompliantFrame";
   out.machine.stiffness = 1e5;
-  ProgramStep by_load = pull(0.01), held = step(Phase::kHold, 1.0), cycle = step(Phase::kCycle);
+  PullStep by_load = pull(0.01);
+  auto held = step<HoldStep>(1.0);
+  CycleStep cycle;
   by_load.load_rate = 100.0;
   by_load.until.load = 300.0;
   held.hold_load = true;
-  cycle.extension_turns = TurningPoints{0.0, 0.002};
+  cycle.extension = fields::LowHigh{0.0, 0.002};
   cycle.cycles = 2;
-  out.program = {by_load, held, cycle, step(Phase::kReturn)};
+  out.program = {by_load, held, cycle, ReturnStep()};
   return out;
 }
 
@@ -131,7 +134,7 @@ Scene broken() {
 }
 
 Scene overhand(const std::string& name, const char* friction, ContactLaw contact, double couple = 0.0) {
-  Scene out{name, {}, pink_vps(), {}, {}, {step(Phase::kHold, 1.0), step(Phase::kBalance), pull(0.02)}, 4};
+  Scene out{name, {}, pink_vps(), {}, {}, {step<HoldStep>(1.0), BalanceStep(), pull(0.02)}, 4};
   out.specimen = overhand_specimen(0.4, 0.15, 0.006);
   out.material.friction_couple = couple;
   out.machine.grips = GripKind::kClamps;
@@ -145,14 +148,9 @@ Scene overhand(const std::string& name, const char* friction, ContactLaw contact
 
 /// Tied, released, put onto rollers and pulled.
 Scene loop(const std::string& name, RollerRotation rotation) {
-  Scene out{name,
-            {},
-            polypropylene(),
-            {},
-            {},
-            {step(Phase::kTie), step(Phase::kRelease, 1.0), step(Phase::kMount), step(Phase::kBalance), pull(0.002)},
+  Scene out{name, {}, polypropylene(),
+            {},   {}, {TieStep(), step<ReleaseStep>(1.0), MountStep(), BalanceStep(), pull(0.002)},
             7};
-  out.program[0].speed = 0.01;
   out.specimen.preload = 20.0;
   out.specimen.to_be_tied = true;
   out.specimen.edge_length = 0.005;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/record/test_steps.hpp"
 
 namespace knot_utm {
 namespace {
@@ -27,21 +29,21 @@ TEST(LoadTerms, APercentageIsOfTheBreakingForceOfTheMaterial) {
       straight({"material.breaking_force=1700",
                 "program=[{preload: {load: 2.5%}}, {cycle: {load: [10 %, 50 %], count: 3}}, {hold: {duration: 1, "
                 "control: load, load: 1e1 %}}, {pull: {until: {load: 80%}}}]"});
-  EXPECT_DOUBLE_EQ(m.program[0].load, 42.5);
-  EXPECT_DOUBLE_EQ(m.program[1].load_turns->low, 170.0);
-  EXPECT_DOUBLE_EQ(m.program[1].load_turns->high, 850.0);
-  EXPECT_DOUBLE_EQ(*m.program[2].held_load, 170.0);
-  EXPECT_DOUBLE_EQ(*m.program[3].until.load, 1360.0);
+  EXPECT_DOUBLE_EQ(m.program[0].as<PreloadStep>()->load, 42.5);
+  EXPECT_DOUBLE_EQ(m.program[1].as<CycleStep>()->load->low, 170.0);
+  EXPECT_DOUBLE_EQ(m.program[1].as<CycleStep>()->load->high, 850.0);
+  EXPECT_DOUBLE_EQ(*m.program[2].as<HoldStep>()->held_load, 170.0);
+  EXPECT_DOUBLE_EQ(*m.program[3].as<PullStep>()->until.load, 1360.0);
 }
 
 TEST(LoadTerms, WholePercentagesOfWholeForcesAreWhole) {
   const Method m = straight({"material.breaking_force=1700", "program.0={preload: {load: 7 %}}"});
-  EXPECT_EQ(m.program[0].load, 119.0);
+  EXPECT_EQ(m.program[0].as<PreloadStep>()->load, 119.0);
 }
 
 TEST(LoadTerms, TheReferenceTensionIsAnEighthOfTheSquaredDiameter) {
   const Method m = straight({"material.radius=0.008", "program.0={preload: {load: reference_tension}}"});
-  EXPECT_DOUBLE_EQ(m.program[0].load, 320.0);  // 16 mm: 256 / 8 = 32 daN
+  EXPECT_DOUBLE_EQ(m.program[0].as<PreloadStep>()->load, 320.0);  // 16 mm: 256 / 8 = 32 daN
 }
 
 TEST(LoadTerms, AreWrittenAsNewtons) {

@@ -10,6 +10,7 @@
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
@@ -43,8 +44,8 @@ TEST_P(EveryRod, HasDefaultsThatNobodyRefuses) {
       const Eigen::Index nodes = drawn(m).points.cols();
       const Method paper = load_method(kConfig + name + ".yaml", {material(kPaperRadius, modulus, limpness)});
       EXPECT_NEAR(static_cast<double>(nodes), static_cast<double>(drawn(paper).points.cols()), 1.5) << name;
-      EXPECT_NEAR(m.program.back().speed, 0.0033 * r, 1e-12) << name;
-      EXPECT_GT(m.machine.travel, *m.program.back().until.extension) << name;
+      EXPECT_NEAR(m.program.back()->speed, 0.0033 * r, 1e-12) << name;
+      EXPECT_GT(m.machine.travel, *m.program.back().as<PullStep>()->until.extension) << name;
       // As written into the run's folder, and read again.
       const std::string text = method_yaml(m);
       EXPECT_EQ(method_yaml(parse_method(text, "method.yaml")), text) << name;
@@ -59,8 +60,8 @@ TEST(MethodDefaults, OfAThreadAndOfAHawserFollowFromTheRadius) {
     set.push_back(material(h, 1e9, 1e3));
     const Method m = load_method(kConfig + "tighten.yaml", set);
     EXPECT_NEAR(m.specimen.edge_length, 1.00787 * h, 1e-5 * h);
-    EXPECT_NEAR(m.program[0].speed, 3.14961 * h, 1e-5 * h);
-    EXPECT_NEAR(m.program[4].speed, 1.03937 * h, 1e-5 * h);
+    EXPECT_NEAR(m.program[0]->speed, 3.14961 * h, 1e-5 * h);
+    EXPECT_NEAR(m.program[4]->speed, 1.03937 * h, 1e-5 * h);
     EXPECT_NEAR(*m.physics.friction.value("slip_tolerance"), 0.314961 * h, 1e-5 * h);
     EXPECT_FALSE(m.physics.drag);
     EXPECT_FALSE(m.physics.inertia);
@@ -105,19 +106,19 @@ TEST(MethodDefaults, AreThePapersForItsRods) {
   EXPECT_EQ(loop.specimen.edge_length, 0.0032);
   EXPECT_EQ(loop.machine.roller_diameter, 0.0381);
   EXPECT_EQ(loop.machine.travel, 1.0);
-  EXPECT_EQ(loop.program[0].speed, 0.01);
-  EXPECT_EQ(loop.program[2].speed, 0.0033);
-  EXPECT_EQ(loop.program[4].until.extension, 0.12);
+  EXPECT_EQ(loop.program[0]->speed, 0.01);
+  EXPECT_EQ(loop.program[2]->speed, 0.0033);
+  EXPECT_EQ(loop.program[4].as<PullStep>()->until.extension, 0.12);
   const Method overhand = load_method(kConfig + "overhand.yaml");
   EXPECT_EQ(overhand.specimen.length, 1.0);
   EXPECT_EQ(overhand.specimen.end_to_end, 0.7);
   EXPECT_EQ(overhand.specimen.edge_length, 0.0032);
-  EXPECT_EQ(overhand.program.back().until.extension, 0.1);
+  EXPECT_EQ(overhand.program.back().as<PullStep>()->until.extension, 0.1);
   EXPECT_EQ(overhand.machine.load_cell.name, "20N");
   const Method straight = load_method(kConfig + "straight.yaml");
   EXPECT_EQ(straight.specimen.length, 0.25);
   EXPECT_EQ(straight.specimen.edge_length, 0.005);
-  EXPECT_EQ(straight.program.back().until.extension, 0.01);
+  EXPECT_EQ(straight.program.back().as<PullStep>()->until.extension, 0.01);
   const Method file = load_method(kConfig + "from_file.yaml");
   EXPECT_EQ(file.specimen.edge_length, 0.005);
 }

@@ -9,6 +9,7 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/method/shipped.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -40,16 +41,16 @@ TEST(Method, TightenIsThePapersTest) {
   EXPECT_EQ(m.machine.load_cell.capacity, 50e3);
   EXPECT_TRUE(std::isinf(m.machine.stiffness));
   ASSERT_EQ(m.program.size(), 5u);
-  EXPECT_EQ(m.program[0].phase, Phase::kTie);
-  EXPECT_EQ(m.program[1].phase, Phase::kRelease);
-  EXPECT_EQ(m.program[1].duration, 3.0);
-  EXPECT_EQ(m.program[2].phase, Phase::kMount);
-  EXPECT_EQ(m.program[3].phase, Phase::kBalance);
-  EXPECT_EQ(m.program[4].phase, Phase::kPull);
-  EXPECT_EQ(m.program[4].speed, 0.0033);
-  EXPECT_EQ(m.program[4].until.extension, 0.12);
-  EXPECT_TRUE(m.program[4].until.broken);
-  EXPECT_FALSE(m.program[4].until.load);
+  EXPECT_EQ(m.program[0]->phase(), Phase::kTie);
+  EXPECT_EQ(m.program[1]->phase(), Phase::kRelease);
+  EXPECT_EQ(m.program[1]->duration, 3.0);
+  EXPECT_EQ(m.program[2]->phase(), Phase::kMount);
+  EXPECT_EQ(m.program[3]->phase(), Phase::kBalance);
+  EXPECT_EQ(m.program[4]->phase(), Phase::kPull);
+  EXPECT_EQ(m.program[4]->speed, 0.0033);
+  EXPECT_EQ(m.program[4].as<PullStep>()->until.extension, 0.12);
+  EXPECT_TRUE(m.program[4].as<PullStep>()->until.broken);
+  EXPECT_FALSE(m.program[4].as<PullStep>()->until.load);
   EXPECT_STREQ(FrictionRegistry::entry(m.physics.friction.law).name, "memory");
   EXPECT_EQ(m.physics.contact_law, ContactLaw::kSmooth);
   EXPECT_EQ(m.physics.twist, TwistMode::kAuto);
@@ -78,11 +79,18 @@ TEST(Method, MaterialsAreThoseOfThePapersTable) {
   }
 }
 
+/// What is written of it has a number for each `auto` of its specimen.
 TEST(Method, EveryShippedFileLoads) {
   int methods = 0;
   for (const auto& file : fs::directory_iterator(kConfig)) {
     if (file.path().extension() != ".yaml") continue;
-    EXPECT_NO_THROW(load_method(file.path().string())) << file.path();
+    Method method;
+    EXPECT_NO_THROW(method = load_method(file.path().string())) << file.path();
+    const YAML::Node written = YAML::Load(method_yaml(method))["specimen"];
+    for (const auto& key : YAML::LoadFile(file.path().string())["specimen"])
+      if (key.second.IsScalar() && key.second.Scalar() == "auto") {
+        EXPECT_GT(written[key.first.Scalar()].as<double>(0.0), 0.0) << file.path() << ' ' << key.first;
+      }
     ++methods;
   }
   EXPECT_GE(methods, 4);
@@ -191,11 +199,11 @@ TEST(Method, EveryStepWritesBackToTheSame) {
        "{load: [1, 2], time: 9}}, {return: {extension: 0.001, load: 1}}, {follow: {record: " +
            record + "}}]"});
   ASSERT_EQ(method.program.size(), 7u);
-  EXPECT_EQ(method.program[2].held_load, 20.0);
-  EXPECT_EQ(method.program[3].extension_turns->high, 0.002);
-  EXPECT_EQ(method.program[4].cycles, 0);
-  EXPECT_EQ(method.program[5].until.load, 1.0);
-  const std::vector<RecordedPlace>& recorded = method.program[6].recorded;
+  EXPECT_EQ(method.program[2].as<HoldStep>()->held_load, 20.0);
+  EXPECT_EQ(method.program[3].as<CycleStep>()->extension->high, 0.002);
+  EXPECT_EQ(method.program[4].as<CycleStep>()->cycles, 0);
+  EXPECT_EQ(method.program[5].as<ReturnStep>()->load, 1.0);
+  const std::vector<RecordedPlace>& recorded = method.program[6].as<FollowStep>()->recorded;
   ASSERT_EQ(recorded.size(), 3u);
   EXPECT_DOUBLE_EQ(recorded[1].time, 1.0);
   EXPECT_NEAR(recorded[1].displacement, 1.5e-3, 1e-15);
@@ -238,8 +246,8 @@ TEST(Method, OverridesReachEveryKey) {
   const Method m = load_method(
       kTighten, {"program.pull.speed=0.001", "program.1.release.duration=5", "material.friction_coefficient=0.2",
                  "specimen.preload=20", "machine.load_cell.sampling_rate=10", "physics.contact.tolerance=0.05"});
-  EXPECT_EQ(m.program[4].speed, 0.001);
-  EXPECT_EQ(m.program[1].duration, 5.0);
+  EXPECT_EQ(m.program[4]->speed, 0.001);
+  EXPECT_EQ(m.program[1]->duration, 5.0);
   EXPECT_EQ(m.material.friction_coefficient, 0.2);
   EXPECT_EQ(m.material.name, "nylon");
   EXPECT_EQ(m.specimen.preload, 20.0);

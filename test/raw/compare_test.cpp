@@ -150,6 +150,8 @@ TEST_F(Compare, NeedsNoTime) {
   const Answer answer = compare("a.csv", "pull.csv", "--tolerance 0 --no-balance");
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("pull.csv: 11 readings: extension is column 1"));
+  EXPECT_THAT(compare("a.csv", "pull.csv", "--columns load=1,extension=2 --units load=N,extension=m").text,
+              HasSubstr("load is column 1 \"extension\" in N"));
 }
 
 TEST_F(Compare, ARecordThatRunsDownwardsIsToldAndTurned) {

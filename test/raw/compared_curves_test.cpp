@@ -11,7 +11,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// 10 N/mm from an extension on [m], `offset` [N] off. What knows L is a curve of ours.
 CurveOfFile curve(const std::string& file, double length, double from = 0.0, double offset = 0.0) {
@@ -38,12 +37,6 @@ struct Told {
     return compare_curves(a, b, zero, [&](const std::string& line) { lines.push_back(line); });
   }
 };
-
-TEST(ComparedCurves, AreTheSameWhereTheirNumbersAre) {
-  Told told;
-  EXPECT_NEAR(told.compare(ours(), raw(), {false, std::nullopt}).comparison.difference->largest, 0.0, 1e-9);
-  EXPECT_THAT(told.lines, IsEmpty());
-}
 
 TEST(ComparedCurves, SayWhatIsTakenForZero) {
   Told told;
@@ -81,16 +74,6 @@ TEST(ComparedCurves, SayTheZeroOfEachFileFromItsOwnReadings) {
   const ComparedCurves both = told.compare(resting, raw(0.01, 7.0), {true, std::nullopt});
   EXPECT_EQ(both.comparison.zeros->a->load, 5.0);
   EXPECT_EQ(both.comparison.zeros->b->load, 7.0);
-}
-
-TEST(ComparedCurves, OfACutRecordTheOtherOneTellsTheLoad) {
-  Told told;
-  CurveOfFile cut = raw(0.0, -20.0);
-  const ComparedCurves compared = told.compare(ours(), cut, {true, 0.002});
-  EXPECT_NEAR(compared.b.front().extension, 0.002, 1e-12);
-  EXPECT_NEAR(compared.b.front().force, 20.0, 1e-9);
-  EXPECT_THROW(told.compare(ours(), cut, {true, 1.0}), InvalidInput);
-  EXPECT_THROW(told.compare(cut, cut, {true, 0.002}), InvalidInput);
 }
 
 TEST(ComparedCurves, AreRefusedWhereTheyCannotBeCompared) {

@@ -6,29 +6,28 @@
 namespace knot_utm {
 namespace {
 
-TEST(Phase, HasANameOfItsOwn) {
-  for (const PhaseTraits& traits : all_phases()) {
-    EXPECT_EQ(phase_named(traits.name), traits.phase);
-    EXPECT_STREQ(phase_name(traits.phase), traits.name);
+/// Checkpoints have the numbers, and files the names.
+TEST(Phase, KeepsItsNumberAndItsName) {
+  std::vector<std::string> names;
+  for (const Phase phase : all_phases()) {
+    names.emplace_back(phase_name(phase));
+    EXPECT_EQ(phase_named(phase_name(phase)), phase) << "the name stands twice";
   }
+  names.resize(static_cast<std::size_t>(Phase::kDone) + 1);
+  EXPECT_THAT(names, testing::ElementsAre("idle", "tie", "release", "mount", "preload", "balance", "pull", "hold",
+                                          "cycle", "return", "follow", "done"));
   EXPECT_EQ(phase_named("pulling"), std::nullopt);
 }
 
 /// The rest of the package takes these for granted.
 TEST(Phase, HasTraitsThatGoTogether) {
-  for (const PhaseTraits& traits : all_phases()) {
-    if (traits.pulls) {
-      EXPECT_TRUE(traits.moves && !traits.prepares) << traits.name;
-    }
-    if (traits.forms) {
-      EXPECT_TRUE(traits.prepares && traits.ends_by_itself && !traits.moves) << traits.name;
-    }
-    if (!traits.is_step) {
-      EXPECT_FALSE(traits.moves || traits.forms || traits.can_break) << traits.name;
-    }
+  for (const Phase phase : all_phases()) {
+    const char* name = phase_name(phase);
+    EXPECT_TRUE(!pulls(phase) || (moves(phase) && loads(phase) && !prepares(phase))) << name;
+    EXPECT_TRUE(!forms(phase) || (prepares(phase) && ends_by_itself(phase) && !moves(phase))) << name;
   }
-  EXPECT_THAT(step_names(), testing::ElementsAre("tie", "release", "mount", "preload", "balance", "pull", "hold",
-                                                 "cycle", "return", "follow"));
+  for (const Phase phase : {Phase::kIdle, Phase::kDone})
+    EXPECT_FALSE(moves(phase) || forms(phase) || can_break(phase)) << phase_name(phase);
 }
 
 }  // namespace

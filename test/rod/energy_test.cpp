@@ -112,12 +112,5 @@ TEST(Energy, RefusesAStateThatDoesNotFitTheRod) {
   EXPECT_NO_THROW(require_fits(rod, arc(8, 0.1, 0.0)));
 }
 
-TEST(Rod, MassIsDensityTimesVolumeAndEndNodesCarryHalf) {
-  const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(10, 0.01));
-  EXPECT_EQ(rod.nodes(), 11);
-  EXPECT_NEAR(rod.mass.sum(), 1000.0 * M_PI * 1e-4 * 0.1, 1e-15);
-  EXPECT_NEAR(rod.mass[0], 0.5 * rod.mass[1], 1e-18);
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -124,21 +124,6 @@ TEST_P(StencilAt, CheapPathsAgree) {
   EXPECT_LT((cheap_twist.gradient - full_twist.gradient).norm(), 1e-14 * full_twist.gradient.norm());
 }
 
-/// The binormal has the length of the turning angle.
-TEST_P(StencilAt, CurvatureIsTheAveragedDirectorsPartOfTheBinormal) {
-  const Vec3 u = base.e(base.at).normalized();
-  const Vec3 v = base.f(base.at).normalized();
-  const double angle = std::sqrt(bending_angle_squared((v - u).squaredNorm()));
-  EXPECT_NEAR(angle, GetParam().angle, 2e-3 * angle + 1e-15);
-  const Vec3 kb = angle * u.cross(v).stableNormalized();
-  const Directors on_e = base.on_e(base.at);
-  const Directors on_f = base.on_f(base.at);
-  const Eigen::Vector2d kappa = material_curvature(base.e(base.at), base.f(base.at), on_e, on_f);
-  EXPECT_NEAR(kappa[0], 0.5 * kb.dot(on_e.m2 + on_f.m2), 1e-14);
-  EXPECT_NEAR(kappa[1], -0.5 * kb.dot(on_e.m1 + on_f.m1), 1e-14);
-  EXPECT_NEAR(kappa.norm(), std::abs(std::cos(0.5 * GetParam().twist)) * kb.norm(), 1e-13);
-}
-
 INSTANTIATE_TEST_SUITE_P(BendsAndTwists, StencilAt,
                          testing::Values(Corner{0.0, 0.0}, Corner{0.0, 0.8}, Corner{0.3, 0.0}, Corner{0.9, -0.5},
                                          Corner{1.8, 1.2}));

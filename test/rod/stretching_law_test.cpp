@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/rod/rod_laws.hpp"
-#include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/specimen/material.hpp"
+#include "rod/finite_difference.hpp"
+#include "rod/own_laws.hpp"
 
 namespace knot_utm {
 namespace {
@@ -60,6 +61,29 @@ TYPED_TEST(StretchingLaw, HasNoTensionWherePartedFromItsStiffness) {
   const StretchingResponse parted = this->law.respond({0.0, kRest, 1.7});
   EXPECT_EQ(parted.tension, 0.0);
   EXPECT_EQ(parted.slope, 0.0);
+}
+
+/// An edge of a rod, from the law of its own, from the rod, and by differences.
+TYPED_TEST(StretchingLaw, OfAnEdgeHasTheDerivativesOfItsEnergyAndIsTheRods) {
+  constexpr double kStep = 1e-4;
+  RodProperties rod = make_rod(Material(), Eigen::VectorXd::Constant(1, kRest));
+  rod.material.stretching_stiffness = kStiffness;
+  set_law(rod, StretchingLaws(this->law));
+  const auto of = [&](const Eigen::VectorXd& e) { return stretching(this->law, kStiffness, kRest, Vec3(e)); };
+  for (const double stretch : {0.8, 0.99, 1.0, 1.01, 1.5}) {
+    const Eigen::VectorXd edge = stretch * kRest * Vec3(0.3, -0.5, 0.8).normalized();
+    const StretchingLocal local = of(edge);
+    const Eigen::VectorXd gradient =
+        finite_difference_gradient([&](const Eigen::VectorXd& e) { return of(e).energy; }, edge, kStep);
+    EXPECT_LT((local.gradient - gradient).norm(), 1e-7 * kStiffness * (std::abs(stretch - 1.0) + 1e-6));
+    const auto slope = [&](const Eigen::VectorXd& e) -> Eigen::VectorXd { return of(e).gradient; };
+    EXPECT_LT(relative_difference(local.hessian, finite_difference(slope, edge, kStep)), 1e-8);
+    Points position = Points::Zero(3, 2);
+    position.col(1) = edge;
+    const StretchingResponse response = respond(rod, stretched_edge(rod, position, 0));
+    EXPECT_NEAR(response.energy, local.energy, 1e-14 * local.energy);
+    EXPECT_NEAR(local.gradient.dot(edge.normalized()), response.tension, 1e-14 * kStiffness);
+  }
 }
 
 /// At twice its length: T = k_s/3 (2 - 1/4), W = k_s/6 (4 + 1 - 3).

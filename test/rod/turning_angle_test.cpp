@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "knot_utm/numeric/lanes.hpp"
+#include <cmath>
+#include <utility>
 
 namespace knot_utm {
 namespace {
@@ -54,17 +53,6 @@ TEST(SquaredAngle, DerivativesAreThoseOfTheValue) {
     const double second = (ahead.first - behind.first) / (2.0 * kStep);
     EXPECT_NEAR(here.first, first, 1e-8 * std::abs(first)) << "w = " << w;
     EXPECT_NEAR(here.second, second, 1e-8 * std::abs(second)) << "w = " << w;
-  }
-}
-
-TEST(SquaredAngle, OfFourSideBySideIsThatOfEach) {
-  const Lanes w = {0.0, 1e-5, 0.3, 0.95};
-  const SquaredAngleOverW<Lanes> four = squared_angle_over(w);
-  for (int k = 0; k < 4; ++k) {
-    const SquaredAngleOverW<double> one = squared_angle_over(w[k]);
-    EXPECT_DOUBLE_EQ(four.value[k], one.value);
-    EXPECT_DOUBLE_EQ(four.first[k], one.first);
-    EXPECT_DOUBLE_EQ(four.second[k], one.second);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/raw/comparison.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/ros/experiment_node.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 
@@ -86,7 +87,7 @@ TEST(ExperimentRecord, IsReadAsTheLaunchSays) {
   const MethodSetup setup = with("side_by_side.csv", {"", "load=kN", "2", "load"});
   EXPECT_NEAR(setup.record.back().load, -4125.0, 1e-9);
   EXPECT_THAT(setup.told, testing::Contains(HasSubstr("specimen 2 of 2")));
-  EXPECT_NEAR(setup.method.program.back().recorded.back().time, 4.0, 1e-9);
+  EXPECT_NEAR(setup.method.program.back().as<FollowStep>()->recorded.back().time, 4.0, 1e-9);
   EXPECT_THAT(refusal("side_by_side.csv", {}), HasSubstr("2 specimens, side by side: choose one by specimen:=1 to 2"));
   EXPECT_THAT(refusal("no_units.csv", {}), HasSubstr("by units:=time=UNIT"));
   EXPECT_THAT(refusal("headerless.csv", {}), HasSubstr("such as columns:=time=1,extension=2,load=3"));

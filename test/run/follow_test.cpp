@@ -13,6 +13,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/run/load_test.hpp"
@@ -131,13 +132,13 @@ TEST_F(Follow, ARecordIsReadAsTheStepSays) {
                           Case{"neg_load.csv", "invert: both", {4.5, -2.25e-3}, "the sign of extension and load"}}) {
     std::vector<std::string> told;
     const Method method = following(one.file, one.keys, [&](const std::string& line) { told.push_back(line); });
-    const ProgramStep& step = method.program.front();
+    const FollowStep& step = *method.program.front().as<FollowStep>();
     EXPECT_NEAR(step.recorded.back().time, one.last.time, 1e-9) << one.file;
     EXPECT_NEAR(step.recorded.back().displacement, one.last.displacement, 1e-12) << one.file;
     EXPECT_THAT(told, testing::Contains(HasSubstr(one.told))) << one.file;
     // Resolved, it says the same.
     std::ofstream(in("method.yaml")) << method_yaml(method);
-    EXPECT_EQ(load_test(in("method.yaml")).program.front().recorded.back().displacement,
+    EXPECT_EQ(load_test(in("method.yaml")).program.front().as<FollowStep>()->recorded.back().displacement,
               step.recorded.back().displacement);
   }
 }

@@ -12,7 +12,6 @@
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "sim/drawn_overhand.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {

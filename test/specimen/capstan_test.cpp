@@ -1,4 +1,6 @@
-#include "knot_utm/specimen/capstan.hpp"
+// knot: capstan.
+
+#include "sim/capstan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +12,11 @@
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "reference.hpp"
 #include "rod/materials.hpp"
-#include "sim/capstan.hpp"
 
 namespace knot_utm {
 namespace {
@@ -87,7 +90,7 @@ struct Ratios {
 };
 
 Ratios pulled(const SpecimenOptions& specimen, double friction_couple = 0.0) {
-  constexpr int kCommands = 300;
+  constexpr int kCommands = 100;
   MachineOptions machine;
   machine.grips = GripKind::kNodes;
   machine.roller_friction = kMu;
@@ -100,7 +103,7 @@ Ratios pulled(const SpecimenOptions& specimen, double friction_couple = 0.0) {
   EXPECT_NE(bench.respond(command).status, BenchStatus::kFailed);
   command.phase = Phase::kPull;
   command.step = 1;
-  const double way = knot_of(specimen).pull(specimen, nylon().radius), t1 = tail_load(specimen, nylon());
+  const double way = knot_of(specimen).pull(specimen, nylon().radius), t1 = *specimen.tail_load;
   Ratios out;
   int counted = 0;
   for (int k = 1; k <= kCommands; ++k) {

@@ -1,16 +1,19 @@
 #include "knot_utm/specimen/centreline.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <regex>
 #include <string>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/polyline.hpp"
@@ -214,23 +217,6 @@ TEST(FishermanLoop, IsRefusedInTheDistanceThatWasAskedFor) {
   EXPECT_EQ(refused_key(shape), "");
 }
 
-TEST(FishermanLoop, FitsWhereverItIsAccepted) {
-  for (const Handedness handedness : {Handedness::kSame, Handedness::kOpposite}) {
-    for (const double e : {0.042, 0.15, 0.165}) {
-      FishermanShape shape;
-      shape.handedness = handedness;
-      shape.knot_distance = e;
-      shape.tail = 0.1;
-      const Centreline line = fisherman_loop(shape);
-      for (const double z : {0.0, shape.end_to_end}) {
-        const Eigen::VectorXd distance =
-            (line.points.row(0).array().square() + (line.points.row(2).array() - z).square()).sqrt();
-        EXPECT_GT(distance.minCoeff(), shape.roller_radius + 0.98 * shape.radius) << "e " << e;
-      }
-    }
-  }
-}
-
 TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   for (int turns = 1; turns <= 4; ++turns) {
     for (const double excess : {0.65, 0.9}) {
@@ -369,6 +355,48 @@ TEST(NearestPlaces, SeesParallelCrossingAndEndOnSegments) {
   EXPECT_NEAR(nearest_places(u, 0.1).first, 1.0 - 0.5 * u_nearest, 1e-12);
   EXPECT_NEAR(nearest_places(u, 0.1).second, 1.3 + u_nearest * std::sqrt(0.51), 1e-12);
   EXPECT_EQ(nearest_places(u, 10.0).distance, std::numeric_limits<double>::infinity());
+}
+
+using ::testing::HasSubstr;
+
+class CentrelineFile : public ::testing::Test {
+ protected:
+  std::string write(const std::string& text) {
+    std::ofstream(path_) << text;
+    return path_;
+  }
+  std::string complaint(const std::string& text) {
+    try {
+      read_centreline(write(text));
+    } catch (const InvalidInput& invalid) {
+      return invalid.what();
+    }
+    return "";
+  }
+  void TearDown() override { std::remove(path_.c_str()); }
+  std::string path_ = ::testing::TempDir() + "knot_utm_centreline_" +
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
+};
+
+TEST_F(CentrelineFile, HeadingsCommentsAndEmptyRowsArePassedOver) {
+  const Points points = read_centreline(write("x,y,z\nm,m,m\n# arch\n0,0,0\n\n0, 0, 1e-2\r\n0,1,+2\n-1,1,2\n"));
+  ASSERT_EQ(points.cols(), 4);
+  EXPECT_EQ(points.col(1), Vec3(0.0, 0.0, 0.01));
+  EXPECT_EQ(points.col(3), Vec3(-1.0, 1.0, 2.0));
+}
+
+TEST_F(CentrelineFile, WrongRowsAreNamed) {
+  EXPECT_THAT(complaint("0,0,0\n0,0\n0,0,2\n0,0,3\n0,0,4\n"), HasSubstr("row 2"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,nan\n"), HasSubstr("row 2"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,0\n"), HasSubstr("row 2 is the same point as the one before it"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,1\n0,0,2\n"), HasSubstr("has 3 points, but must have four or more"));
+  EXPECT_THAT(complaint("a\nb\nc\n0,0,0\n"), HasSubstr("row 3"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,+-1\n"), HasSubstr("row 2"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,1001\n"),
+              HasSubstr("row 2 is \"0,0,1001\", but must be three numbers x,y,z from -1000"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,1e-200\n"), HasSubstr("row 2 is the same point as the one before it"));
+  EXPECT_THAT(complaint("0,0,0\n" + std::string(5000, '0') + ",0,0\n"),
+              HasSubstr("row 2 is longer than 4096 characters"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "knot_utm/specimen/multiple_fisherman.hpp"
+// knot: multiple_fisherman.
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
@@ -97,21 +98,6 @@ TEST(MultipleFisherman, ClearsItselfForRodsOfAnySize) {
         ASSERT_EQ(line.knots.size(), 2u);
         EXPECT_GT(line.knots[0].longer, 0.0);
       }
-}
-
-/// A further winding of radius R takes in its own length of rod, 2 pi R, and makes the coil 3.2 h longer, through which
-/// standing part and tail run.
-TEST(MultipleFisherman, EachWindingTakesInAnotherTurn) {
-  const auto length = [](int turns) {
-    Scene scene("multiple_fisherman", turns, 3.175e-3, Handedness::kSame);
-    scene.specimen.tail = 0.1;
-    scene.specimen.end_to_end = 0.4;
-    scene.specimen.to_be_tied = false;  // the coils stand where they are asked for
-    return scene.centreline().length();
-  };
-  const double h = 3.175e-3, winding = 2.0 * M_PI * 4.7 * h;
-  EXPECT_GT(length(3) - length(2), 2.0 * winding);
-  EXPECT_LT(length(3) - length(2), 2.0 * (winding + 2.0 * 3.2 * h));
 }
 
 /// What a tail that is wound once would be cut at is a winding that rises and falls again.

@@ -31,13 +31,6 @@ TEST(SpecimenScales, SimilarSpecimensOfAnyDensityMoveAlike) {
     }
 }
 
-TEST(SettlingDrag, RelaxesWavesOfALengthInATenthOfItsTime) {
-  const Material material = nylon();
-  const double wave = 20.0 * material.radius, time = 0.5;
-  const double fading_rate = material.bending_stiffness * std::pow(2.0 * M_PI / wave, 4);  // times the drag [1/s]
-  EXPECT_NEAR(settling_drag(material, wave, time) / fading_rate, 0.1 * time, 1e-12);
-}
-
 TEST(SpecimenScales, NoMoreThanTheRodsOwnMassIsAccelerated) {
   Material light = nylon();
   light.density *= 1e-3;

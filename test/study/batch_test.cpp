@@ -12,6 +12,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/specimens.hpp"
+#include "run/own_folder.hpp"
 
 namespace knot_utm {
 namespace {
@@ -21,21 +22,17 @@ using ::testing::HasSubstr;
 
 const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
 
-class Batch : public ::testing::Test {
+class Batch : public OwnFolder {
  protected:
   Batch() {
-    fs::remove_all(folder);
-    options.folder = folder + "/batch";
+    options.folder = folder() + "/batch";
     options.interrupted = [] { return false; };
     options.notice = [&](const std::string& line) { said += line + "\n"; };
   }
-  ~Batch() override { fs::remove_all(folder); }
 
   std::string written(const char* file) const { return read_whole(options.folder + "/" + file); }
   YAML::Node statistics() const { return YAML::Load(written("statistics.yaml")); }
 
-  const std::string folder =
-      ::testing::TempDir() + "batch_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
   /// Rods that are pulled within milliseconds, of different stiffness.
   const Method method = load_method(kConfig + "straight.yaml",
                                     {"specimens={count: 5, scatter: {material.stretching_stiffness: {normal: 0.1}}}"});
@@ -46,7 +43,7 @@ class Batch : public ::testing::Test {
 TEST_F(Batch, LeavesTheSameBytesHoweverManyAreTestedSideBySide) {
   std::vector<std::string> all;
   for (const int jobs : {1, 3, 8}) {
-    options.folder = folder + "/jobs_" + std::to_string(jobs);
+    options.folder = folder() + "/jobs_" + std::to_string(jobs);
     options.jobs = jobs;
     const BatchOutcome outcome = run_batch(method, options);
     EXPECT_FALSE(outcome.interrupted);
@@ -104,12 +101,6 @@ TEST_F(Batch, InterruptedAndResumedItLeavesTheSameStatistics) {
   EXPECT_THROW(run_batch(again, options), InvalidInput) << "there is nothing to resume";
 }
 
-TEST_F(Batch, DoesNotTakeASpecimenThatAnotherOneLeft) {
-  fs::create_directories(specimen_folder(options.folder, 1));
-  std::ofstream(specimen_folder(options.folder, 1) + "/result.yaml") << "ended_by: break\n";
-  EXPECT_EQ(run_batch(method, options).folder, options.folder + "-2");
-}
-
 TEST_F(Batch, SaysWhichResultItMisses) {
   BatchTable table(options.folder);
   try {
@@ -126,6 +117,11 @@ TEST_F(Batch, AnotherOneGoesToAFolderOfItsOwn) {
   EXPECT_EQ(run_batch(method, options).folder, options.folder + "-2");
   EXPECT_EQ(written("statistics.yaml"), first);
   EXPECT_THAT(said, HasSubstr("holds a run already"));
+  // Also where there is but a specimen of one.
+  options.folder = folder() + "/other";
+  fs::create_directories(specimen_folder(options.folder, 1));
+  std::ofstream(specimen_folder(options.folder, 1) + "/result.yaml") << "ended_by: break\n";
+  EXPECT_EQ(run_batch(method, options).folder, options.folder + "-2");
 }
 
 TEST_F(Batch, SpecimensThatFailAreRejectedAndTheirReadingsLeftOut) {

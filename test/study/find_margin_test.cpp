@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
@@ -38,18 +40,9 @@ TEST(Margin, OfPolypropyleneLiesWhereItsKnotsJumpOpen) {
   test.material = polypropylene();
   test.specimen.to_be_tied = true;
   test.specimen.preload = 50.0;
-  ProgramStep tie, release, mount, balance, pull;
-  tie.phase = Phase::kTie;
-  tie.speed = 0.01;
-  release.phase = Phase::kRelease;
-  release.duration = 3.0;
-  mount.phase = Phase::kMount;
-  mount.speed = 0.0033;
-  balance.phase = Phase::kBalance;
-  pull.phase = Phase::kPull;
-  pull.speed = 0.0033;
+  PullStep pull;
   pull.until.extension = 0.12;
-  test.program = {tie, release, mount, balance, pull};
+  test.program = {TieStep(), ReleaseStep(), MountStep(), BalanceStep(), pull};
   const Margin margin = find_margin(test, [] { return false; });
   ASSERT_TRUE(margin.friction) << margin.reason;
   EXPECT_GT(*margin.friction, 0.05);

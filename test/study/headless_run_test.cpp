@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "run/own_folder.hpp"
 
 namespace knot_utm {
 namespace {
@@ -18,22 +17,14 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 /// The shipped straight rod, which is pulled within milliseconds, and a folder of this test's own.
-class HeadlessRun : public ::testing::Test {
+class HeadlessRun : public OwnFolder {
  protected:
   HeadlessRun() {
-    fs::remove_all(folder);
-    options.folder = folder + "/run";
+    options.folder = folder() + "/run";
     options.interrupted = [] { return false; };
   }
-  ~HeadlessRun() override { fs::remove_all(folder); }
+  std::string curve() const { return read_whole(options.folder + "/curve.csv"); }
 
-  std::string curve() const {
-    std::ifstream in(options.folder + "/curve.csv");
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  const std::string folder =
-      ::testing::TempDir() + "headless_run_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
   const Method method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
   HeadlessOptions options;
 };
@@ -93,7 +84,7 @@ TEST_F(HeadlessRun, BegunWithAnEarlierRunItLeavesTheSameBytesAsFromTheStart) {
   const std::string from_the_start = curve() + read_whole(options.folder + "/curve_full.csv");
 
   HeadlessOptions early = options;
-  early.folder = folder + "/early";
+  early.folder = folder() + "/early";
   early.stop_before = step_called(first.program, "pull");
   EXPECT_FALSE(run_headless(first, early).ended);
   options.folder += "_later";
@@ -108,7 +99,7 @@ TEST_F(HeadlessRun, BegunWithAnEarlierRunItLeavesTheSameBytesAsFromTheStart) {
 
 TEST_F(HeadlessRun, BeginsWithNoRunOfAnotherSpecimenOrProgram) {
   HeadlessOptions early = options;
-  early.folder = folder + "/early";
+  early.folder = folder() + "/early";
   early.stop_before = step_called(method.program, "pull");
   run_headless(method, early);
   options.begin_with = early.folder;
@@ -125,16 +116,8 @@ TEST_F(HeadlessRun, BeginsWithNoRunOfAnotherSpecimenOrProgram) {
   EXPECT_THAT(refused({"program=[{hold: {duration: 3}}, {pull: {until: {extension: 0.01}}}]"}),
               HasSubstr("the programs differ from"));
   EXPECT_FALSE(fs::exists(options.folder)) << "nothing was written";
-  options.begin_with = folder + "/nowhere";
+  options.begin_with = folder() + "/nowhere";
   EXPECT_THAT(refused({}), HasSubstr("it holds no run"));
-}
-
-TEST_F(HeadlessRun, ARunIsNotWrittenOver) {
-  ASSERT_TRUE(run_headless(method, options).ended);
-  std::string said;
-  options.notice = [&](const std::string& line) { said += line + "\n"; };
-  EXPECT_EQ(run_headless(method, options).folder, options.folder + "-2");
-  EXPECT_THAT(said, HasSubstr("--overwrite writes over that one"));
 }
 
 }  // namespace

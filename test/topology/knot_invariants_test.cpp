@@ -17,21 +17,6 @@ namespace {
 const KnotPolynomial kSamePolynomial{1, -1, -1, 4, -5, 4, -1, -1, 1};
 const KnotPolynomial kOppositePolynomial{1, -1, -1, 3, -1, -1, 1};
 
-Eigen::Index node_at(const Centreline& line, double arclength) { return line.nearest_node(arclength); }
-
-LoopTopology topology_of(const Centreline& line, double radius) {
-  return {node_at(line, line.knots[0].standing_begin), node_at(line, line.knots[1].standing_begin), radius};
-}
-
-void expect_fisherman(const LoopTopology::Reading& reading, Handedness handedness) {
-  const bool same = handedness == Handedness::kSame;
-  EXPECT_EQ(reading.polynomial, same ? kSamePolynomial : kOppositePolynomial);
-  EXPECT_EQ(reading.determinant, same ? 11 : 1);
-  EXPECT_EQ(std::abs(reading.linking), same ? 2 : 0);
-  EXPECT_THAT(reading.overhand_determinant, testing::ElementsAre(3, 3));
-  EXPECT_THAT(reading.coil_found, testing::ElementsAre(true, true));
-}
-
 /// A smooth map of space onto itself, near enough to the identity to be one to one.
 Points waved(const Points& points, double wavelength, double slope, std::mt19937& random) {
   std::normal_distribution<double> normal;
@@ -110,14 +95,65 @@ TEST(K7_Overhand, IsATorusKnotOnceItsEndsAreJoinedOutside) {
   }
 }
 
-class K7_Loop : public testing::TestWithParam<Handedness> {};
+/// A drawn loop of either handedness.
+class K7_Loop : public testing::TestWithParam<Handedness> {
+ protected:
+  FishermanShape shape = [] {
+    FishermanShape out;
+    out.handedness = GetParam();
+    return out;
+  }();
+
+  /// Draws the loop of `shape`.
+  void draw() {
+    line = fisherman_loop(shape);
+    topology = LoopTopology(node(line.knots[0].standing_begin), node(line.knots[1].standing_begin), shape.radius);
+  }
+  void SetUp() override { draw(); }
+
+  Eigen::Index node(double arclength) const { return line.nearest_node(arclength); }
+  LoopTopology::Reading read(const Points& points) { return topology.read(points, Vec3::UnitZ()); }
+  void expect_fisherman(const LoopTopology::Reading& reading) const {
+    const bool same = GetParam() == Handedness::kSame;
+    EXPECT_EQ(reading.polynomial, same ? kSamePolynomial : kOppositePolynomial);
+    EXPECT_EQ(reading.determinant, same ? 11 : 1);
+    EXPECT_EQ(std::abs(reading.linking), same ? 2 : 0);
+    EXPECT_THAT(reading.overhand_determinant, testing::ElementsAre(3, 3));
+    EXPECT_THAT(reading.coil_found, testing::ElementsAre(true, true));
+  }
+
+  /// Bends the tail of the upper knot, from its exit on, by `bend` towards the direction at `heading` from x.
+  Points with_bent_tail(double bend, double heading) const {
+    Points points = line.points;
+    const Eigen::Index exit = node(line.knots[1].tail_exit) + 1;
+    const Vec3 towards(std::cos(heading), std::sin(heading), 0.0);
+    const Eigen::Index tail = points.cols() - exit;
+    for (Eigen::Index i = exit; i < points.cols(); ++i) {
+      const double angle = bend * std::min(1.0, 2.0 * static_cast<double>(i - exit) / static_cast<double>(tail));
+      points.col(i) = points.col(i - 1) + (line.points.col(1) - line.points.col(0)).norm() *
+                                              (std::cos(angle) * Vec3::UnitZ() + std::sin(angle) * towards);
+    }
+    return points;
+  }
+  /// Turns nodes around the strand that passes the upper knot: not at all at `first`, by the full angle from `full` on.
+  Points wound(Eigen::Index first, Eigen::Index full, double angle) const {
+    Points points = line.points;
+    const Vec3 strand = points.col(node(line.knots[1].threaded));
+    for (Eigen::Index i = first; i < points.cols(); ++i) {
+      const double share = std::min(1.0, static_cast<double>(i - first) / static_cast<double>(full - first));
+      const Vec3 hub(strand.x(), strand.y(), points(2, i));
+      points.col(i) = hub + Eigen::AngleAxisd(angle * share, Vec3::UnitZ()) * (points.col(i) - hub);
+    }
+    return points;
+  }
+
+  Centreline line;
+  LoopTopology topology{0, 0, 1.0};
+};
 
 TEST_P(K7_Loop, DeterminantAndLinkingOfTheDrawnKnot) {
-  FishermanShape shape;
-  shape.handedness = GetParam();
-  const Centreline line = fisherman_loop(shape);
-  const LoopTopology::Reading reading = topology_of(line, shape.radius).read(line.points, Vec3::UnitZ());
-  expect_fisherman(reading, GetParam());
+  const LoopTopology::Reading reading = read(line.points);
+  expect_fisherman(reading);
   const bool same = GetParam() == Handedness::kSame;
   const std::string what = same ? "K7 same-handed loop: " : "K7 opposite-handed loop: ";
   hold_against(what + "determinant", same ? 11 : 1, static_cast<double>(reading.determinant), 0.0);
@@ -128,25 +164,19 @@ TEST_P(K7_Loop, DeterminantAndLinkingOfTheDrawnKnot) {
 }
 
 TEST_P(K7_Loop, HasItsKnotTypeAtAnyLoosenessAndMesh) {
-  FishermanShape shape;
-  shape.handedness = GetParam();
-  for (const double looseness : {4.2, 4.7, 5.1}) {
-    for (const double edge : {0.5, 0.75, 1.0}) {
-      for (const double e : {0.06, 0.1, 0.15}) {
+  const double h = shape.radius;
+  for (const double looseness : {4.2, 4.7, 5.1})
+    for (const double edge : {0.5, 1.0})
+      for (const double e : {0.06, 0.15}) {
         shape.looseness = looseness;
-        shape.edge_length = edge * shape.radius;
+        shape.edge_length = edge * h;
         shape.knot_distance = e;
-        const Centreline line = fisherman_loop(shape);
-        expect_fisherman(topology_of(line, shape.radius).read(line.points, Vec3::UnitZ()), GetParam());
+        draw();
+        expect_fisherman(read(line.points));
       }
-    }
-  }
 }
 
 TEST_P(K7_Loop, KeepsItUnderSmoothDeformationAndRotation) {
-  FishermanShape shape;
-  shape.handedness = GetParam();
-  const Centreline line = fisherman_loop(shape);
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   for (int n = 0; n < 30; ++n) {
@@ -154,123 +184,60 @@ TEST_P(K7_Loop, KeepsItUnderSmoothDeformationAndRotation) {
     const Eigen::Quaterniond turn =
         Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
     const Points turned = (turn.toRotationMatrix() * wave).colwise() + Vec3(0.3, -0.2, 5.0);
-    LoopTopology topology = topology_of(line, shape.radius);
-    const LoopTopology::Reading reading = topology.read(turned, turn * Vec3::UnitZ());
-    expect_fisherman(reading, GetParam());
+    expect_fisherman(LoopTopology(topology).read(turned, turn * Vec3::UnitZ()));
   }
-}
-
-/// Bends the tail of the upper knot, from its exit on, by `bend` towards the direction at `heading` from x.
-Points with_bent_tail(const Centreline& line, double bend, double heading) {
-  Points points = line.points;
-  const Eigen::Index exit = node_at(line, line.knots[1].tail_exit) + 1;
-  const Vec3 towards(std::cos(heading), std::sin(heading), 0.0);
-  const Eigen::Index tail = points.cols() - exit;
-  for (Eigen::Index i = exit; i < points.cols(); ++i) {
-    const double angle = bend * std::min(1.0, 2.0 * static_cast<double>(i - exit) / static_cast<double>(tail));
-    points.col(i) = points.col(i - 1) + (line.points.col(1) - line.points.col(0)).norm() *
-                                            (std::cos(angle) * Vec3::UnitZ() + std::sin(angle) * towards);
-  }
-  return points;
 }
 
 TEST_P(K7_Loop, KeepsItWhileATailSwings) {
-  FishermanShape shape;
-  shape.handedness = GetParam();
-  const Centreline line = fisherman_loop(shape);
-  LoopTopology topology = topology_of(line, shape.radius);
   const double away = GetParam() == Handedness::kSame ? 0.0 : 0.5 * M_PI;
-  for (double bend = 0.0; bend < 3.0; bend += 0.25) {
-    for (double heading = -1.75; heading <= 1.75; heading += 0.25) {
-      const LoopTopology::Reading reading = topology.read(with_bent_tail(line, bend, away + heading), Vec3::UnitZ());
-      expect_fisherman(reading, GetParam());
-    }
-  }
+  for (double bend = 0.0; bend < 3.0; bend += 0.5)
+    for (double heading = -1.75; heading <= 1.75; heading += 0.25)
+      expect_fisherman(read(with_bent_tail(bend, away + heading)));
 }
 
-/// Turns nodes `first` to `last` around the strand that passes the upper knot: not at all at the first, by the full
-/// angle from `full` on.
-Points wound(const Centreline& line, Eigen::Index first, Eigen::Index full, double angle) {
-  Points points = line.points;
-  const Vec3 strand = points.col(node_at(line, line.knots[1].threaded));
-  for (Eigen::Index i = first; i < points.cols(); ++i) {
-    const double share = std::min(1.0, static_cast<double>(i - first) / static_cast<double>(full - first));
-    const Vec3 hub(strand.x(), strand.y(), points(2, i));
-    points.col(i) = hub + Eigen::AngleAxisd(angle * share, Vec3::UnitZ()) * (points.col(i) - hub);
-  }
-  return points;
-}
-
-TEST_P(K7_Loop, KeepsItWhileATailWindsAroundTheOtherStrand) {
-  FishermanShape shape;
-  shape.handedness = GetParam();
+TEST_P(K7_Loop, KeepsItWhileATailOrAWholeKnotWindsAroundTheOtherStrand) {
   shape.tail = 0.1;
-  const Centreline line = fisherman_loop(shape);
-  const Eigen::Index exit = node_at(line, line.knots[1].tail_exit);
-  for (const double sense : {-1.0, 1.0}) {
-    LoopTopology topology = topology_of(line, shape.radius);
-    for (double angle = 0.0; angle < 4.0 * M_PI; angle += 0.2) {
-      expect_fisherman(topology.read(wound(line, exit, exit + 20, sense * angle), Vec3::UnitZ()), GetParam());
-    }
-  }
-}
-
-TEST_P(K7_Loop, KeepsItWhileAWholeKnotTurnsAroundTheOtherStrand) {
-  FishermanShape shape;
-  shape.handedness = GetParam();
   shape.knot_distance = 0.15;
-  const Centreline line = fisherman_loop(shape);
-  const Eigen::Index full = node_at(line, line.knots[1].standing_begin);
-  const Eigen::Index first = full - 25;
-  for (const double sense : {-1.0, 1.0}) {
-    LoopTopology topology = topology_of(line, shape.radius);
-    for (double angle = 0.0; angle < 4.0 * M_PI; angle += 0.5) {
-      expect_fisherman(topology.read(wound(line, first, full, sense * angle), Vec3::UnitZ()), GetParam());
+  draw();
+  const Eigen::Index exit = node(line.knots[1].tail_exit), standing = node(line.knots[1].standing_begin);
+  const LoopTopology drawn = topology;
+  for (const double sense : {-1.0, 1.0})
+    for (const auto& [first, full] : {std::pair(exit, exit + 20), std::pair(standing - 25, standing)}) {
+      topology = drawn;
+      for (double angle = 0.0; angle < 4.0 * M_PI; angle += 0.5)
+        expect_fisherman(read(wound(first, full, sense * angle)));
     }
-  }
 }
 
 /// As the pair of knots wanders to a roller, the standing part of one goes around it, and its node lies on the far
 /// side.
 TEST_P(K7_Loop, KeepsItWhereTheStandingPartHasGoneAroundTheRoller) {
-  FishermanShape shape;
-  shape.handedness = GetParam();
-  const Centreline line = fisherman_loop(shape);
-  const Eigen::Index lower = node_at(line, line.knots[0].standing_begin);
   for (const double beyond : {0.0, 0.03, 0.08}) {
-    LoopTopology topology(lower, node_at(line, line.lower_apex - beyond), shape.radius);
-    expect_fisherman(topology.read(line.points, Vec3::UnitZ()), GetParam());
+    topology = LoopTopology(node(line.knots[0].standing_begin), node(line.lower_apex - beyond), shape.radius);
+    expect_fisherman(read(line.points));
   }
 }
 
 TEST_P(K7_Loop, KeepsItWhereAKnotTurnedFurtherThanCouldBeFollowed) {
-  FishermanShape shape;
-  shape.handedness = GetParam();
   shape.knot_distance = 0.15;
-  const Centreline line = fisherman_loop(shape);
-  const Eigen::Index full = node_at(line, line.knots[1].standing_begin);
-  LoopTopology topology = topology_of(line, shape.radius);
-  const LoopTopology::Reading tied = topology.read(line.points, Vec3::UnitZ());
-  const Points turned = wound(line, full - 25, full, 2.0 * M_PI);
+  draw();
+  const Eigen::Index full = node(line.knots[1].standing_begin);
+  const LoopTopology::Reading tied = read(line.points);
+  const Points turned = wound(full - 25, full, 2.0 * M_PI);
   EXPECT_FALSE(LoopTopology(topology).read(turned, Vec3::UnitZ()).same_knot(tied));
-  expect_fisherman(topology.read_as(tied, turned, Vec3::UnitZ()), GetParam());
-  expect_fisherman(topology.read(turned, Vec3::UnitZ()), GetParam());
+  expect_fisherman(topology.read_as(tied, turned, Vec3::UnitZ()));
+  expect_fisherman(read(turned));
 }
 
 TEST_P(K7_Loop, LosesItWhenATailLeavesItsCoil) {
-  FishermanShape shape;
-  shape.handedness = GetParam();
-  const Centreline line = fisherman_loop(shape);
-  LoopTopology topology = topology_of(line, shape.radius);
-  const LoopTopology::Reading tied = topology.read(line.points, Vec3::UnitZ());
+  const LoopTopology::Reading tied = read(line.points);
   // The tail pulled back into the coil, and out of it sideways.
   Points points = line.points;
-  const Eigen::Index middle = node_at(line, line.knots[1].coil_middle);
+  const Eigen::Index middle = node(line.knots[1].coil_middle);
   const Vec3 from = points.col(middle);
-  for (Eigen::Index i = middle + 1; i < points.cols(); ++i) {
-    const double along = static_cast<double>(i - middle) * (line.points.col(1) - line.points.col(0)).norm();
-    points.col(i) = from + along * (from - points.col(node_at(line, line.knots[1].threaded))).normalized();
-  }
+  const Vec3 sideways = (from - points.col(node(line.knots[1].threaded))).normalized();
+  for (Eigen::Index i = middle + 1; i < points.cols(); ++i)
+    points.col(i) = points.col(i - 1) + (line.points.col(1) - line.points.col(0)).norm() * sideways;
   const LoopTopology::Reading lost = topology.read_as(tied, points, Vec3::UnitZ());
   EXPECT_FALSE(lost.same_knot(tied));
   EXPECT_EQ(lost.overhand_determinant[0], 3);

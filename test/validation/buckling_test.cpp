@@ -62,30 +62,14 @@ double critical_force(Eigen::Index n, Ends ends, StaticRod::Path path) {
   });
 }
 
-std::string with_or_without_frames(StaticRod::Path path) {
-  return path == StaticRod::Path::kFull ? ", with frames" : ", without frames";
-}
-
-TEST(R4_EulerBuckling, Hinged) {
+TEST(R4_EulerBuckling, HingedAndClamped) {
   for (const auto path : {StaticRod::Path::kTwistFree, StaticRod::Path::kFull}) {
-    hold_against("R4 Euler buckling, hinged" + with_or_without_frames(path) + ": P L^2/B", kPi * kPi,
-                 critical_force(40, Ends::kHinged, path), 0.01);
-  }
-}
-
-TEST(R4_EulerBuckling, Clamped) {
-  for (const auto path : {StaticRod::Path::kTwistFree, StaticRod::Path::kFull}) {
-    hold_against("R4 Euler buckling, clamped" + with_or_without_frames(path) + ": P L^2/B", 4.0 * kPi * kPi,
+    const std::string frames = path == StaticRod::Path::kFull ? ", with frames" : ", without frames";
+    hold_against("R4 Euler buckling, hinged" + frames + ": P L^2/B", kPi * kPi, critical_force(40, Ends::kHinged, path),
+                 0.01);
+    hold_against("R4 Euler buckling, clamped" + frames + ": P L^2/B", 4.0 * kPi * kPi,
                  critical_force(40, Ends::kClamped, path), 0.01);
   }
-}
-
-TEST(R4_EulerBuckling, SecondOrderInTheEdgeLength) {
-  const auto error = [](Eigen::Index n, Ends ends, double expected) {
-    return std::abs(critical_force(n, ends, StaticRod::Path::kTwistFree) / expected - 1.0);
-  };
-  EXPECT_GT(std::log2(error(10, Ends::kHinged, kPi * kPi) / error(20, Ends::kHinged, kPi * kPi)), 1.8);
-  EXPECT_GT(std::log2(error(12, Ends::kClamped, 4 * kPi * kPi) / error(24, Ends::kClamped, 4 * kPi * kPi)), 1.8);
 }
 
 /// Smallest singular value of the tangent matrix of a hinged strut under end moments M and -M that stay along the x
@@ -194,7 +178,6 @@ TEST(R5_MichellZajac, RingOfNEdges) {
     for (const double n : {16.0, 24.0, 48.0}) {
       const double ratio =
           critical_twist_ratio(static_cast<Eigen::Index>(n), twisting_stiffness, StaticRod::Path::kIsotropicTwist);
-      EXPECT_NEAR(ratio, 1.0 + kSecondOrder / (n * n), 2e-3) << "C/B = " << twisting_stiffness << ", N = " << n;
       hold_against(formatted("R5 ring, C/B = %.1f, %.0f edges: twist over 2 pi sqrt(3) B/C", twisting_stiffness, n),
                    1.0 + kSecondOrder / (n * n), ratio, 2e-3);
     }

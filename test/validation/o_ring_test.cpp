@@ -211,14 +211,5 @@ TEST(R13ORingOfHalfTheCouple, RollsTwiceAsFastAgainstTwiceTheForce) {
                ring.force(), kGate);
 }
 
-TEST(ORingWithFrictionOnItsCentreline, SlidesAndDoesNotRoll) {
-  RingOptions options;
-  options.couple = 0.0;
-  Ring ring(options);
-  ring.drag(options.radius);
-  EXPECT_NEAR(ring.force(), ring.limit(), kGate * ring.limit());
-  EXPECT_LT(ring.rolled(), 1e-6);
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -76,7 +76,7 @@ TEST(Foreseen, AnExtensionBeyondTheTravelOfTheCrosshead) {
       ElementsAre("program.0.pull.until.extension is 0.03 m, which is never reached: before it the crosshead is "
                   "at the end of machine.travel, 0.02 m, and the test ends there"));
   EXPECT_THAT(warnings_of("straight", {"machine.travel=0.02", "program=[{cycle: {extension: [0, 0.03], count: 2}}]"}),
-              ElementsAre(HasSubstr("program.0.cycle.extension is 0.03 m, which is never reached")));
+              ElementsAre(HasSubstr("program.0.cycle.extension.1 is 0.03 m, which is never reached")));
 }
 
 TEST(Foreseen, ALoadOrATimeBeyondWhatEndsTheTest) {
@@ -122,7 +122,7 @@ TEST(SpeedWarnings, SayThatKnotsAreTiedInHaste) {
   const Method plain = load_method(kConfig + "tighten.yaml");
   EXPECT_THAT(speed_warnings(plain), IsEmpty());
   const std::string by_default =
-      format_number(std::round(100.0 * plain.program[0].speed / plain.material.radius) / 100.0);
+      format_number(std::round(100.0 * plain.program[0]->speed / plain.material.radius) / 100.0);
   EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.tie.speed=0.029"})), IsEmpty());
   EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.tie.speed=0.1"})),
               ElementsAre(HasSubstr("tied at 31.5 radii a second, by default at " + by_default + ";")));

@@ -82,15 +82,11 @@ std::optional<Drop> largest_drop(const Pull& pull, double end);
 /// A knot that jumped open, as the fall of F that goes with it. Empty where no knot jumped open, and where the pull
 /// does not have the readings by which this could be told.
 ///
-/// A knot jumps open if it takes in rod at once and F falls. "At once" means within jump_way(). Two criteria are used:
-///
-/// - Where the excess lengths are known, a knot must take in, and keep over another jump_way(), at least an eighth of
-///   the excess length that it had when the pull began, and F must fall from above zero, by a tenth or more. Knots of a
-///   stretchy loop take in as much under a load that rises, and have not jumped.
-/// - Where they are not known, F must fall to a half or less, and the knots must come nearer to each other by more than
-///   rigid_sliding() explains; the rest must exceed e_0/20. In simulations this rest was 6 to 65 % of e_0 for knots
-///   that jumped open, and at most 4 % for others, whose knots nested into each other. Stretchy strands come nearer by
-///   up to 15 % as a knot slips, but F then falls little.
+/// A knot jumps open if it takes in rod within jump_way() and F falls; how much of both is asked for, with and without
+/// known excess lengths, stands in doc/model.md, section 10, "A jump". Without them the rest of the knots' approach
+/// that rigid_sliding() does not explain was 6 to 65 % of e_0 in simulations of knots that jumped open, and at most 4 %
+/// for others, whose knots nested into each other. Stretchy strands come nearer by up to 15 % as a knot slips, but F
+/// then falls little.
 ///
 /// The result reaches from the largest F of the jump to the smallest F within another jump_way() after it. No lock is
 /// required, because a load that rises to its breakaway and then falls shows a false lock. Only points from the index
@@ -161,28 +157,15 @@ Pull borne_of(Pull pull);
 /// that is known. The decision is then independent of balancing and of the noise of the load cell. The largest drop is
 /// read from the same force. All other values are readings of F.
 ///
-/// The mean of F is a plateau if the knots slide and F is level. All of the following must hold:
-/// - F was read at least three times within the plateau range.
-/// - No knot jumped open. A knot that jumped open is another knot from then on, so it has no lock and no stiffness here
-///   either.
-/// - Where e is known, rollers hold the loop. Between two held nodes the side without knots is stretched as far as the
-///   grips move, and F is also the load of that side.
-/// - Where e is known, the mean of de/ds differs from -2, the value of rigid sliding on rollers, by at most 0.5, half
-///   the difference to -1, at which sliding ends.
-/// - F does not fall suddenly by half of its mean or more. The mean would be one of two different levels.
-/// - F changes over the range by less than 10/11 of its mean, which is the change of a force proportional to s. Such a
-///   force has no level of its own. Where neither a lock nor e shows that anything slides, the limit is half of the
-///   mean.
-///
-/// The force of nylon grows while its knots slide, by 0.7 to 0.9 of its mean. The mean counts as a plateau all the
-/// same, and its low, high and slope are given beside it.
+/// The mean of F is a plateau if the knots slide and F is level, as doc/results.md, "When a mean is a plateau", and
+/// doc/model.md, section 10, say. A knot that jumped open is another knot from then on, so it has no lock and no
+/// stiffness here either.
 ///
 /// The lock extension by the load, s_l, is the extension at which F last rises through twice the mean of its plateau.
 /// That plateau range in turn ends at s_l. s_l is therefore a fixed point, and it is the one that an iteration from the
 /// peak reaches. A load proportional to s has none. A fixed point is no lock if it lies in the first 15 % of the pull,
 /// if there is no plateau, or if it lies between two readings that are further apart than a twentieth of the extension
-/// up to it. In simulations of the shipped materials that lock, s_l is larger by 1 to 5 % than the lock extension from
-/// the distance of the knots (`Results::lock_extension`), because F doubles only after the knots have begun to hold.
+/// up to it.
 CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod& hidden = {},
                              const KnotsOfPull& knots = {});
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_readings.hpp"
-#include "knot_utm/record/program.hpp"
+#include "knot_utm/record/phase.hpp"
 
 namespace knot_utm {
 

@@ -20,40 +20,15 @@ enum class MotionPattern {
 
 const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding", ... as in result.yaml
 
-/// Follows the motion pattern of a test, sample by sample. Live displays and `analyse` use the same tracker.
+/// Follows the motion pattern of a test, sample by sample. Live displays and `analyse` use the same tracker. What makes
+/// a pattern stands in doc/model.md, section 10, "Motion pattern".
 ///
-/// Symbols: s extension, e knot distance, L end-to-end distance, F true force on the upper grip. F is used because the
-/// reading of the load cell is shifted by its balance. Only samples of the pull count, up to a break. Of these only the
-/// ones count that reach a new largest s, because moving back tells nothing.
-///
-/// Kinematics: knots that slide along strands that do not stretch give de/ds = rigid_sliding(), which is -2 on rollers
-/// and -1 between two held nodes. Strands that only stretch give de/ds = e/L > 0. de/ds is the slope of a least-squares
-/// line over the last window of s, whose width is 3 % of the first e. The limit q between the two is half of rigid
-/// sliding: -1 on rollers, -1/2 between held nodes. The specimen **slides** in a window in which de/ds < q. It has
-/// **locked** at the extension at which de/ds last rises through q.
-///
-/// The pattern is decided in this order:
-///
-///   untangling  one of these holds:
-///               (a) the knot type has changed and, in addition, F was below 5 % of its largest value when last pulled
-///                   or held, or nothing has been pulled yet, or the excess length of a knot is below a quarter of its
-///                   tied value, or the rod has passed through itself;
-///               (b) a knot jumped open (jump of curve_readings.hpp);
-///               (c) between release and pull the knots came nearer to each other by more than a twentieth of e: a
-///                   knot opened as the loop was mounted.
-///               Of these only (a) is called "came undone". All of them are events: whatever is pulled afterwards is
-///               another knot, and how it moves does not change the pattern
-///   sliding     both of these hold:
-///               (a) de/ds < q over at least one window, and over 15 % of all extension;
-///               (b) de/ds < q over a third of all extension; or the knots came nearer to each other by more than |q|
-///                   times the growth of s until de/ds was last below q. The latter is counted from the beginning of
-///                   the pull or, where it does not hold there, from where sliding began; then F at the end of sliding
-///                   must be less than twice its mean since sliding began.
-///               If (b) fails, something other than the knots gave way
-///   stretching  anything else
-///
-/// A changed knot type alone does not mean untangling while the load is borne. The type is found by closing the open
-/// ends of the rod, and a knot that lies on a roller can lead to a wrong closure.
+/// Symbols: s extension, e knot distance, F true force on the upper grip, q the limit of de/ds between sliding and
+/// stretching. F is used because the reading of the load cell is shifted by its balance. Only samples of the pull
+/// count, up to a break. Of these only the ones count that reach a new largest s, because moving back tells nothing.
+/// Untangling is decided first, then sliding, and stretching is anything else. A knot that came undone, jumped open or
+/// opened as the loop was mounted is an event: whatever is pulled afterwards is another knot, and how it moves does not
+/// change the pattern.
 ///
 /// The confidence, 0 to 1, is the mean of those of the following indicators that can be read, each limited to 0 to 1.
 /// Lines are least-squares lines whose points are weighted by extension. They are fitted over the part that decides:
@@ -77,7 +52,6 @@ class MotionPatternTracker {
   void set_jumped(bool jumped) { jumped_ = jumped; }
 
   MotionPattern pattern() const;  ///< pattern of the whole test so far
-  MotionPattern current() const;  ///< pattern of the last window alone, for live displays
   double confidence() const;
 
   /// Lock extension: the extension at which sliding last turned into stretching [m]. Empty where nothing slid, and

@@ -10,12 +10,16 @@ namespace knot_utm {
 /// The dotted key of a number of a method, as overrides name it, and its unit.
 struct KeyUnit {
   std::string key;
-  std::string unit;  ///< "-": dimensionless
+  std::string unit;             ///< "-": dimensionless
+  std::optional<double> value;  ///< empty: not set
 };
 
 /// All numbers that this method may have, whether set or not. The keys of a program step are listed with the step's
 /// index and name, and with its name alone where that occurs once.
 std::vector<KeyUnit> key_units(const Method& method);
+
+/// The keys of a step of a program, with the path of the step before them. What is no number has no value.
+std::vector<KeyUnit> step_numbers(ProgramStep step, const std::string& path);
 
 /// The unit of the number at a dotted key of the method: "m/s" for "program.pull.speed". Empty where the method has no
 /// such number.

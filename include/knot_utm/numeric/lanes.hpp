@@ -50,10 +50,13 @@ inline Lanes square_root(const Lanes& v) {
   return out;
 }
 inline double larger(double a, double b) { return a > b ? a : b; }
+inline double smaller(double a, double b) { return a < b ? a : b; }
 inline double exponential(double v) { return std::exp(v); }
 inline Lanes exponential(const Lanes& v) {
   return Lanes{std::exp(v[0]), std::exp(v[1]), std::exp(v[2]), std::exp(v[3])};
 }
+inline double logarithm(double v) { return std::log(v); }
+inline Lanes logarithm(const Lanes& v) { return Lanes{std::log(v[0]), std::log(v[1]), std::log(v[2]), std::log(v[3])}; }
 inline double power(double v, double exponent) { return std::pow(v, exponent); }
 inline Lanes power(const Lanes& v, double exponent) {
   return Lanes{std::pow(v[0], exponent), std::pow(v[1], exponent), std::pow(v[2], exponent), std::pow(v[3], exponent)};

@@ -33,9 +33,7 @@ SampleField(const char*, const char*, const char*, Member) -> SampleField<Member
 /// msg/KnotState.msg; tests compare the three.
 inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(sequence, "-", "of the command that this answers"), KNOT_UTM_FIELD(time, "s", "time of the test"),
-    KNOT_UTM_FIELD(phase, "-",
-                   "phase of the test: idle, tie, release, mount, preload, balance, pull, hold, cycle, return, follow "
-                   "or done"),
+    KNOT_UTM_FIELD(phase, "-", "phase of the test: idle, a step of the program, or done (tensile_test --list-phases)"),
     KNOT_UTM_FIELD(displacement, "m", "of the crosshead"),
     KNOT_UTM_FIELD(extension, "m", "s, growth of the end-to-end distance since balance"),
     KNOT_UTM_FIELD(end_to_end, "m", "L, between the grips"),
@@ -105,7 +103,7 @@ template <typename Field>
 using ValueOf = std::remove_reference_t<decltype(std::declval<const Field&>().of(std::declval<Sample&>()))>;
 
 /// The last values of the enumerations in a sample, all of which begin with 0.
-constexpr Phase last_of(Phase) { return Phase::kDone; }
+inline Phase last_of(Phase) { return last_phase(); }
 constexpr KnotType last_of(KnotType) { return KnotType::kCrossed; }
 constexpr BenchStatus last_of(BenchStatus) { return BenchStatus::kFailed; }
 constexpr BreakPlace last_of(BreakPlace) { return BreakPlace::kGrip; }

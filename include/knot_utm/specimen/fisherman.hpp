@@ -1,6 +1,7 @@
 #pragma once
 
-#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
 
@@ -34,43 +35,7 @@ struct FishermanShape {
   double coarsening = 1.0;      ///< edges of the far side are longer by this factor, up to the rod's diameter [-]
 };
 
-/// Distance that a knot of several windings may run outwards, as it tightens, beyond that of a single winding [m]. Its
-/// coils are drawn with the radius R = looseness h. Three strands run through a tight coil, each against the other two:
-/// standing part, threaded strand and tail. Its centreline therefore has the radius (2 + 2/sqrt 3) h, and each winding
-/// gives up
-///
-///     2 pi (R - (2 + 2/sqrt 3) h)
-///
-/// of the rod, half of it to the standing part and half to the tail, as friction is the same towards both. Where the
-/// standing part is held, the knot runs outwards by its half.
-double runs_out(int windings, double looseness, double h);
-
 /// Throws InvalidInput (specimen.*, machine.roller_diameter) where the shape does not fit on the machine or overlaps.
 Centreline fisherman_loop(const FishermanShape& shape);
-
-/// knot: fisherman.
-class FishermanKnot : public Knot {
- public:
-  FishermanKnot();
-  SpecimenOptions defaults(double h) const override;
-  void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override;
-  std::optional<double> roller_diameter(double h) const override;
-  double pull(const SpecimenOptions& specimen, double h) const override;
-  void check(const SpecimenOptions& specimen, double h) const override;
-  Centreline centreline(const SpecimenOptions& specimen, const Material& material,
-                        const Mounting& mounting) const override;
-  /// The bottom and the top of the loop.
-  HeldNode held_below(const Centreline& centreline, bool clamped) const override;
-  HeldNode held_above(const Centreline& centreline, bool clamped) const override;
-
- protected:
-  /// Another knot of the same loop.
-  explicit FishermanKnot(KnotDescription about) : Knot(std::move(about)) {}
-  static KnotDescription description();
-
- private:
-  /// How often each tail is wound around.
-  virtual int windings(const SpecimenOptions&) const { return 1; }
-};
 
 }  // namespace knot_utm

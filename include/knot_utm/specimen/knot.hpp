@@ -57,7 +57,7 @@ struct KnotDescription {
 };
 
 /// The interface of a knot: how a specimen of this kind is made, and all that the program needs to know of it. A knot
-/// is a pair of files in specimen/ and one line in knots.cpp. No other code distinguishes knots.
+/// is a file in src/specimen and named in knots.cpp. No other code distinguishes knots.
 class Knot {
  public:
   virtual ~Knot() = default;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/centreline.hpp"
 
 namespace knot_utm {
 
@@ -21,18 +21,5 @@ struct OverhandShape {
 
 /// Throws InvalidInput (specimen.*) where the excess length is too short for the knot or too long for the rod.
 Centreline overhand(const OverhandShape& shape);
-
-/// knot: overhand.
-class OverhandKnot final : public Knot {
- public:
-  OverhandKnot();
-  SpecimenOptions defaults(double h) const override;
-  void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override;
-  double pull(const SpecimenOptions& specimen, double h) const override;
-  void check(const SpecimenOptions& specimen, double h) const override;
-  Centreline centreline(const SpecimenOptions& specimen, const Material& material,
-                        const Mounting& mounting) const override;
-  std::string what_keeps_it() const override { return "a larger specimen.end_to_end"; }
-};
 
 }  // namespace knot_utm

@@ -42,6 +42,7 @@ class TyingRig {
     double pull_patience = 90.0;  ///< not tied if the pre-load is not reached by then [s] ...
     double pull_way = 300.0;      ///< ... and have gone this far [h]
   };
+  /// A ramp is followed by the next one in this list, letting go by kReleased.
   enum class Stage {
     kIdle,
     kSettling,

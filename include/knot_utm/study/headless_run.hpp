@@ -7,6 +7,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
 
 namespace knot_utm {
@@ -24,6 +25,8 @@ struct RunOptions {
   void tell(const std::string& line) const {
     if (notice) notice(line);
   }
+  /// Claims the folder, and says where the run goes to where it goes elsewhere.
+  ClaimedFolder claim() const;
 };
 
 struct HeadlessOptions : RunOptions {

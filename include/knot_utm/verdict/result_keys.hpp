@@ -34,20 +34,26 @@ using ReadNumbers = ReadAs<std::vector<double>>;  ///< one number for each knot
 using ReadList = ReadAs<std::vector<std::string>>;
 using ReadResult = std::variant<ReadNumber, ReadCount, ReadFlag, ReadWord, ReadText, ReadNumbers, ReadList>;
 
-/// The reason why a key is null, in a few words. It is either constant or depends on the test. Empty: no reason is
-/// needed.
+/// The reason why a key is null, in a few words. Empty: no reason is needed.
 class NullReason {
  public:
   using Find = std::string (*)(const ResultSource&);
 
   constexpr NullReason(const char* always = "") : always_(always) {}
-  constexpr NullReason(Find find) : find_(find) {}
+  constexpr NullReason(Find find) : find_(find) {}  ///< one that depends on the test
+  /// That of a reading that any pull has: where nothing was pulled, it is that.
+  static constexpr NullReason of_a_pull(const char* otherwise) {
+    NullReason out(otherwise);
+    out.of_a_pull_ = true;
+    return out;
+  }
 
-  std::string operator()(const ResultSource& source) const { return find_ ? find_(source) : always_; }
+  std::string operator()(const ResultSource& source) const;
 
  private:
   const char* always_ = "";
   Find find_ = nullptr;
+  bool of_a_pull_ = false;
 };
 
 /// One key of result.yaml.

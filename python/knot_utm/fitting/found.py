@@ -1,4 +1,5 @@
 """What a fit found, in numbers and in words, and what it leaves in its folder."""
+import itertools
 import os
 import subprocess
 import sys
@@ -10,46 +11,52 @@ import yaml
 from scipy import stats
 
 from knot_utm import tool
-from knot_utm.fitting import profiles
-from knot_utm.fitting.profiles import KNOWN_TOGETHER
 
 WRITTEN = ("fit.yaml", "curves.csv", "profiles.csv", "method.yaml", "method_2.yaml", "report.html", "report.pdf")
 LEAST_PROBABILITY = 1e-3  # of residuals as large as these, below which the curve does not fit
 AT_THE_END = 1e-3         # of the range
+KNOWN_TOGETHER = 0.99     # correlation from which on two keys are known as a combination only
+NEITHER_ALONE = 0.9       # the same, where the data bound neither of them
 DIGITS = 6                # that a number keeps: more would be of the machine, and not of the fit
-SIDES = {"low": -1, "high": 1}
 
 
 @dataclass(frozen=True)
 class Found:
-    """Of one key: its value and 95 % interval; an end that the data do not tell is None. `unconfirmed`: those of "low" and "high"
-    that runs beyond them do not confirm."""
+    """Of one key: its value and 95 % interval; an end that the data do not tell is None."""
 
     value: float
     low: object
     high: object
     identifiable: bool
-    unconfirmed: list
 
 
-@dataclass(frozen=True)
 class Fitted:
-    """All that a fit found. `found`: {key: Found}; `rms`: of measured less simulated means [N]; `notes`: in words."""
+    """All that a search found, which has ended. `found`: {key: Found}; `rms`: of measured less simulated means [N]; `notes`: in words."""
 
-    found: dict
-    rms: float
-    correlation: dict
-    chi_square: float
-    degrees_of_freedom: int
-    probability: float
-    notes: list
-    profiles: pd.DataFrame
-    curves: pd.DataFrame
-    records: list
-
-    @property
-    def fits(self):
-        return self.probability >= LEAST_PROBABILITY
+    def __init__(self, search):
+        keys, best, likelihood, records = search.keys, search.best, search.likelihood, search.records
+        self.found = {}
+        for key, at, profile in zip(keys, best, search.profiles):
+            low, high = (None if (end := profile.end(side)) is None else short(key.value(end)) for side in (-1, 1))
+            self.found[key.name] = Found(short(key.value(at)), low, high, None not in (low, high))
+        matrix = search.correlation()
+        self.correlation = {a.name: {b.name: round(float(matrix[i, j]), 4) for j, b in enumerate(keys) if j != i}
+                            for i, a in enumerate(keys)}
+        simulated = likelihood.surface.at(best[None])[0][0]
+        number = np.repeat(np.arange(1, len(records) + 1), [len(record.centres) for record in records])
+        self.curves = pd.DataFrame({"record": number, "extension": np.concatenate([record.centres for record in records]),
+                                    "measured": search.measured, "simulated": simulated, "error": likelihood.errors})
+        self.profiles = pd.concat([pd.DataFrame({"key": key.name, "value": key.value(one.places[:, i]), "rise": one.rises})
+                                   for i, (key, one) in enumerate(zip(keys, search.profiles))])
+        self.rms = float(np.sqrt(np.mean((search.measured - simulated)**2)))
+        self.chi_square = likelihood.chi_square(best)
+        self.degrees_of_freedom = max(len(search.measured) - len(keys), 1)
+        self.fits = bool(stats.chi2.sf(self.chi_square, self.degrees_of_freedom) >= LEAST_PROBABILITY)
+        self.records = [record.name for record in records]
+        self.notes = [*([] if self.fits else [f"nothing fits within the errors: the sum of squares over them is {self.chi_square:.4g} "
+                                              f"with {self.degrees_of_freedom} degrees of freedom"]),
+                      *_of_keys(keys, best, self.found), *_of_pairs(self.found, matrix),
+                      *(note for record in records for note in record.notes), *_of_runs(search)]
 
     def summary(self):
         """The map of fit.yaml."""
@@ -89,43 +96,6 @@ def _csv(table, units):
     return f"{names}\n{units}\n{rows}"
 
 
-def judge(search):
-    """A search that has ended, as Fitted."""
-    keys, best, likelihood, ends = search.keys, search.best, search.likelihood, search.ends
-    found = {}
-    for i, key in enumerate(keys):
-        low, high = (None if (at := _end(ends, i, side)) is None else short(key.value(at)) for side in SIDES.values())
-        unconfirmed = [name for name, side in SIDES.items() if (i, side) in ends.unconfirmed]
-        found[key.name] = Found(short(key.value(best[i])), low, high, None not in (low, high), unconfirmed)
-    matrix = profiles.correlations(likelihood, best, search.low, search.high)
-    correlation = {a.name: {b.name: round(float(matrix[i, j]), 4) for j, b in enumerate(keys) if j != i} for i, a in enumerate(keys)}
-    curves = pd.concat([pd.DataFrame({"record": number, "extension": one.record.centres, "measured": one.record.measured,
-                                      "simulated": one.simulated(best), "error": one.errors})
-                        for number, one in enumerate(likelihood.records, start=1)])
-    drawn = pd.concat([pd.DataFrame({"key": key.name, "value": key.value(one.places), "rise": one.rises})
-                       for key, one in zip(keys, ends.profiles)])
-    chi_square, degrees = likelihood.chi_square(best), max(len(curves) - len(keys), 1)
-    probability = float(stats.chi2.sf(chi_square, degrees))
-    notes = [] if probability >= LEAST_PROBABILITY else [
-        f"nothing fits within the errors: the sum of squares over them is {chi_square:.4g} with {degrees} degrees of freedom"]
-    notes += [*_of_keys(keys, best, found), *_of_pairs(keys, matrix), *(note for case in search.cases for note in case.record.notes)]
-    for case in search.cases:
-        unlike = int(case.unlike(search.low, search.high).sum())
-        for count, words in ((sum(case.lost), "left no whole curve"), (unlike, "left loads of quite another size, as where knots open")):
-            if count:
-                notes.append(f"{case.record.name}: {count} of {len(case.tried)} runs {words}; values around which these are "
-                             "common count as unlikely")
-    rms = float(np.sqrt(np.mean((curves["measured"] - curves["simulated"])**2)))
-    return Fitted(found, rms, correlation, chi_square, degrees, probability, notes, drawn, curves,
-                  [case.record.name for case in search.cases])
-
-
-def _end(ends, key, side):
-    """Of the interval of a key: where its profile ends, or where runs beyond that fit."""
-    place = ends.unconfirmed.get((key, side))
-    return ends.profiles[key].end(side) if place is None else place
-
-
 def _of_keys(keys, best, found):
     """What the data do not tell of single keys, in words."""
     for at, key, one in zip(best, keys, found.values()):
@@ -139,12 +109,20 @@ def _of_keys(keys, best, found):
             yield f"{side}: {told}; give a wider range" if at_end else f"{key.name} is not identifiable: {told}"
         elif at_end:
             yield f"{side}: give a wider range"
-        for name in one.unconfirmed:
-            yield (f"{key.name}: runs do not confirm that its interval ends at {getattr(one, name):.4g}: take this as a bound that is not "
-                   "known well")
 
 
-def _of_pairs(keys, matrix):
-    for i, j in zip(*np.nonzero(np.triu(np.abs(matrix) > KNOWN_TOGETHER, 1))):
-        yield (f"{keys[i].name} and {keys[j].name} are only known together (correlation {matrix[i, j]:.4f}): "
-               f"{'more' if matrix[i, j] > 0 else 'less'} of one goes with more of the other")
+def _of_pairs(found, matrix):
+    """Of keys with a correlation from which on only a combination is known: less of it will do where neither key is told alone."""
+    names = list(found)
+    for i, j in itertools.combinations(range(len(names)), 2):
+        least = KNOWN_TOGETHER if any(found[names[k]].identifiable for k in (i, j)) else NEITHER_ALONE
+        if abs(matrix[i, j]) > least:
+            yield (f"{names[i]} and {names[j]} are only known together (correlation {matrix[i, j]:.4f}): "
+                   f"{'more' if matrix[i, j] > 0 else 'less'} of one goes with more of the other")
+
+
+def _of_runs(search):
+    for count, words in ((search.is_lost.sum(), "left no whole curve"),
+                         (search.is_unlike.sum(), "left loads of quite another size, as where knots open")):
+        if count:
+            yield f"{count} of {len(search.places)} runs {words}; values around which these are common count as unlikely"

@@ -3,9 +3,8 @@ import math
 import re
 from dataclasses import dataclass
 
-from knot_utm.design import is_number
 from knot_utm.errors import WrongInput
-from knot_utm.yaml_text import text_of
+from knot_utm.yaml_text import is_number, text_of
 
 OFFSET = re.compile(r"record(?:\.([1-9]\d*))?\.(force|extension)_offset")
 AROUND = 3.0        # a range that is not given: from the method's value over this to that value times this

@@ -1,225 +1,196 @@
-"""The search of a fit, in waves: runs over the box in which the best values may lie, an emulator of them, a smaller box.
+"""The search of a fit, in waves: runs over the box in which the best values may lie, what they tell of the likelihood, a smaller box.
 
 So it is neither led astray by stick-slip, which makes single runs rough, nor does it need a start that is near (history matching:
 Craig and others 1997)."""
+import warnings
+
 import numpy as np
+from scipy import linalg, optimize
+from scipy.stats import chi2, qmc
 
-from knot_utm.fitting import ends, errors, kinds, profiles
-from knot_utm.fitting.emulator import Emulator, Known
-from knot_utm.fitting.likelihood import Likelihood, RecordLikelihood
-from knot_utm.fitting.scatter import covariance_of, left_over
-from knot_utm.yaml_text import text_of
+from knot_utm.errors import WrongInput
+from knot_utm.fitting.records import covariance, split
+from knot_utm.fitting.surface import Likelihood, Surface, scatter_of
 
-GRID = 384          # points of a simulated curve; so many readings at most are points, too
+RISE = chi2.ppf(0.95, 1)  # of -2 log L, which bounds an interval of 95 %
 MOST_WAVES = 8
-KEPT = 16.0         # rise of -2 log L within which values are kept for the next wave
-LEAST_KEPT = 48     # candidates, where those within KEPT are fewer
-SHRUNK = 0.8        # a side of the box that shrinks by less has settled
-LEARNT = 0.1        # errors of the emulator over all others, at the best place, which are small enough
-MARGIN = 0.3        # of the box, beyond which runs are forgotten
-GROWN = 0.05        # of the box, by which it is larger than what is kept
-LOOK = 0.25         # of the box, beyond which nothing is looked for: what an earlier wave gave up may come back
-
-
-def _grid(extension, most):
-    """Extensions at which a simulated curve is known, of a record that may be off by `most`. It is straight from one reading to the
-    next: of a few readings each may be a corner."""
-    even = np.linspace(extension[0] - most, extension[-1] + most, GRID)
-    return np.union1d(even, extension) if len(extension) <= GRID else even
-
-
-class Case:
-    """One record in a search: its runs so far."""
-
-    def __init__(self, record, number, keys, cell, batch):
-        self.record, self.number, self.keys, self.cell, self.batch = record, number, keys, cell, batch
-        self.cell_name = text_of({key: value for key, value in cell.items() if key != "noise_run"})
-        self.inputs = np.array([i for i, key in enumerate(keys) if key.offset is None], int)  # what its runs depend on
-        most = max((max(abs(key.low), abs(key.high)) for key in keys if key.offset == (number, "extension")), default=0.0)
-        self.grid = _grid(record.extension, most)
-        self.places, self.curves, self.models, self.sizes = [], [], [], []
-        self.tried, self.lost = [], []  # all places, and whether the run there left no whole curve
-        self.apart = None
-        self._gather(self._right_of(batch))
-
-    def _right_of(self, batch):
-        """The pulls of a batch that are of the record's kind, as far as the runs tell: others would count as scatter."""
-        pulls = [model.pull for model in batch.models if self.record.is_reached(model)] if batch else []
-        sizes = [*self.sizes, *(self._size(self._means(pull)) for pull in pulls)]
-        unlike = kinds.beyond_a_gap(sizes, slice(None))[len(self.sizes):]
-        return [pull for pull, is_unlike in zip(pulls, unlike) if not is_unlike]
-
-    def _gather(self, pulls):
-        """How the specimens of a batch differ from their mean, in the means of the record and at the grid."""
-        if len(pulls) > 1:
-            means, curves = (np.array(rows) for rows in zip(*((self._means(pull), pull.at(self.grid)) for pull in pulls)))
-            larger = np.sqrt(len(pulls) / (len(pulls) - 1))
-            self.apart = larger * (means - means.mean(axis=0)), larger * (curves - curves.mean(axis=0))
-
-    def _means(self, pull):
-        return self.record.means(pull.at(self.record.extension))
-
-    def scatter(self, used=()):
-        """Covariances of the means and at the grid, of the batch and of runs in the box, which are specimens too."""
-        if self.apart is None:
-            return (np.zeros((n, n)) for n in (len(self.record.centres), len(self.grid)))
-        rows = self.apart
-        if len(used):
-            places = np.array([self.places[i] for i in used])[:, self.inputs]
-            also = np.array([self._means(self.models[i].pull) for i in used]), np.array([self.curves[i] for i in used])
-            rows = [np.concatenate([of_batch, left_over(places, of_runs)]) for of_batch, of_runs in zip(rows, also)]
-        return covariance_of(rows[0]), rows[1].T @ rows[1] / len(rows[1])
-
-    def renew(self, batch):
-        """Another batch, of specimens nearer to the best values; one of which fewer than half are of the record's kind tells
-        too little."""
-        pulls = self._right_of(batch)
-        if 2 * len(pulls) >= len(batch.models):
-            self.batch = batch
-            self._gather(pulls)
-
-    def settings(self, place, number):
-        """Of a run: the record's, the free keys, and what is drawn for a specimen."""
-        free = {key.name: float(key.value(at)) for key, at in zip(self.keys, place) if key.offset is None}
-        settings = {**self.record.settings, **free}
-        return self.batch.drawn(number, settings) if self.batch else settings
-
-    def add(self, place, model):
-        self.tried.append(place)
-        self.lost.append(not self.record.is_reached(model))
-        if not self.lost[-1]:
-            self.places.append(place)
-            self.curves.append(model.pull.at(self.grid))
-            self.models.append(model)
-            self.sizes.append(self._size(self._means(model.pull)))
-
-    def _size(self, means):
-        return kinds.size(means, self.record.measured, errors.of_single_means(self.record, self.cell, means))
-
-    def unlike(self, low, high):
-        """Whether a run is of another kind than the record, beyond a gap among all runs, or among those in a box and a margin
-        around it."""
-        near = self._away(self.places, low, high) <= MARGIN
-        return kinds.beyond_a_gap(self.sizes, slice(None)) | kinds.beyond_a_gap(self.sizes, near)
-
-    def _away(self, places, low, high):
-        """How far beyond a box places are, in sides of the box."""
-        places, inputs = np.array(places), self.inputs
-        return np.max(np.maximum(low - places, places - high)[:, inputs] / (high - low)[inputs], axis=1)
-
-    def is_right(self, low, high):
-        """Of all places that were tried: whether the run there left a whole curve, which is of the record's kind."""
-        right = ~np.array(self.lost)
-        right[right] = ~self.unlike(low, high)
-        return right
-
-    def share(self, low, high):
-        """Of the runs in a box and a margin around it that leave a whole curve of the record's kind."""
-        near = self._away(self.tried, low, high) <= MARGIN
-        return kinds.Share(np.array(self.tried)[near][:, self.inputs], ~self.is_right(low, high)[near])
-
-    def likelihood(self, low, high, best):
-        """Learnt of the runs in a box and a margin around it that are of the record's kind: others would smear a jump from one
-        kind to the other over both sides. `best`: a place at which the errors are taken."""
-        places, inputs = np.array(self.places), self.inputs
-        away = self._away(places, low, high)
-        away[self.unlike(low, high)] = np.inf
-        least = min(3 * (len(inputs) + 1), np.isfinite(away).sum())
-        used = np.flatnonzero(away <= max(MARGIN, np.sort(away)[least - 1]))
-        curves = np.array([self.curves[i] for i in used])
-        nearest = used[np.argmin(np.sum((places[used] - best)[:, inputs]**2, axis=1))]
-        scatter, grid_scatter = self.scatter(used)
-        means = self._means(self.models[nearest].pull)
-        result = self.models[nearest].result
-        covariance = errors.covariance(self.record, self.cell, means, result, scatter)
-        self.errors = covariance, errors.of_the_cell(self.cell, means, result), scatter
-        scale = np.interp(self.grid, self.record.centres, np.sqrt(np.diag(covariance)))
-        return self._of(Emulator(places[used][:, inputs], curves, scale, grid_scatter if np.any(grid_scatter) else None), covariance)
-
-    def _of(self, emulator, covariance):
-        return RecordLikelihood(self.record, self.number, self.keys, self.inputs, emulator, self.grid, covariance, self.errors[1],
-                                self.cell_name)
-
-    def seen(self, tried, low, high):
-        """(likelihood, share) of some of the runs, by their numbers among those that were tried. The likelihood is that of the mean
-        of those that are of the record's kind, without an emulator; the share is theirs. None where there are none of them."""
-        right = self.is_right(low, high)
-        chosen = [i for i in tried if right[i]]
-        if not chosen:
-            return None
-        covariance, _, scatter = self.errors
-        number = np.cumsum(~np.array(self.lost)) - 1  # among the runs with a whole curve
-        curve = np.mean([self.curves[number[i]] for i in chosen], axis=0)
-        return self._of(Known(curve), covariance + scatter / len(chosen)), len(chosen) / len(tried)
+CANDIDATES = 2048
+KEPT, LEAST_KEPT = 16.0, 48  # rise within which candidates are kept for the next wave, and how many at least
+SHRUNK = 0.8    # a side of the box that shrinks by less has settled
+LEARNT = 0.1    # errors of the polynomial over all, at the best place, which are small enough
+LEARNT_OF = 64.0  # rise beyond which runs are forgotten
+GROWN = 0.05    # of the box, by which it is larger than what is kept
+LOOK = 0.25     # of the box, beyond which nothing is looked for: what an earlier wave gave up may come back
+POINTS = 41     # of a profile
+LEAST_RUNS = 3
+STEP = 1e-5     # of a derivative, over the box
+ALIKE = np.log(2.0)  # of the ratio of loads, mean by mean, within which runs are of the record's kind
 
 
 class Search:
-    """Of the best values. `run(case, places, first)`: [Model], of specimens that are counted from `first`."""
+    """Of the best values. `run(places, first)`: of each record the models at the places, of specimens counted from `first`."""
 
-    def __init__(self, cases, keys, run, renew):
-        self.cases, self.keys, self.run, self.renew = cases, keys, run, renew
-        self.inputs = np.array([i for i, key in enumerate(keys) if key.offset is None], int)
+    def __init__(self, records, keys, run):
+        self.records, self.keys, self.run = records, keys, run
+        self.measured = np.concatenate([record.measured for record in records])
+        self.least = 3 * (len(keys) + 1)  # so many runs are learnt of
         self.low, self.high = np.zeros(len(keys)), np.ones(len(keys))
-        self.count = 0
+        self.best, self.likelihood, self.misfit = np.full(len(keys), 0.5), None, 1.0
+        self.places, self.means, self.results = np.zeros((0, len(keys))), np.zeros((0, len(self.measured))), []
 
     def go(self):
-        self.add(profiles.sobol(len(self.keys), 8 * len(self.inputs) + 2, 1))
-        self.best = np.full(len(self.keys), 0.5)
+        count = len(self.keys)
+        self.add(_sobol(count, 8 * count + 2, 1))
         self.learn(0)
-        for wave in range(1, MOST_WAVES + 1):
-            has_settled = self.wave(wave)
-            if wave == 2:
-                self.renew(self.best)
-                self.learn(wave)
-            if wave > 2 and has_settled and self.likelihood.unknown(self.best) < LEARNT * self._means():
+        for number in range(1, MOST_WAVES + 1):
+            has_settled = self.wave(number, 4 * count + 2)
+            if number > 2 and has_settled and self.likelihood.unknown(self.best) < LEARNT * len(self.measured):
                 break
-        self.ends = ends.checked(self, MOST_WAVES + 1)
-
-    def wave(self, number):
-        """More runs, in a new box; whether the box is no longer smaller."""
-        low, high, places = self._kept(number, 4 * len(self.inputs) + 2)
-        shrunk = np.any((high - low)[self.inputs] < SHRUNK * (self.high - self.low)[self.inputs])
-        self.add(places)
-        self.low, self.high = low, high
-        self.learn(number)
-        return not shrunk
+        self.profiles = [self.profile(key) for key in range(count)]
+        return self
 
     def add(self, places):
-        for case, models in zip(self.cases, self.run(places, self.count)):
-            for place, model in zip(places, models):
-                case.add(place, model)
-        self.count += len(places)
+        """Runs there. A run that leaves no whole curve has no means."""
+        made = list(zip(*self.run(places, len(self.places))))
+        means = [np.concatenate([record.simulated(model, **self._offsets(place, number)) for number, (record, model)
+                                 in enumerate(zip(self.records, models), start=1)]) for place, models in zip(places, made)]
+        self.places, self.means = np.concatenate([self.places, places]), np.concatenate([self.means, means])
+        self.results += [[model.result for model in models] for models in made]
 
-    def learn(self, wave):
+    def _offsets(self, place, number):
+        """Of a record, by its number."""
+        return {key.offset[1] + "_offset": key.value(at) for key, at in zip(self.keys, place) if key.offset and key.offset[0] == number}
+
+    def learn(self, seed):
+        """The likelihood, of the runs where the last one was not far from its best, and the best place."""
+        self.is_lost = np.isnan(self.means).any(axis=1)
+        if (~self.is_lost).sum() < LEAST_RUNS:
+            raise WrongInput(f"{self.records[0].name}: {(~self.is_lost).sum()} of {len(self.places)} runs in the ranges of the free keys reach as "
+                             "far as the record: narrow the ranges")
+        right = self._alike()
+        self.is_unlike = ~self.is_lost & ~right & np.all((self.places >= self.low) & (self.places <= self.high), axis=1)
+        away = self.likelihood.at(self.places) - self.value if self.likelihood else np.zeros(len(self.places))
+        used = np.flatnonzero(right & (away <= max(LEARNT_OF * self.misfit, np.sort(away[right])[:self.least][-1])))
         for _ in range(2):  # the errors are those at the best place, which is known afterwards
-            shares = [(case.inputs, case.share(self.low, self.high)) for case in self.cases]
-            self.likelihood = Likelihood([case.likelihood(self.low, self.high, self.best) for case in self.cases], shares)
-            self.best, self.value = profiles.best_of(self.likelihood, self.low, self.high, wave)
+            nearest = used[np.argmin(np.sum((self.places[used] - self.best)**2, axis=1))]
+            known = covariance(self.records, self.means[nearest], self.results[nearest])
+            surface = Surface(self.places[used], self.means[used], np.sqrt(np.diag(known)))
+            scatter = linalg.block_diag(*(scatter_of(rows, surface.freedom) for rows in split(self.records, surface.left)))
+            self.likelihood = Likelihood(self.measured, surface, scatter, known, self.places, right)
+            tried = self._candidates(seed)
+            starts = tried[np.argsort(self.likelihood.at(tried), kind="stable")[:3]]
+            self.best, self.value = min((self._smallest(start) for start in starts), key=lambda found: found[1])
+        # Where nothing fits as yet, a rise of -2 log L cannot be relied on.
+        self.misfit = max(1.0, self.likelihood.chi_square(self.best) / len(self.measured))
 
-    def around(self):
+    def _alike(self):
+        """Which runs have loads of the record's size; others, as where knots open, tell only that what is around them is unlikely.
+        Where there are too few of them, those that come nearest count as such."""
+        error = np.concatenate([record.single_errors(record.measured) for record in self.records])
+        ratio = np.log((np.abs(self.means) + error) / (np.abs(self.measured) + error))
+        size = np.max([np.abs(part.mean(axis=1)) for part in split(self.records, ratio)], axis=0)
+        size[self.is_lost] = np.inf
+        return ~self.is_lost & (size <= max(ALIKE, np.sort(size)[:self.least][-1]))
+
+    def wave(self, number, more):
+        """More runs, in a new box; whether the box is no longer smaller."""
+        around = self._around()
+        tried = self._candidates(100 + number)
+        rises = self.likelihood.at(tried) - self.value
+        kept = np.concatenate([self.best[None], tried[rises <= max(KEPT * self.misfit, np.sort(rises)[LEAST_KEPT - 1])]])
+        width = np.maximum(np.ptp(kept, axis=0), 1e-6)
+        low, high = np.maximum(kept.min(axis=0) - GROWN * width, around[0]), np.minimum(kept.max(axis=0) + GROWN * width, around[1])
+        has_settled = np.all(high - low >= SHRUNK * (self.high - self.low))
+        self.low, self.high = low, high
+        # The best one, the last ones on each side, which are beyond the ends of the intervals, and the first of a sequence that lies evenly.
+        chosen = dict.fromkeys([0, *kept.argmin(axis=0), *kept.argmax(axis=0), *range(1, len(kept))])
+        self.add(kept[list(chosen)[:more]])
+        self.learn(number)
+        return has_settled
+
+    def _around(self):
         """The box, and what is beside it, as far as the range goes."""
         beside = LOOK * (self.high - self.low)
         return np.maximum(self.low - beside, 0.0), np.minimum(self.high + beside, 1.0)
 
-    def _means(self):
-        return sum(len(case.record.centres) for case in self.cases)
+    def _candidates(self, seed):
+        low, high = self._around()
+        return low + (high - low) * _sobol(len(self.keys), CANDIDATES, seed)
 
-    def _kept(self, wave, more):
-        """The box of all that may be best, and places in it for the next runs: the best one, and others far from each other."""
-        around = self.around()
-        tried = profiles.candidates(*around, 100 + wave)
-        rises = self.likelihood.at(tried) - self.value
-        # Where nothing fits as yet, neither the emulator nor a rise of -2 log L can be relied on.
-        misfit = max(1.0, self.likelihood.chi_square(self.best) / self._means())
-        kept = tried[rises <= max(KEPT * misfit, np.sort(rises)[LEAST_KEPT - 1])]
-        kept = np.concatenate([self.best[None], kept])
-        width = np.maximum(np.ptp(kept, axis=0), 1e-6)
-        low = np.maximum(kept.min(axis=0) - GROWN * width, around[0])
-        high = np.minimum(kept.max(axis=0) + GROWN * width, around[1])
-        inside = (kept[:, self.inputs] - low[self.inputs]) / (high - low)[self.inputs]
-        chosen = [0]
-        away = np.sum((inside - inside[0])**2, axis=1)
-        while len(chosen) < min(more, len(kept)):
-            chosen.append(int(np.argmax(away)))
-            away = np.minimum(away, np.sum((inside - inside[chosen[-1]])**2, axis=1))
-        return low, high, kept[chosen]
+    def _smallest(self, start, fixed=None):
+        """(place, -2 log L) of the best that is found from a start; `fixed`: a key that keeps its place."""
+        low, high = self._around()
+        free = np.flatnonzero(np.arange(len(start)) != fixed)
+
+        def values(inside):
+            places = np.tile(start, (len(inside), 1))
+            places[:, free] = low[free] + np.clip(inside, 0.0, 1.0) * (high - low)[free]
+            return places, self.likelihood.at(places)
+
+        def value_and_slopes(inside):
+            _, told = values(inside + STEP * np.vstack([np.zeros(len(free)), np.eye(len(free)), -np.eye(len(free))]))
+            return told[0], (told[1:len(free) + 1] - told[len(free) + 1:]) / (2.0 * STEP)
+        inside = np.clip((start - low) / (high - low), STEP, 1.0 - STEP)[free]
+        if len(free):
+            with warnings.catch_warnings():  # of steps that go beyond the bounds and are taken back
+                warnings.simplefilter("ignore", RuntimeWarning)
+                inside = optimize.minimize(value_and_slopes, inside, jac=True, method="SLSQP", options={"ftol": 1e-5},
+                                           bounds=[(STEP, 1.0 - STEP)] * len(free)).x
+        places, told = values(inside[None])
+        return places[0], told[0]
+
+    def profile(self, key):
+        """-2 log L over one key, less the smallest, the others such that it is smallest."""
+        low, high = self._around()
+        at = np.unique(np.append(np.linspace(low[key], high[key], POINTS), self.best[key]))
+        mine = int(np.searchsorted(at, self.best[key]))
+        places, rises = np.tile(self.best, (len(at), 1)), np.zeros(len(at))
+        for way in (1, -1):
+            for i in range(mine + way, len(at) if way > 0 else -1, way):
+                start = places[i - way].copy()
+                start[key] = at[i]
+                places[i], value = self._smallest(start, key)
+                rises[i] = max(value - self.value, 0.0)
+        return Profile(key, places, rises, mine)
+
+    def correlation(self):
+        """Of the keys. At the end of the interval of one, -2 log L has risen by RISE; where another then goes back to its best value, by
+        RISE over 1 - r^2. So keys are also told that go together along a bend."""
+        squares, slopes = np.eye(len(self.keys)), np.eye(len(self.keys))
+        for one in self.profiles:
+            ends = np.array([one.last(way)[0] for way in (-1, 1)])
+            slopes[one.key] = (ends[1] - ends[0]) / (ends[1] - ends[0])[one.key]
+            for other in np.flatnonzero(np.arange(len(self.keys)) != one.key):
+                back = ends.copy()
+                back[:, other] = self.best[other]
+                squares[one.key, other] = 1.0 - RISE / max(RISE, *(self.likelihood.at(back) - self.value))
+        return np.sign(slopes + slopes.T) * np.sqrt(np.minimum(squares, squares.T))
+
+
+class Profile:
+    """Of one key, by its index. `places`, `rises`: along it; `mine`: which of these is the best of all."""
+
+    def __init__(self, key, places, rises, mine):
+        self.key, self.places, self.rises, self.mine = key, places, rises, mine
+
+    def end(self, way):
+        """Where the interval ends on that side, -1 or 1; None where -2 log L does not rise enough."""
+        place, is_end = self.last(way)
+        return float(place[self.key]) if is_end else None
+
+    def last(self, way):
+        """(place, whether the interval ends there) on that side. The root of the rise is straight from point to point, as that of a
+        parabola is."""
+        places, roots = self.places[self.mine::way], np.sqrt(self.rises[self.mine::way])
+        over = np.flatnonzero(roots**2 > RISE)
+        if not len(over):
+            return places[-1], False
+        i = over[0]
+        share = (np.sqrt(RISE) - roots[i - 1]) / (roots[i] - roots[i - 1])
+        return places[i - 1] + share * (places[i] - places[i - 1]), True
+
+
+def _sobol(keys, count, seed):
+    """Places from 0 to 1 that lie evenly, one a row."""
+    most = 1 << (count - 1).bit_length()  # only a power of two of them is even in every key
+    return qmc.Sobol(keys, seed=seed).random(most)[:count]

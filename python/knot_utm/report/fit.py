@@ -15,14 +15,13 @@ NOT_KEYS = ("rms", "correlation", "fits", "chi_square", "degrees_of_freedom", "n
 
 
 class Key:
-    """A free key. `low`, `high`: None where the data do not tell that end; `unconfirmed`: those of the two that runs do not confirm."""
+    """A free key. `low`, `high`: None where the data do not tell that end."""
 
     def __init__(self, name, found, places, rises):
         self.name = name
         self.value, self.low, self.high = (found.get(part) if is_number(found.get(part)) else None
                                            for part in ("value", "low", "high"))
         self.is_identifiable = bool(found.get("identifiable"))
-        self.unconfirmed = found.get("unconfirmed") or []
         self.places, self.rises = places, rises
 
 
@@ -114,17 +113,13 @@ def report_on_fit(folder, command, version):
         "title": "Fit of " + ("/".join(fit.curves[0].name.split("/")[-2:]) if fit.curves else "a curve"),
         "records": [(one.name, [curve(one, look) for look in LOOKS] if len(one.extension) else None) for one in fit.curves],
         "profiles": [profiles(fit.keys, look) for look in LOOKS] if fit.keys else None,
-        "rows": [(key.name, told(key.value), end(key, "low"), end(key, "high"), "yes" if key.is_identifiable else "no")
+        "rows": [(key.name, told(key.value), told(key.low), told(key.high), "yes" if key.is_identifiable else "no")
                  for key in fit.keys],
         "correlation": [(one.name, other.name, told(fit.correlation.get(one.name, {}).get(other.name)))
                         for i, one in enumerate(fit.keys) for other in fit.keys[i + 1:]],
         "rms": told(fit.facts.get("rms")), "fits": fit.facts.get("fits"), "chi_square": told(fit.facts.get("chi_square")),
         "degrees": fit.facts.get("degrees_of_freedom"), "notes": fit.notes, "files": files_of(folder), "command": printable(command),
         "version": version, "folder": printable(folder)})
-
-
-def end(key, side):
-    return told(getattr(key, side)) + (" (not confirmed)" if side in key.unconfirmed else "")
 
 
 def told(value):

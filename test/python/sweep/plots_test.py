@@ -12,9 +12,8 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
-from knot_utm import WrongInput, axes, pattern_plots, plots, refining, trends
+from knot_utm import WrongInput, axes, pattern_plots, plots, refine_command, trends
 from knot_utm.groups import dimensionless
-from knot_utm.neighbours import Neighbours
 from knot_utm.study import load_study
 
 UNITS = {"specimen.preload": "N", "specimen.knot_distance": "m", "material.friction_coefficient": "-",
@@ -62,11 +61,6 @@ class Axes(unittest.TestCase):
 
 
 class Trends(unittest.TestCase):
-    def test_a_share_has_wilsons_interval(self):
-        for count, n in ((0, 6), (3, 8), (15, 15)):
-            known = stats.binomtest(count, n).proportion_ci(method="wilson")
-            np.testing.assert_allclose(trends.share(count, n), (count / n, known.low, known.high), atol=1e-12)
-
     def test_the_exponent_of_a_power(self):
         x = np.geomspace(1, 100, 9)
         noise = np.random.default_rng(1).normal(0.0, 0.1, 9)
@@ -171,30 +165,23 @@ class Patterns(unittest.TestCase):
         shown = sum(len(panel.collections[-1].get_offsets()) for panel in panels)
         self.assertEqual(shown, len(table))
 
-    def test_neighbours_hit_what_has_a_border_and_not_what_has_none(self):
-        table = self.map()
-        hits, of = Neighbours(table, self.KEYS, pattern_plots.outcomes(table)).hits()
-        self.assertGreater(hits / of, 0.85)
-        hits, of = Neighbours(table, self.KEYS, np.random.default_rng(5).choice(["a", "b"], of)).hits()
-        self.assertLess(abs(hits / of - 0.5), 0.15)
-
     def test_a_refinement_replaces_none_that_is_there(self):
         with tempfile.TemporaryDirectory() as folder:
             stem = os.path.join(folder, "refined")
             for name in ("refined.yaml", "refined-2.yaml", "refined-3.yaml"):
-                self.assertEqual(refining._free(stem), os.path.join(folder, name))
+                self.assertEqual(refine_command._free(stem), os.path.join(folder, name))
                 write(os.path.join(folder, name), "")
 
     def test_a_refinement_lies_at_the_border(self):
-        chosen = refining.more_points(self.map(), self.KEYS, 64, 1, {"specimen.preload": "material.stretching_stiffness"})
+        chosen = refine_command.more_points(self.map(), self.KEYS, 64, 1, {"specimen.preload": "material.stretching_stiffness"})
         mu = chosen[self.KEYS[0]]
         self.assertLess(np.mean(abs(mu - self.BORDER)), 0.6 * 0.15)  # 0.15: of points anywhere
         self.assertTrue((chosen[self.KEYS[3]] < chosen[self.KEYS[1]]).all())
-        again = refining.more_points(self.map(), self.KEYS, 64, 1, {"specimen.preload": "material.stretching_stiffness"})
+        again = refine_command.more_points(self.map(), self.KEYS, 64, 1, {"specimen.preload": "material.stretching_stiffness"})
         np.testing.assert_array_equal(mu, again[self.KEYS[0]])
-        self.assertFalse(np.array_equal(mu, refining.more_points(self.map(), self.KEYS, 64, 2)[self.KEYS[0]]))
+        self.assertFalse(np.array_equal(mu, refine_command.more_points(self.map(), self.KEYS, 64, 2)[self.KEYS[0]]))
         with self.assertRaises(WrongInput):
-            refining.more_points(table_of(mu=[0.1, 0.2, 0.3] * 6, preload=[1.0, 2.0, 3.0] * 6), [self.KEYS[0], self.KEYS[3]], 4, 1)
+            refine_command.more_points(table_of(mu=[0.1, 0.2, 0.3] * 6, preload=[1.0, 2.0, 3.0] * 6), [self.KEYS[0], self.KEYS[3]], 4, 1)
 
 
 class ShippedStudies(unittest.TestCase):

@@ -1,18 +1,22 @@
-"""A pull, as load over extension, of a record or of a run."""
+"""A pull, as load over extension, of a record or of a run; and the runs of a fit, many at a time, each read and thrown away."""
 import os
 import subprocess
 import tempfile
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
-from knot_utm import tool
-from knot_utm.errors import WrongInput
+from knot_utm import tool, yaml_text
+from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.runner import Runner
 
-OWN = ("time", "phase", "extension", "load", "end_to_end")  # columns of a curve.csv
+OWN = {"time", "phase", "extension", "load", "end_to_end"}  # columns of a curve.csv
 PULLS = ("pull", "cycle", "follow")  # the phases of curve.csv in which the specimen is pulled
 SAME_ZERO = 1e-9                     # [m]
 AT_ONCE = 0.03                       # of the extension, within which a rod that parts lets go of its load
+# The model tells what the specimen bears; the errors of the cell are counted with those of the record.
+EXACT_CELL = {f"machine.load_cell.{key}": 0 for key in ("accuracy", "noise", "resolution", "floor")}
 
 
 class Pull:
@@ -21,25 +25,65 @@ class Pull:
     def __init__(self, extension, load):
         """Both in order of time; [m], [N]."""
         highest = np.maximum.accumulate(np.concatenate([[-np.inf], extension]))[:-1]
-        extension, load = extension[extension > highest], load[extension > highest]
-        end = _end(extension, load)
-        self.extension, self.load = extension[:end], load[:end]
+        rows = np.flatnonzero(extension > highest)
+        rows = rows[:_end(extension[rows], load[rows])]
+        self.extension, self.load = extension[rows], load[rows]
 
     def at(self, extension):
         """Load there, straight from point to point; beyond the last one with the slope of the last tenth."""
-        s, load = self.extension, self.load
-        inside = np.interp(extension, s, load)
+        s = self.extension
         last = s >= s[-1] - 0.1 * (s[-1] - s[0])
-        slope = np.polyfit(s[last], load[last], 1)[0] if last.sum() > 1 else 0.0
-        return inside + np.maximum(extension - s[-1], 0.0) * slope
+        slope = np.polyfit(s[last], self.load[last], 1)[0] if last.sum() > 1 else 0.0
+        return np.interp(extension, s, self.load) + np.maximum(extension - s[-1], 0.0) * slope
 
 
-def _end(extension, load):
-    """How many rows there are up to the break: the load falls from its peak below half of it, at once, and does not rise
-    again."""
-    peak = int(np.argmax(load)) if len(load) else 0
-    at_once = len(load) and extension[-1] - extension[peak] < AT_ONCE * (extension[-1] - extension[0])
-    return peak + 1 if at_once and load[-1] < 0.5 * load[peak] else len(load)
+class Model(NamedTuple):
+    """What one run says. `pull`: None where there is none to speak of, because the run failed."""
+
+    pull: object
+    result: dict
+
+
+class Runs(Runner):
+    """Runs of a method in a folder that is gone when the fit has ended."""
+
+    def __init__(self, method, folder, jobs):
+        super().__init__()
+        self.method, self.folder, self.jobs = method, folder, jobs
+
+    def models(self, asked):
+        """[Model] of [settings], in their order."""
+        return self.each(self._model, [(settings,) for settings in asked], self.jobs, "fit")
+
+    def whole(self, settings):
+        """The folder of a run that is not thrown away at once. Raises WrongInput where refused."""
+        out = tempfile.mkdtemp(dir=self.folder)
+        code, said = self._run(settings, out)
+        if code == tool.REFUSED:
+            raise WrongInput(said)
+        return out
+
+    def _model(self, settings):
+        with tempfile.TemporaryDirectory(dir=self.folder) as out:
+            code, _ = self._run({**settings, **EXACT_CELL}, out)
+            return read_model(out) if code in (0, 1) else Model(None, {})
+
+    def _run(self, settings, out):
+        if self.stopped:
+            raise Interrupted(self.stopped)
+        code, said = self.wait(self.method, settings, out, "--overwrite", "--specimens", "1")
+        if code > 0 and tool.is_of_a_full_disk(said):
+            raise RuntimeError(said)
+        return code, said
+
+
+def read_model(folder):
+    """What a run left, as a Model."""
+    try:
+        result = yaml_text.load(os.path.join(folder, "result.yaml"))
+        return Model(pull_of_table(pd.read_csv(os.path.join(folder, "curve_full.csv"), skiprows=[1])), result)
+    except (WrongInput, OSError, ValueError):
+        return Model(None, {})
 
 
 def pull_of_table(table):
@@ -48,14 +92,12 @@ def pull_of_table(table):
     rows = np.flatnonzero(table["phase"].isin(PULLS))
     if len(rows) < 2:
         return None
+    taken = table.iloc[rows if rows[0] == 0 else [rows[0] - 1, *rows]]
     travel = "crosshead_travel" if "crosshead_travel" in table else "extension"
-    extension, load = (table[name].to_numpy(float)[rows] for name in (travel, "load"))
-    if rows[0] > 0:
-        before, first = (table.iloc[row] for row in (rows[0] - 1, rows[0]))
-        zeros = [row["end_to_end"] - row["extension"] for row in (before, first)]
-        balanced = abs(zeros[1] - zeros[0]) > SAME_ZERO
-        extension = np.concatenate([[0.0 if balanced else before[travel]], extension])
-        load = np.concatenate([[0.0 if balanced else before["load"]], load])
+    extension, load = (taken[name].to_numpy(float, copy=True) for name in (travel, "load"))
+    zeros = (taken["end_to_end"] - taken["extension"]).to_numpy(float)
+    if rows[0] > 0 and abs(zeros[1] - zeros[0]) > SAME_ZERO:
+        extension[0] = load[0] = 0.0
     finite = np.isfinite(extension) & np.isfinite(load)
     pull = Pull(extension[finite], load[finite])
     return pull if len(pull.extension) > 1 else None
@@ -65,7 +107,7 @@ def is_own(file):
     """Whether a file is a curve.csv, by its first line. Raises WrongInput where it cannot be read."""
     try:
         with open(file, encoding="utf-8", errors="replace") as lines:
-            return set(OWN) <= set(lines.readline().strip().split(","))
+            return OWN <= set(lines.readline().strip().split(","))
     except OSError as error:
         raise WrongInput(f"{file}: {error.strerror.lower()}") from error
 
@@ -98,6 +140,14 @@ def read_other(file, curve_file, reading=()):
     pull = Pull(read["extension"].to_numpy(float), read["load"].to_numpy(float)) if len(read) > 1 else None
     lines = [line.removeprefix("compare: ") for line in done.stderr.splitlines()]
     return _known(file, pull), [line for line in lines if line.startswith(f"{file}: ")]
+
+
+def _end(extension, load):
+    """How many rows there are up to the break: the load falls from its peak below half of it, at once, and does not rise
+    again."""
+    peak = int(np.argmax(load)) if len(load) else 0
+    at_once = len(load) and extension[-1] - extension[peak] < AT_ONCE * (extension[-1] - extension[0])
+    return peak + 1 if at_once and load[-1] < 0.5 * load[peak] else len(load)
 
 
 def _known(file, pull):

@@ -1,4 +1,4 @@
-#include "knot_utm/machine/load_control.hpp"
+#include "knot_utm/record/load_control.hpp"
 
 #include <algorithm>
 #include <cmath>
