@@ -17,6 +17,13 @@ foreach(library knot_utm_bags knot_utm_ros)
 endforeach()
 target_link_libraries(knot_utm_ros PUBLIC knot_utm_bags)
 
+# The headers of ROS take two seconds to read, and every file reads them (cmake/rooms.cmake).
+if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set_target_properties(knot_utm_bags knot_utm_ros PROPERTIES DEFINE_SYMBOL "" UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  knot_utm_precompile("knot_utm_bags;knot_utm_ros" <Eigen/Core> <Eigen/Geometry> <functional> <ros/ros.h> <rosbag/bag.h>
+                      <rosbag/view.h> <string> <vector> <visualization_msgs/MarkerArray.h>)
+endif()
+
 file(GLOB nodes CONFIGURE_DEPENDS src/nodes/*.cpp)
 foreach(source ${nodes})
   get_filename_component(name ${source} NAME_WE)

@@ -27,12 +27,12 @@ std_msgs::ColorRGBA tension_color(double place) {
   const std_msgs::ColorRGBA grey = color(0.85, 0.85, 0.85), yellow = color(1.0, 0.8, 0.1);
   // Ropes that lock at a thousand times the sliding force slide in the green range. It must look neither like zero nor
   // like locking.
-  constexpr double kGreen = 0.2, kYellow = 0.5;
+  constexpr double kGreenAt = 0.2, kYellowAt = 0.5;
   const std_msgs::ColorRGBA green = color(0.45, 0.8, 0.35);
   if (place < 0.0) return mixed(grey, color(0.15, 0.35, 0.95), -place);
-  if (place < kGreen) return mixed(grey, green, place / kGreen);
-  if (place < kYellow) return mixed(green, yellow, (place - kGreen) / (kYellow - kGreen));
-  return mixed(yellow, color(0.85, 0.05, 0.1), (place - kYellow) / (1.0 - kYellow));
+  if (place < kGreenAt) return mixed(grey, green, place / kGreenAt);
+  if (place < kYellowAt) return mixed(green, yellow, (place - kGreenAt) / (kYellowAt - kGreenAt));
+  return mixed(yellow, color(0.85, 0.05, 0.1), (place - kYellowAt) / (1.0 - kYellowAt));
 }
 
 /// 1, 2 or 5 times a power of ten, no less than `value`.

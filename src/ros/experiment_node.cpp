@@ -18,7 +18,7 @@ namespace knot_utm {
 namespace {
 
 constexpr double kLook = 0.05;  // wall time between two looks at what has come [s]
-constexpr std::uint32_t kQueue = 1000;
+constexpr std::uint32_t kRecordQueue = 1000;
 
 /// The zero is looked for in what is pulled, and so a record of compression is turned round for it.
 void mirror(std::vector<CurveRow>& rows) {
@@ -57,9 +57,10 @@ ExperimentNode::ExperimentNode(const ros::NodeHandle& node, std::vector<CurveRow
     : node_(node),
       began_(rows.empty() ? 0.0 : rows.front().time),
       rows_(record_with_zero(std::move(rows), balance, tell)),
-      load_cell_(node_.advertise<geometry_msgs::WrenchStamped>(names::kExperimentLoad, kQueue)),
-      crosshead_(node_.advertise<Crosshead>(names::kExperimentCrosshead, kQueue)),
-      commands_(subscribe_gated(node_, names::kCrosshead, names::kUtmNode, kQueue, &ExperimentNode::on_command, this)),
+      load_cell_(node_.advertise<geometry_msgs::WrenchStamped>(names::kExperimentLoad, kRecordQueue)),
+      crosshead_(node_.advertise<Crosshead>(names::kExperimentCrosshead, kRecordQueue)),
+      commands_(
+          subscribe_gated(node_, names::kCrosshead, names::kUtmNode, kRecordQueue, &ExperimentNode::on_command, this)),
       start_(node_.serviceClient<StartTest>(names::kStartTest)) {}
 
 void ExperimentNode::spin(bool autostart) {

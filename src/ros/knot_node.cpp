@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kManyRejected = 0.5;       // of the time steps that were tried
-constexpr std::uint32_t kQueue = 2 * KnotNode::kKeptAnswers;
+constexpr std::uint32_t kCommandQueue = 2 * KnotNode::kKeptAnswers;
 
 TestingMachine make_bench(const Method& method) {
   return TestingMachine(method.specimen, method.material, method.machine, method.physics);
@@ -36,12 +36,12 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
       show_(
           node, [this] { return moment(); }, [this] { return machine_.contact_forces(); }),
       diagnostics_(node_) {
-  state_ = node_.advertise<KnotState>(names::kKnotState, kQueue);
-  record_ = node_.advertise<KnotRecord>(names::kKnotRecord, kQueue);
-  load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kQueue);
+  state_ = node_.advertise<KnotState>(names::kKnotState, kCommandQueue);
+  record_ = node_.advertise<KnotRecord>(names::kKnotRecord, kCommandQueue);
+  load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kCommandQueue);
   shape_ = node_.advertise<KnotShape>(names::kKnotShape, 10);
   specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, 1, true);
-  commands_ = subscribe_gated(node_, names::kCrosshead, names::kUtmNode, kQueue, &KnotNode::on_command, this);
+  commands_ = subscribe_gated(node_, names::kCrosshead, names::kUtmNode, kCommandQueue, &KnotNode::on_command, this);
   status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, 10, &KnotNode::on_status, this);
   reset_ = node_.advertiseService(names::kReset, &KnotNode::on_reset, this);
 

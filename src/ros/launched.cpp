@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLook = 0.2;  // wall time between two looks at the launch [s]
+constexpr double kLookAtLaunch = 0.2;  // wall time between two looks at the launch [s]
 
 std::vector<std::string> words_of(const std::string& process) {
   std::ifstream file("/proc/" + process + "/cmdline");
@@ -62,11 +62,11 @@ void end_with_launch() {
 void end_launch() {
   if (!launched()) return;
   kill(getppid(), SIGINT);
-  while (ros::ok()) wait(kLook);
+  while (ros::ok()) wait(kLookAtLaunch);
 }
 
 void wait_for_end_of(const char* node) {
-  while (ros::ok() && nodes_of_launch().count(node) > 0) wait(kLook);
+  while (ros::ok() && nodes_of_launch().count(node) > 0) wait(kLookAtLaunch);
 }
 
 void end_launch_when_rviz_is_closed() {

@@ -16,13 +16,14 @@
 #include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
+#include "wall_time.hpp"
 
 namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kQueue = 4 * KnotNode::kKeptAnswers;
+constexpr std::uint32_t kAnswerQueue = 4 * KnotNode::kKeptAnswers;
 constexpr double kLastRecords = 1.0;             // wall time for what is under way once the machine died [s]
 constexpr double kPatience = 2.0;                // wall time to wait for a record that is missing [s]
 constexpr double kPatienceAtEnd = 10.0;          // the same for the final shape [s]
@@ -30,10 +31,6 @@ constexpr double kAcknowledgePeriod = 0.005;     // wall time between acknowledg
 constexpr double kDiagnosticsPeriod = 1.0;       // wall time [s]
 constexpr double kLongestPause = 0.1;            // between two looks that counts as waiting [s]
 constexpr std::uint64_t kAcknowledgeAfter = 16;  // records, where they come faster
-
-double seconds_since(std::chrono::steady_clock::time_point then) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
-}
 
 EndedBy ended_by_from_name(const std::string& name) { return ended_by_named(name).value_or(EndedBy::kNotYet); }
 
@@ -48,7 +45,7 @@ RecorderNode::RecorderNode(const ros::NodeHandle& node, const std::string& out) 
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, come, gone, ros::VoidConstPtr(), true);
   save_ = node_.advertiseService(names::kSave, &RecorderNode::on_save, this);
-  records_ = subscribe_gated(node_, names::kKnotRecord, names::kKnotNode, kQueue, &RecorderNode::on_record, this);
+  records_ = subscribe_gated(node_, names::kKnotRecord, names::kKnotNode, kAnswerQueue, &RecorderNode::on_record, this);
   test_status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, 10, &RecorderNode::on_status, this);
   diagnostics_.setHardwareID("none");
   diagnostics_.add("files", this, &RecorderNode::diagnose);

@@ -13,22 +13,18 @@
 #include <vector>
 
 #include "bag_topics.hpp"
-#include "clock_pace.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/urdf.hpp"
+#include "wall_time.hpp"
 
 namespace knot_utm {
 namespace {
 
 constexpr std::size_t kAtOnce = 100;  // messages between two looks at what others want
-constexpr std::uint32_t kQueue = 1000;
-
-double seconds_since(std::chrono::steady_clock::time_point then) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
-}
+constexpr std::uint32_t kReplayQueue = 1000;
 
 void open(rosbag::Bag& bag, const std::string& file) {
   try {
@@ -67,12 +63,12 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
   view_ = std::make_unique<rosbag::View>(bag_, rosbag::TopicQuery(topics));
   next_ = view_->begin();
   start_ = now_ = view_->getBeginTime();
-  publishers_[names::kKnotShape] = node_.advertise<KnotShape>(names::kKnotShape, kQueue);
-  publishers_[names::kKnotState] = node_.advertise<KnotState>(names::kKnotState, kQueue);
-  publishers_[names::kCrosshead] = node_.advertise<Crosshead>(names::kCrosshead, kQueue);
-  publishers_[names::kJointStates] = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kQueue);
-  publishers_[names::kTestStatus] = node_.advertise<TestStatus>(names::kTestStatus, kQueue, true);
-  publishers_[names::kLoadCell] = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kQueue);
+  publishers_[names::kKnotShape] = node_.advertise<KnotShape>(names::kKnotShape, kReplayQueue);
+  publishers_[names::kKnotState] = node_.advertise<KnotState>(names::kKnotState, kReplayQueue);
+  publishers_[names::kCrosshead] = node_.advertise<Crosshead>(names::kCrosshead, kReplayQueue);
+  publishers_[names::kJointStates] = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kReplayQueue);
+  publishers_[names::kTestStatus] = node_.advertise<TestStatus>(names::kTestStatus, kReplayQueue, true);
+  publishers_[names::kLoadCell] = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kReplayQueue);
   std_msgs::String text;
   text.data = method_yaml(method);
   method_.publish(text);

@@ -16,7 +16,7 @@ namespace {
 using Clock = ShownState::Clock;
 
 constexpr char kFrames[] = "/tf";  // where tf2 listens
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kShownQueue = 100;
 constexpr double kSlowest = 0.1, kFastest = 60.0;  // pictures in a second [Hz]
 
 std::optional<InvalidInput> fault_of(const ViewConfig& wanted) {
@@ -45,8 +45,8 @@ Show::Show(ros::NodeHandle node, std::function<Moment()> latest, std::function<s
       forces_(std::move(forces)),
       markers_(node.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
       colors_(node.advertise<ColorBar>(names::kColors, 1, true)),
-      moving_(node.advertise<tf2_msgs::TFMessage>(kFrames, kQueue, true)),
-      looks_(node.advertise<tf2_msgs::TFMessage>(kFrames, kQueue)),
+      moving_(node.advertise<tf2_msgs::TFMessage>(kFrames, kShownQueue, true)),
+      looks_(node.advertise<tf2_msgs::TFMessage>(kFrames, kShownQueue)),
       timer_(node.createSteadyTimer(ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { on_timer(); })),
       server_(ros::NodeHandle("~")) {
   server_.setCallback([this](ViewConfig& wanted, std::uint32_t) { take(wanted); });

@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "clock_pace.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/launched.hpp"
@@ -22,6 +21,7 @@
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/batch.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
+#include "wall_time.hpp"
 
 namespace knot_utm {
 namespace {
@@ -33,9 +33,7 @@ constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
 constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
 constexpr double kLongestStart = 60.0;      // wall time after which a physics that nobody saw has died [s]
-constexpr std::uint32_t kQueue = 1000;
-
-double seconds_since(steady_clock::time_point then) { return Seconds(steady_clock::now() - then).count(); }
+constexpr std::uint32_t kMachineQueue = 1000;
 
 steady_clock::duration to_duration(double seconds) {
   return std::chrono::duration_cast<steady_clock::duration>(Seconds(seconds));
@@ -61,12 +59,12 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
           [this](const Actions::GoalHandle& goal) { on_cancel(goal); }, false),
       diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
-  crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue, ros::SubscriberStatusCallback(), gone);
-  joint_states_ = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kQueue);
+  crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kMachineQueue, ros::SubscriberStatusCallback(), gone);
+  joint_states_ = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kMachineQueue);
   status_ = node_.advertise<TestStatus>(names::kTestStatus, 10, true);
   method_text_ = node_.advertise<std_msgs::String>(names::kMethod, 1, true);
   clock_ = node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10);
-  states_ = subscribe_gated(node_, names::kKnotState, names::kKnotNode, kQueue, &UtmNode::on_state, this);
+  states_ = subscribe_gated(node_, names::kKnotState, names::kKnotNode, kMachineQueue, &UtmNode::on_state, this);
   specimens_ = subscribe_gated(node_, names::kSpecimen, names::kKnotNode, 1, &UtmNode::on_specimen, this);
   if (options_.record) {
     recorder_ = subscribe_gated(node_, names::kRecorderStatus, names::kRecorderNode, 10, &UtmNode::on_recorder, this);

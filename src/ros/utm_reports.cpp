@@ -5,6 +5,7 @@
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "wall_time.hpp"
 
 namespace knot_utm {
 namespace {
@@ -12,10 +13,6 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr double kKeepsPace = 0.9;  // of the pace asked for: below it the machine says so
-
-double seconds_since(steady_clock::time_point then) {
-  return std::chrono::duration<double>(steady_clock::now() - then).count();
-}
 
 }  // namespace
 

@@ -151,7 +151,7 @@ TEST_F(Compare, NeedsNoTime) {
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("pull.csv: 11 readings: extension is column 1"));
   EXPECT_THAT(compare("a.csv", "pull.csv", "--columns load=1,extension=2 --units load=N,extension=m").text,
-              HasSubstr("load is column 1 \"extension\" in N"));
+              AllOf(HasSubstr("extension is column 2"), HasSubstr("load is column 1")));
 }
 
 TEST_F(Compare, ARecordThatRunsDownwardsIsToldAndTurned) {
