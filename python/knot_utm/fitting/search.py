@@ -18,7 +18,7 @@ CANDIDATES = 2048
 KEPT, LEAST_KEPT = 16.0, 48  # rise within which candidates are kept for the next wave, and how many at least
 SHRUNK = 0.8    # a side of the box that shrinks by less has settled
 LEARNT = 0.1    # errors of the polynomial over all, at the best place, which are small enough
-LEARNT_OF = 64.0  # rise beyond which runs are forgotten
+LEARNT_OF = 64.0  # rise of the runs that are learnt of
 GROWN = 0.05    # of the box, by which it is larger than what is kept
 LOOK = 0.25     # of the box, beyond which nothing is looked for: what an earlier wave gave up may come back
 POINTS = 41     # of a profile
@@ -68,8 +68,8 @@ class Search:
         the best place."""
         self.is_lost = np.isnan(self.means).any(axis=1)
         if (~self.is_lost).sum() < len(self.keys) + LEAST_MORE:
-            raise WrongInput(f"{self.records[0].name}: {(~self.is_lost).sum()} of {len(self.places)} runs in the ranges of the free keys reach as "
-                             "far as the record: narrow the ranges")
+            raise WrongInput(f"{self.records[0].name}: {(~self.is_lost).sum()} of {len(self.places)} runs in the ranges of the free keys "
+                             "reach as far as the record: narrow the ranges")
         right = self._alike()
         self.is_unlike = ~self.is_lost & ~right & np.all((self.places >= self.low) & (self.places <= self.high), axis=1)
         away = np.zeros(len(self.places))
@@ -108,7 +108,7 @@ class Search:
         is_cut = (low == around[0]) & (low > 0.0) | (high == around[1]) & (high < 1.0)
         has_settled = np.all(high - low >= SHRUNK * (self.high - self.low)) and not np.any(is_cut)
         self.low, self.high = low, high
-        # The best one, the last ones on each side, which are beyond the ends of the intervals, and the first of a sequence that lies evenly.
+        # The best one, the last ones on each side, which are beyond the ends of the intervals, and others that lie evenly.
         chosen = dict.fromkeys([0, *kept.argmin(axis=0), *kept.argmax(axis=0), *range(1, len(kept))])
         self.add(kept[list(chosen)[:more]])
         self.learn(number)

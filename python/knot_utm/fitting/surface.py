@@ -1,9 +1,9 @@
 """How likely measured means are over the free keys, as far as runs tell: their means are a polynomial of the keys, and the rest is
 scatter.
 
-The polynomial is that of least squares. Its order is the one, from 1 on, with which runs are told best that are left out one at a time. Of n
-runs and p terms the scatter S is the covariance of the residuals, over n - p. It holds how specimens differ, stick-slip, and what the
-polynomial misses. With the errors C of records.py the likelihood is
+The polynomial is that of least squares. Its order is the one, from 1 on, with which runs are told best that are left out one at a
+time. Of n runs and p terms the scatter S is the covariance of the residuals, over n - p. It holds how specimens differ, stick-slip, and
+what the polynomial misses. With the errors C of records.py the likelihood is
 
     -2 log L = r^T A^-1 r + log det A - log det C - 2 log q(u),   A = C + (1 + h) S,   h = t^T (T^T T)^-1 t
 
