@@ -7,6 +7,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/course.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 
