@@ -1,4 +1,4 @@
-#include "knot_utm/record/test_steps.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 
 #include <algorithm>
 #include <array>
