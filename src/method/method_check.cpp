@@ -16,7 +16,7 @@
 #include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/test_steps.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"

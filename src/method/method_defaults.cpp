@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "knot_utm/method/method_keys.hpp"
-#include "knot_utm/record/test_steps.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 namespace {
 

@@ -1,6 +1,7 @@
 #include "knot_utm/record/preparing_steps.hpp"
 
 #include "knot_utm/record/course.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 

@@ -1,8 +1,8 @@
 #include "knot_utm/record/program.hpp"
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
-#include "knot_utm/record/test_steps.hpp"
 
 namespace knot_utm {
 

@@ -13,7 +13,7 @@
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/raw/raw_zero.hpp"
-#include "knot_utm/record/test_steps.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/names.hpp"

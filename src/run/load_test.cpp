@@ -8,7 +8,7 @@
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/raw/raw_zero.hpp"
-#include "knot_utm/record/test_steps.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/verdict/verdict.hpp"
 

@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/record/test_steps.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/run/cannot_write.hpp"
 #include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/samples.hpp"

@@ -9,8 +9,8 @@
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {

@@ -8,8 +8,8 @@
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
-#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {

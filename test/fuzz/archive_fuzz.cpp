@@ -10,8 +10,8 @@
 
 #include "fuzz/scratch_folder.hpp"
 #include "fuzz/target.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/run/checkpoint.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/sim/saved_step.hpp"

@@ -6,8 +6,8 @@
 
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
-#include "knot_utm/record/test_steps.hpp"
 #include "machine/fake_bench.hpp"
 
 /// Steps and programs for tests of the program runner, and what a bench without a specimen answers to them.

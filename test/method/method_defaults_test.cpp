@@ -9,8 +9,8 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/record/command.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {

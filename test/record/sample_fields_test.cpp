@@ -19,7 +19,6 @@ namespace knot_utm {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 /// Stands for a value of any type.
 struct Anything {
@@ -115,14 +114,6 @@ TEST(SampleFields, AreThoseOfTheMessage) {
   std::vector<std::string> others;
   for (const auto& [name, field] : said) others.push_back(name);
   EXPECT_THAT(others, ElementsAre("header", "locked", "motion_pattern", "run"));
-}
-
-TEST(SampleFields, SayEveryPhaseByItsName) {
-  visit_sample_fields([&](const auto& field) {
-    if (std::string(field.name) != "phase") return;
-    for (int i = 0; i <= static_cast<int>(last_of(Phase())); ++i)
-      EXPECT_THAT(field.meaning, HasSubstr(phase_name(static_cast<Phase>(i))));
-  });
 }
 
 TEST(PerKnot, TakesNoMoreThanItHasRoomFor) {

@@ -4,8 +4,8 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/raw/comparison.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/ros/experiment_node.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/run/load_test.hpp"

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
-#include "knot_utm/record/test_steps.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {

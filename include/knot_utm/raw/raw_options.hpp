@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_row.hpp"
-#include "knot_utm/record/test_steps.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 
 namespace knot_utm {
 

@@ -7,9 +7,10 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/load_control.hpp"
-#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 inline constexpr double kMetLoad = 1e-3;  // nearer to a load it is met [of it]
 

@@ -1,4 +1,4 @@
-#include "knot_utm/record/test_steps.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/course.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 
