@@ -74,7 +74,7 @@ void EdgeContact::evaluate(const Points& position, const Points& start, double d
   }
   if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(friction_, dt, contacts_);
-  if (turns_) set_couples(contacts_, surfaces_);
+  if (turns_) set_couples(rolling_, contacts_, surfaces_);
   dt_ = dt;
   first_evaluation_ = false;
 }
@@ -272,9 +272,12 @@ void EdgeContact::commit(const Points&) {
   memory_.clear();
   for (const ContactPoint& contact : contacts_) {
     if (!contact.touches()) continue;
-    const Feet& feet = feet_[static_cast<std::size_t>(&contact - contacts_.data())];
+    const auto number = static_cast<std::size_t>(&contact - contacts_.data());
+    const Feet& feet = feet_[number];
     memory_.push_back({pairs_[static_cast<std::size_t>(feet.pair)], contact.arclength_a, contact.arclength_b,
-                       remember(friction_, contact, dt_), contact.pressure});
+                       rolling_.on() ? remember(friction_, rolling_, contact, surfaces_[number], dt_)
+                                     : remember(friction_, contact, dt_),
+                       contact.pressure});
   }
   std::stable_sort(memory_.begin(), memory_.end(),
                    [](const Memory& l, const Memory& r) { return l.arclength_a < r.arclength_a; });
@@ -286,6 +289,8 @@ void EdgeContact::state(Archive& archive) {
   archive.section("EDG2");  // "EDGE" had no number that a friction law keeps
   archive(candidates_);
   archive.list(memory_);
+  if (rolling_.on())
+    for (Memory& memory : memory_) archive(memory.friction.rolled);
   if (archive.loads()) find_pairs();
 }
 

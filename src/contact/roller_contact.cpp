@@ -60,7 +60,7 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
       add_contacts(rollers, roller, segment, position, start);
   if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(normal_, friction_, dt, contacts_);
-  if (turns_) set_couples(contacts_, surfaces_);
+  if (turns_) set_couples(rolling_, contacts_, surfaces_);
 }
 
 double RollerContact::distance(const Roller& roller, const Vec3& x) {
@@ -135,11 +135,16 @@ double RollerContact::add_surface(const ContactPoint& contact, const Roller& rol
     surface.spin_a += surface.s_a[j] * turns_->turn[edge];
   }
   surface.lever = couple_ * radius_ / (roller.radius + radius_);
+  surface.turned = turned_[static_cast<std::size_t>(contact.roller)];
   return surface.lever;
 }
 
 double RollerContact::lever_of(const ContactPoint& contact) const {
   return turns_ ? surfaces_[static_cast<std::size_t>(&contact - contacts_.data())].lever : 0.0;
+}
+
+Vec3 RollerContact::couple_of(const ContactPoint& contact) const {
+  return turns_ ? surfaces_[static_cast<std::size_t>(&contact - contacts_.data())].couple : Vec3(Vec3::Zero());
 }
 
 Vec3 RollerContact::force_on(int roller) const {
@@ -154,7 +159,7 @@ Vec3 RollerContact::moment_on(const Roller& roller, int number, const Points& po
   for (const ContactPoint& contact : contacts_)
     if (contact.roller == number) {
       const Vec3 place = combine(contact.c, position, contact.a0 + 1) - roller.centre - lever_of(contact) * contact.x;
-      sum -= place.cross(contact.force);
+      sum -= place.cross(contact.force) + couple_of(contact);
     }
   return sum;
 }
@@ -162,7 +167,8 @@ Vec3 RollerContact::moment_on(const Roller& roller, int number, const Points& po
 double RollerContact::torque_on(int roller) const {
   double sum = 0.0;
   for (const ContactPoint& contact : contacts_)
-    if (contact.roller == roller) sum -= surface_increment(contact, lever_of(contact)).dot(contact.force);
+    if (contact.roller == roller)
+      sum -= surface_increment(contact, lever_of(contact)).dot(contact.force) + couple_of(contact).dot(contact.axis);
   return sum;
 }
 
@@ -190,7 +196,11 @@ void RollerContact::commit(const std::vector<Roller>& rollers) {
   committed_prediction_ = prediction_;
   if (!friction_.on()) return;
   std::fill(memory_.begin(), memory_.end(), FrictionMemory());
-  for (const ContactPoint& contact : contacts_) memory_[index_of(contact)] = remember(friction_, contact, dt_);
+  for (const ContactPoint& contact : contacts_)
+    memory_[index_of(contact)] = rolling_.on()
+                                     ? remember(friction_, rolling_, contact,
+                                                surfaces_[static_cast<std::size_t>(&contact - contacts_.data())], dt_)
+                                     : remember(friction_, contact, dt_);
 }
 
 void RollerContact::state(Archive& archive) {
@@ -210,6 +220,8 @@ void RollerContact::state(Archive& archive) {
   archive.require(turn_.size() == start_.size(), "turns of rollers", std::to_string(turn_.size()));
   archive.list(committed_prediction_);
   archive.list(memory_);
+  if (rolling_.on())
+    for (FrictionMemory& memory : memory_) archive(memory.rolled);
   const std::size_t places = memory_index(voronoi_.size(), start_.size(), 0, 0);
   archive.require(places > 0 && committed_prediction_.size() == places && memory_.size() == places, "places on rollers",
                   std::to_string(memory_.size()));

@@ -99,7 +99,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   }
   if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(normal_, friction_, dt, contacts_);
-  if (turns_) set_couples(contacts_, surfaces_);
+  if (turns_) set_couples(rolling_, contacts_, surfaces_);
 }
 
 std::size_t SmoothContact::follow(std::size_t foot) {
@@ -312,9 +312,15 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     memory.weighting = std::min(memory.weighting, largest_weighting(memory));
     memory.offset += catch_up_ * (offset_at(foot, *accepted) - memory.offset);
     memory.pressure = contact ? contact->pressure : 0.0;
-    memory.friction = contact ? knot_utm::remember(friction_, *contact, dt_) : FrictionMemory();
+    memory.friction = contact ? remembered(*contact) : FrictionMemory();
   }
   while (done < list.begin.size()) list.begin[done++] = static_cast<int>(list.entries.size());
+}
+
+FrictionMemory SmoothContact::remembered(const ContactPoint& contact) const {
+  if (!rolling_.on()) return knot_utm::remember(friction_, contact, dt_);
+  const auto number = static_cast<std::size_t>(&contact - contacts_.data());
+  return knot_utm::remember(friction_, rolling_, contact, surfaces_[number], dt_);
 }
 
 void SmoothContact::set_fractions(const Points& position) {
@@ -350,6 +356,8 @@ void SmoothContact::state(Archive& archive) {
   const bool of_this_rod = fraction_.size() == 0 || fraction_.size() == arclength_.size();
   archive.require(of_this_rod, "fractions of points outwards", "of " + std::to_string(fraction_.size()) + " nodes");
   archive(candidates_, accepted_, first_step_);
+  if (rolling_.on())
+    for (Memory& memory : accepted_.entries) archive(memory.friction.rolled);
 }
 
 }  // namespace knot_utm

@@ -4,6 +4,7 @@
 
 #include "four_contacts.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
+#include "knot_utm/contact/return_mapping.hpp"
 
 namespace knot_utm {
 
@@ -113,12 +114,41 @@ struct TwoFeet {
   }
 };
 
+/// rho_n of four contacts.
+template <typename Contact>
+FourVectors rolled_by(const std::array<Contact*, 4>& contacts) {
+  return FourVectors::of(to_lanes(contacts[0]->memory.rolled), to_lanes(contacts[1]->memory.rolled),
+                         to_lanes(contacts[2]->memory.rolled), to_lanes(contacts[3]->memory.rolled));
+}
+
+/// The resistance of four contacts to rolling.
+struct FourRolling {
+  FourVectors remembered, rho;  // rho_n, and rho before projection
+  ReturnMapping<FourVectors> mapping;
+
+  template <typename Contact>
+  FourRolling(const RollingResistance& rolling, const std::array<Contact*, 4>& contacts, const Points4& surfaces,
+              const FourVectors& n, const FourVectors& axis, const Section& a, const Section& b, Linearisation how)
+      : remembered(rolled_by(contacts)),
+        rho(rho_of(rolling, *contacts[0], surfaces, n, axis, a, b)),
+        mapping((1.0 / rolling.presliding) * (rho - dot(n, rho) * n), how) {}
+
+ private:
+  FourVectors rho_of(const RollingResistance& rolling, const ContactPoint& one, const Points4& surfaces,
+                     const FourVectors& n, const FourVectors& axis, const Section& a, const Section& b) const {
+    const FourVectors of_a = a.rotation(), of_b = b.rotation();
+    return remembered + (carried(one) * dot(n, of_a + of_b)) * cross(n, remembered) +
+           rolling.radius * (of_a - of_b - four(surfaces, &SurfacePoint::turned) * axis);
+  }
+};
+
 /// Four contacts at the point at which they are linearised; symbols as in SurfacePoint and ContactPoint.
 template <typename Law, typename Feet>
 class FourSurfaces {
  public:
-  FourSurfaces(const FourPressures& pressures, const Law& law, double dt, const ContactLinearisation& how,
-               const std::array<const ContactPoint*, 4>& contacts, const Points4& surfaces, const Feet& feet)
+  FourSurfaces(const FourPressures& pressures, const Law& law, const RollingResistance& rolling, double dt,
+               const ContactLinearisation& how, const std::array<const ContactPoint*, 4>& contacts,
+               const Points4& surfaces, const Feet& feet)
       : pressures_(pressures),
         feet_(feet),
         a_(Section::of_a(surfaces)),
@@ -150,11 +180,13 @@ class FourSurfaces {
     pressing_ = weight * pressures_.slope * (n_ - friction_.by_pressure);
     force_ = weight * pressures_.pressure * (n_ - friction_.coefficient * friction_.z);
     m_ = cross(lever_ * x_, force_);
+    if (rolling.on()) resist(rolling, contacts, surfaces, how, weight);
   }
 
   void model(SurfaceModel* models) const {
-    const Parted forces(force_), on_a(cross(a_.over, m_), -1.0 * dot(a_.over, m_)),
-        on_b(cross(b_.over, m_), -1.0 * dot(b_.over, m_));
+    const FourVectors m_a = m_ - couple_, m_b = m_ + couple_;
+    const Parted forces(force_), on_a(cross(a_.over, m_a), -1.0 * dot(a_.over, m_a)),
+        on_b(cross(b_.over, m_b), -1.0 * dot(on_roller_ ? axis_ : b_.over, on_roller_ ? couple_ : m_b));
     for (std::size_t i = 0; i < 4; ++i) {
       models[i].pressure = pressures_.pressure[static_cast<int>(i)];
       models[i].slope = pressures_.slope[static_cast<int>(i)];
@@ -163,10 +195,12 @@ class FourSurfaces {
       models[i].on_b = on_b[i];
       models[i].two_feet = Feet::kTwo;
     }
-    Response by_rotation[3];
+    Response by_rotation[3], by_rolling[3];
     for (int i = 0; i < 3; ++i) by_rotation[i] = rotated(unit_vector(i));
+    if (resists_)
+      for (int i = 0; i < 3; ++i) add_couple(by_rolling[i], rolled(radius_ * unit_vector(i)));
     const auto turned = [&](const Section::Change& a, const Section::Change& b) {
-      return sections_change(by_rotation, a, b);
+      return sections_change(by_rotation, by_rolling, a, b);
     };
     Response by_foot_a, by_foot;
     if constexpr (Feet::kTwo) by_foot_a = moved(da_, a_.turn);
@@ -196,9 +230,11 @@ class FourSurfaces {
       add_feet(turned(Section::Change(), b_.change(unit, unit, still)), none, none, unit, SurfaceModel::kTurnB + i);
     }
     write(turned(a_.spun(), Section::Change()), still, still, SurfaceModel::kSpinA, models);
-    if (on_roller_)
-      write(slipped(-1.0 * cross(axis_, (1.0 - lever_) * x_)), still, still, SurfaceModel::kTurned, models);
-    else
+    if (on_roller_) {
+      Response by_turn = slipped(-1.0 * cross(axis_, (1.0 - lever_) * x_));
+      if (resists_) add_couple(by_turn, rolled(-radius_ * axis_));
+      write(by_turn, still, still, SurfaceModel::kTurned, models);
+    } else
       write(turned(Section::Change(), b_.spun()), still, still, SurfaceModel::kSpinB, models);
   }
 
@@ -223,6 +259,37 @@ class FourSurfaces {
     return {dg, cross(a_.over, dm), cross(b_.over, dm), dot(a_.over, dm), dot(b_.over, dm)};
   }
 
+  /// What resists rolling, C and its derivatives.
+  void resist(const RollingResistance& rolling, const std::array<const ContactPoint*, 4>& contacts,
+              const Points4& surfaces, const ContactLinearisation& how, const Lanes& weight) {
+    const FourRolling now(rolling, contacts, surfaces, n_, axis_, a_, b_, how.friction);
+    const double whole = -rolling.coefficient * rolling.radius;
+    resists_ = true;
+    radius_ = rolling.radius;
+    rho_ = now.rho;
+    rolled_ = now.remembered;
+    unit_ = now.mapping.unit;
+    couple_ = (whole * weight * pressures_.pressure) * now.mapping.z;
+    couple_pressing_ = (whole * weight * pressures_.slope) * now.mapping.z;
+    const Lanes spring = (whole / rolling.presliding) * turning_;
+    couple_across_ = spring * now.mapping.across;
+    couple_along_ = spring * now.mapping.along;
+  }
+
+  /// dC as rho changes while the gap stays.
+  FourVectors rolled(const FourVectors& drho) const {
+    const FourVectors in_plane = drho - dot(n_, drho) * n_;
+    return couple_across_ * in_plane + (couple_along_ * dot(unit_, in_plane)) * unit_;
+  }
+
+  /// A couple that changes by dC.
+  void add_couple(Response& response, const FourVectors& dc) const {
+    response.on_a -= cross(a_.over, dc);
+    response.torque_a -= dot(a_.over, dc);
+    response.on_b += cross(b_.over, dc);
+    response.torque_b += dot(on_roller_ ? axis_ : b_.over, dc);
+  }
+
   /// To a gap that changes by dx, and with it the slip by `slid_by` and all that turns with n; the sections stay.
   Response moved(const FourVectors& dx, const FourVectors& slid_by) const {
     const Lanes nearer = -1.0 * dot(n_, dx);
@@ -233,7 +300,13 @@ class FourSurfaces {
     if (on_roller_) dr -= cross(axis_, turned_ * dx);
     const FourVectors slid = dr - dot(n_, dr) * n_ - away_ * dn - dot(r_, dn) * n_;
     const FourVectors dg = nearer * pressing_ + turning_ * dn - stiffness_ * friction_.slope_times(slid);
-    return responds(dg, cross(lever_ * dx, force_) + cross(lever_ * x_, dg));
+    Response out = responds(dg, cross(lever_ * dx, force_) + cross(lever_ * x_, dg));
+    if (!resists_) return out;
+    // d(P rho) = P drho - (n.rho) dn - (rho.dn) n
+    const FourVectors drho = (carried_ * dot(dn, rotation_)) * cross(n_, rolled_) + alpha_ * cross(dn, rolled_);
+    add_couple(out,
+               nearer * couple_pressing_ + rolled(drho - dot(n_, rho_) * dn) - (couple_across_ * dot(rho_, dn)) * n_);
+    return out;
   }
 
   /// To slip that changes by dr while the gap stays.
@@ -244,17 +317,26 @@ class FourSurfaces {
 
   /// To sections that turn by so much more.
   Response rotated(const FourVectors& phi) const {
-    return slipped((carried_ * dot(n_, phi)) * cross(n_, remembered_) - cross(phi, lever_ * x_));
+    Response out = slipped((carried_ * dot(n_, phi)) * cross(n_, remembered_) - cross(phi, lever_ * x_));
+    if (resists_) add_couple(out, rolled((carried_ * dot(n_, phi)) * cross(n_, rolled_)));
+    return out;
   }
 
   /// To sections that change: they turn, and pass on their couples another way.
-  Response sections_change(const Response* by_rotation, const Section::Change& a, const Section::Change& b) const {
-    const FourVectors phi = a.rotation + b.rotation;
+  Response sections_change(const Response* by_rotation, const Response* by_rolling, const Section::Change& a,
+                           const Section::Change& b) const {
+    const FourVectors phi = a.rotation + b.rotation, m_a = m_ - couple_, m_b = m_ + couple_;
     Response out;
-    out.on_a = cross(a.over, m_);
-    out.on_b = cross(b.over, m_);
-    out.torque_a = dot(a.over, m_);
-    out.torque_b = dot(b.over, m_);
+    out.on_a = cross(a.over, m_a);
+    out.on_b = cross(b.over, m_b);
+    out.torque_a = dot(a.over, m_a);
+    out.torque_b = dot(b.over, m_b);
+    if (resists_) {
+      const FourVectors rolls = a.rotation - b.rotation;
+      out.add(rolls.x, by_rolling[0]);
+      out.add(rolls.y, by_rolling[1]);
+      out.add(rolls.z, by_rolling[2]);
+    }
     out.add(phi.x, by_rotation[0]);
     out.add(phi.y, by_rotation[1]);
     out.add(phi.z, by_rotation[2]);
@@ -280,6 +362,11 @@ class FourSurfaces {
   FrictionTangent<FourVectors> friction_;
   Lanes turning_, stiffness_;
   FourVectors pressing_, force_, m_;
+  // Of the resistance to rolling.
+  bool resists_ = false;
+  double radius_ = 0.0;
+  FourVectors rho_, rolled_, unit_, couple_ = {}, couple_pressing_;
+  Lanes couple_across_, couple_along_;
   double carried_ = 0.0;
   bool on_roller_;
 };
@@ -318,6 +405,19 @@ std::size_t linearise_next(const Friction& friction, const std::vector<ContactPo
 
 }  // namespace
 
+FrictionMemory remember(const Friction& friction, const RollingResistance& rolling, const ContactPoint& contact,
+                        const SurfacePoint& surface, double dt) {
+  FrictionMemory out = remember(friction, contact, dt);
+  out.rolled = rolling.presliding * surface.zeta;
+  return out;
+}
+
+double rolling_loss(const ContactPoint& contact, const SurfacePoint& surface) {
+  const Vec3 of_b =
+      contact.on_roller() ? Vec3(surface.turned * contact.axis) : rotation(contact.db, contact.turn, surface.spin_b);
+  return -surface.couple.dot(rotation(surface.along_a, surface.turn_a, surface.spin_a) - of_b);
+}
+
 Vec3 rolling(const ContactPoint& contact, const SurfacePoint& surface) {
   return -surface.lever * section_rotation(contact, surface).cross(contact.x);
 }
@@ -342,17 +442,33 @@ void add_shifts(std::vector<ContactPoint>& contacts, const std::vector<SurfacePo
   });
 }
 
-void set_couples(const std::vector<ContactPoint>& contacts, std::vector<SurfacePoint>& surfaces) {
+void set_couples(const RollingResistance& rolling, const std::vector<ContactPoint>& contacts,
+                 std::vector<SurfacePoint>& surfaces) {
   visit_active(contacts, [&](const Contacts4& four, std::size_t) {
     const Four<const ContactPoint> of(four);
     const Points4 points = points_of(four, contacts, surfaces);
     const FourVectors m = cross(lever_of(points) * of(&ContactPoint::x), of(&ContactPoint::force));
-    const FourVectors a = Section::of_a(points).over, b = Section::of_b(of, points).over;
-    const Parted on_a(cross(a, m), -1.0 * dot(a, m)), on_b(cross(b, m), -1.0 * dot(b, m));
+    const Section section_a = Section::of_a(points), section_b = Section::of_b(of, points);
+    FourVectors zeta = {}, couple = {};
+    const FourVectors axis = of(&ContactPoint::axis);
+    if (rolling.on()) {
+      zeta =
+          FourRolling(rolling, four, points, of(&ContactPoint::n), axis, section_a, section_b, Linearisation::kTangent)
+              .mapping.z;
+      const double whole = -rolling.coefficient * rolling.radius;
+      couple = (whole * of(&ContactPoint::weight) * of(&ContactPoint::pressure)) * zeta;
+    }
+    const FourVectors &a = section_a.over, &b = section_b.over, m_a = m - couple, m_b = m + couple;
+    const bool on_roller = four[0]->on_roller();
+    const Parted on_a(cross(a, m_a), -1.0 * dot(a, m_a)),
+        on_b(cross(b, m_b), -1.0 * dot(on_roller ? axis : b, on_roller ? couple : m_b));
+    const Parted zetas(zeta), couples(couple);
     for (std::size_t i = 0; i < 4; ++i) {
       SurfacePoint& surface = surfaces[number_of(four[i], contacts)];
       surface.on_a = on_a[i];
       surface.on_b = on_b[i];
+      surface.zeta = to_vec3(zetas[i]);
+      surface.couple = to_vec3(couples[i]);
     }
   });
 }
@@ -367,21 +483,22 @@ void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const
   if (!contact.on_roller()) add(contact.b0, contact.beta + 3, surface.s_b, on_b);
 }
 
-std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
-                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-                      std::size_t from, SurfaceModels& models) {
+std::size_t linearise(const NormalLaw& normal, const Friction& friction, const RollingResistance& rolling, double dt,
+                      const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
+                      const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models) {
   return linearise_next(friction, contacts, surfaces, from, models,
                         [&](const auto& law, const Contacts4& four, const Points4& points) {
                           const Four<const ContactPoint> of(four);
                           const OneFoot foot{of(&ContactPoint::inverse_g)};
                           const FourPressures pressures(normal, how, of);
-                          FourSurfaces(pressures, law, dt, how, four, points, foot).model(models.model);
+                          FourSurfaces(pressures, law, rolling, dt, how, four, points, foot).model(models.model);
                         });
 }
 
-std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
-                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-                      const std::vector<EdgeFeet>& feet, std::size_t from, SurfaceModels& models) {
+std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingResistance& rolling, double dt,
+                      const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
+                      const std::vector<SurfacePoint>& surfaces, const std::vector<EdgeFeet>& feet, std::size_t from,
+                      SurfaceModels& models) {
   return linearise_next(friction, contacts, surfaces, from, models,
                         [&](const auto& law, const Contacts4& four, const Points4& points) {
                           FourPressures pressures;
@@ -397,7 +514,7 @@ std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt
                             both.tu[lane] = feet_of.inverse_tu;
                             both.uu[lane] = feet_of.inverse_uu;
                           }
-                          FourSurfaces(pressures, law, dt, how, four, points, both).model(models.model);
+                          FourSurfaces(pressures, law, rolling, dt, how, four, points, both).model(models.model);
                         });
 }
 

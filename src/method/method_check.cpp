@@ -103,6 +103,8 @@ void check_effects(const Method& m) {
   has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
              "for knot: " + loops() + ", with grips: rollers");
 
+  has_effect(friction_couple(m.material, m.physics) > 0.0, "material.rolling_resistance", m.material.rolling_resistance,
+             0.0, "with material.friction_couple above 0 and friction.at: surface");
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
   check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
   check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");

@@ -101,6 +101,7 @@ constexpr Label kLabels[] = {
     {"specimen.wrap", "Angle around the post"},
     {"specimen.edge_length", "Edge length of the mesh"},
     {"specimen.refinement", "Refinement within the knots"},
+    {"material.rolling_resistance", "Resistance of contacts to rolling"},
     {"material.friction_couple", "Share of friction's couple that sections take"},
     {"material.hardening", "Share of the bending stiffness that does not yield"},
     {"material.friction_moment", "Friction moment of a bent rope"},

@@ -104,6 +104,10 @@ class ContactTerm {
       const double force = contact.weight * contact.pressure;
       account.work.numerical -= force * contact.n.dot(motion.slip);
       account.work.friction += contact.mu * force * contact.z.dot(motion.slip + motion.rolling);
+      if constexpr (D == 4)
+        if (contacts_.at_surface())
+          account.work.friction +=
+              rolling_loss(contact, contacts_.surfaces()[static_cast<std::size_t>(&contact - points().data())]);
       if (contact.on_roller()) continue;
       ++account.contact.touching;
       account.contact.normal_force += force;

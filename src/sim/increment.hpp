@@ -57,8 +57,11 @@ struct Equation {
         change(force.size()) {
     if constexpr (D == 4)
       if (settings.friction_couple > 0.0) {
-        if (settings.friction.on()) strands.contacts().act_at_surface(settings.friction_couple, frames.turns());
-        if (settings.roller_friction.on()) rollers.contacts().act_at_surface(settings.friction_couple, frames.turns());
+        const RollingResistance& rolling = settings.rolling;
+        if (settings.friction.on())
+          strands.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
+        if (settings.roller_friction.on())
+          rollers.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
       }
   }
 

@@ -85,11 +85,11 @@ void RollerTurns::add(const ContactPoint& contact, const SurfacePoint& surface, 
     const auto columns =
         columns_of(model, SurfaceModel::kTurnA, SurfaceModel::kSpinA, contact.c[k], d, spin[at(k)], spins[k]);
     Lanes row = contact.c[k] * pushed;
-    for (int i = 0; i < 4; ++i) row[i] -= dot(s, columns[at(i)].force);
+    for (int i = 0; i < 4; ++i) row[i] += columns[at(i)].on_b[3] - dot(s, columns[at(i)].force);
     border->row[at(contact.a0 + k)] += row;
   }
-  border->diagonal -= dot(s, by_turn.force);
-  border->torque -= increment.dot(g - contact.force);
+  border->diagonal += by_turn.on_b[3] - dot(s, by_turn.force);
+  border->torque += model.on_b[3] - surface.on_b[3] - increment.dot(g - contact.force);
 }
 
 void RollerTurns::hold(int node, const Lanes& keep) {

@@ -175,9 +175,9 @@ class Surface : public testing::Test {
     return out;
   }
 
-  void expect_exact(const Friction& friction, double couple) {
+  void expect_exact(const Friction& friction, double couple, const RollingResistance& rolling = {}) {
     Kind kind(scene, friction);
-    kind.contact.act_at_surface(couple, scene.turns);
+    kind.contact.act_at_surface(couple, scene.turns, rolling);
     const Eigen::VectorXd at = scene.unknowns();
     Eigen::MatrixXd analytic = stiffness(kind);
     // Positions and angles differ in size.
@@ -234,10 +234,16 @@ TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWithSmoothedFrictionAndASh
   this->expect_exact(SmoothedFriction{0.4, 2e-2}, 0.3);
 }
 
+/// Beyond the elastic rolling, and within it.
+TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWhereItResistsRolling) {
+  for (const double presliding : {1e-3, 5.0})
+    this->expect_exact(MemoryFriction{0.4, 1e-3 * kRadius}, 0.7, {0.3, kRadius, presliding * kRadius});
+}
+
 TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   Wound scene;
   OnARoller kind(scene, MemoryFriction{0.4, 0.02 * kRadius});
-  kind.contact.act_at_surface(0.8, scene.turns);
+  kind.contact.act_at_surface(0.8, scene.turns, {0.3, kRadius, 0.05 * kRadius});
   const auto evaluated = [&](const Eigen::VectorXd& unknowns) {
     scene.set(unknowns.head(4 * scene.nodes()));
     scene.roller.turn = unknowns[4 * scene.nodes()];
@@ -300,10 +306,11 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   EXPECT_NEAR(border.diagonal, by_turn[at.size() - 1], 2e-6 * std::abs(border.diagonal));
 }
 
-/// The work of all forces and torques on what nodes and spins did in the step is that of g on the slip.
+/// The work of all forces and torques on what nodes and spins did in the step is that of g on the slip, less what
+/// resistance to rolling takes up.
 TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
   TypeParam kind(this->scene, MemoryFriction{0.4, 1e-3 * kRadius});
-  kind.contact.act_at_surface(0.7, this->scene.turns);
+  kind.contact.act_at_surface(0.7, this->scene.turns, {0.3, kRadius, 0.05 * kRadius});
   const Eigen::VectorXd force = this->forces(kind);
   Eigen::VectorXd way = this->scene.unknowns();
   for (Eigen::Index i = 0; i < this->scene.nodes(); ++i) way.segment<3>(4 * i) -= this->scene.start.col(i);
@@ -313,6 +320,8 @@ TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
     const ContactMotion motion = kind.contact.motion(contact, this->scene.position, this->scene.start);
     slip += contact.force.dot(motion.slip + motion.rolling);
     gross += contact.force.norm() * motion.rolling.norm();
+    slip -= rolling_loss(contact,
+                         kind.contact.surfaces()[static_cast<std::size_t>(&contact - kind.contact.contacts().data())]);
     if (contact.on_roller()) slip += contact.force.dot(this->scene.roller.centre);  // which has moved by that
   }
   if constexpr (std::is_same_v<TypeParam, OnARoller>) slip -= kind.contact.torque_on(0) * this->scene.roller.turn;

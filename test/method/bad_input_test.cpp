@@ -157,6 +157,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"material.twisting_law=linear", "material.twisting_law is no key", "", "the keys of material are"},
       {"physics.friction.at=skin", "physics.friction.at", "skin", "surface or centreline"},
       {"material.friction_couple=1.5", "material.friction_couple", "1.5", "must be 0 to 1"},
+      {"material.rolling_resistance=0.1", "material.rolling_resistance", "0.1", "with material.friction_couple above 0"},
       {"physics.friction={law: smoothed, presliding: 0.01}", "physics.friction.presliding", "0.01",
        "only with law: memory"},
       {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "can only be the first step"},

@@ -37,9 +37,10 @@ struct AcrossAnIncline : OnAnIncline {
   double radius = material.radius;
   std::unique_ptr<TimeStep> stepper;
 
-  AcrossAnIncline(double angle, bool spin_inertia)
+  AcrossAnIncline(double angle, bool spin_inertia, double rolling_resistance = 0.0)
       : OnAnIncline(angle, Vec3::UnitY(), 16, MemoryFriction{kMu, 1e-4 * braided_rope().radius}) {
     settings.friction_couple = 1.0;
+    settings.rolling = {rolling_resistance, radius, 1e-4 * radius};
     settings.spin_inertia = spin_inertia;
     initialise_frames(&state);
     stepper = TimeStep::make(rod, state, settings);
@@ -61,6 +62,22 @@ TEST(R12Rolling, ACylinderRollsAcrossAnInclineAtTwoThirds) {
     const auto [down, spin] = scene.accelerations();
     const double expected = 2.0 / 3.0 * kGravity * std::sin(angle);
     hold_against(formatted("R12 rolling across an incline of %.2f: acceleration [m/s^2]", angle), expected, down, 0.01);
+    EXPECT_NEAR(std::abs(spin) * scene.radius, expected, 0.01 * expected) << "it rolls";
+  }
+}
+
+/// The couple mu_r h N holds it up to a slope of mu_r. Beyond, m a = m g sin - F and 1/2 m h a = F h - mu_r h N.
+TEST(R12Rolling, ResistanceHoldsACylinderAndThenSlowsIt) {
+  constexpr double kResistance = 0.1;
+  AcrossAnIncline held(std::atan(0.95 * kResistance), true, kResistance);
+  EXPECT_LT(std::abs(held.accelerations().first), 1e-5 * kGravity);
+  for (const double slope : {1.05, 3.0}) {
+    const double angle = std::atan(slope * kResistance);
+    AcrossAnIncline scene(angle, true, kResistance);
+    const auto [down, spin] = scene.accelerations();
+    const double expected = 2.0 / 3.0 * kGravity * (std::sin(angle) - kResistance * std::cos(angle));
+    hold_against(formatted("R12 rolling against resistance, tan alpha/mu_r = %.2f: acceleration [m/s^2]", slope),
+                 expected, down, 0.01);
     EXPECT_NEAR(std::abs(spin) * scene.radius, expected, 0.01 * expected) << "it rolls";
   }
 }

@@ -56,8 +56,9 @@ class EdgeContact {
   EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
 
   /// As SmoothContact's.
-  void act_at_surface(double couple, const SectionTurns& turns) {
+  void act_at_surface(double couple, const SectionTurns& turns, const RollingResistance& rolling = {}) {
     lever_ = 0.5 * couple;
+    rolling_ = rolling;
     turns_ = &turns;
   }
   bool at_surface() const { return turns_ != nullptr; }
@@ -81,7 +82,7 @@ class EdgeContact {
   void linearise(const ContactLinearisation& how, double dt, std::vector<EdgeContactModel>& models) const;
   /// Where friction acts at the surface, of the next few from number `from` on (linearise_surfaces).
   std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
-    return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, moving_, from, models);
+    return knot_utm::linearise(normal_, friction_, rolling_, dt, how, contacts_, surfaces_, moving_, from, models);
   }
 
   /// The motion of one of `contacts()` in this step.
@@ -143,6 +144,7 @@ class EdgeContact {
   double lever_ = 0.0;                   // lambda of SurfacePoint
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
+  RollingResistance rolling_;
   std::vector<Memory> memory_;  // ascending in arclength_a
   bool first_evaluation_ = true;
 };

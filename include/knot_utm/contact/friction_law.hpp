@@ -46,6 +46,8 @@ struct FrictionLawDefaults {
 struct FrictionMemory {
   Vec3 slip = Vec3::Zero();  ///< xi [m]
   double own = 0.0;          ///< internal variable of the law
+  /// rho_n of RollingResistance [m]; archived by the contacts where they have one.
+  Vec3 rolled = Vec3::Zero();
 
   void state(Archive& archive) { archive(slip, own); }
 };

@@ -62,8 +62,9 @@ class RollerContact {
   RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
 
   /// As SmoothContact's.
-  void act_at_surface(double couple, const SectionTurns& turns) {
+  void act_at_surface(double couple, const SectionTurns& turns, const RollingResistance& rolling = {}) {
     couple_ = couple;
+    rolling_ = rolling;
     turns_ = &turns;
   }
   bool at_surface() const { return turns_ != nullptr; }
@@ -94,7 +95,7 @@ class RollerContact {
   }
   /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).
   std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
-    return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, from, models);
+    return knot_utm::linearise(normal_, friction_, rolling_, dt, how, contacts_, surfaces_, from, models);
   }
 
   /// From now on the rod has parted at an edge, and segments that reach into it touch nothing.
@@ -133,6 +134,7 @@ class RollerContact {
   double add_surface(const ContactPoint& contact, const Roller& roller, const Points& position, const Points& start);
   std::size_t index_of(const ContactPoint& contact) const;
   double lever_of(const ContactPoint& contact) const;
+  Vec3 couple_of(const ContactPoint& contact) const;  // C of RollingResistance
 
   NormalLaw normal_;
   double begins_;  // overlap at which its pressure begins [m]
@@ -150,6 +152,7 @@ class RollerContact {
   double couple_ = 0.0;                  // eta: fraction of friction's couple that a section transmits
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
+  RollingResistance rolling_;
   std::vector<double> prediction_, committed_prediction_;  // of the pressure, < 0: none; indexed as memory_
   std::vector<FrictionMemory> memory_;  // of roller r at point q of segment i: [(r segments + i) 2 + q]
 };

@@ -37,10 +37,11 @@ class SmoothContact {
                 double catch_up = 0.05);
 
   /// From now on friction acts at the surfaces of the strands, whose sections transmit the fraction `couple` of its
-  /// couple (SurfacePoint). Otherwise it acts on the centrelines. `turns` belong to the positions that are evaluated
-  /// and must outlive this object.
-  void act_at_surface(double couple, const SectionTurns& turns) {
+  /// couple (SurfacePoint), and contacts resist rolling. Otherwise it acts on the centrelines. `turns` belong to the
+  /// positions that are evaluated and must outlive this object.
+  void act_at_surface(double couple, const SectionTurns& turns, const RollingResistance& rolling = {}) {
     lever_ = 0.5 * couple;
+    rolling_ = rolling;
     turns_ = &turns;
   }
   bool at_surface() const { return turns_ != nullptr; }
@@ -66,7 +67,7 @@ class SmoothContact {
   }
   /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).
   std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
-    return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, from, models);
+    return knot_utm::linearise(normal_, friction_, rolling_, dt, how, contacts_, surfaces_, from, models);
   }
 
   /// The motion of one of `contacts()` in this step. The overlap at the beginning neglects the third order in the
@@ -133,6 +134,7 @@ class SmoothContact {
   void set_slip(ContactPoint& contact) const;
   void add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b);
   void remember(const Points* position, MemoryList& list) const;
+  FrictionMemory remembered(const ContactPoint& contact) const;
   /// Sets fraction_ for an accepted position, before the first step for its start. It falls to zero where the rod is
   /// bent more sharply than its edges resolve.
   void set_fractions(const Points& position);
@@ -159,6 +161,7 @@ class SmoothContact {
   double lever_ = 0.0;                   // lambda of SurfacePoint
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
+  RollingResistance rolling_;
   MemoryList accepted_;         // of the last accepted step
   std::vector<char> recalled_;  // of each entry of iterate_: assigned to a foot
   MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones

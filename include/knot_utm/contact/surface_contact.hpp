@@ -47,6 +47,10 @@ struct SectionTurns {
 /// The couple -m acts on both sections. Its part across the strand becomes forces on the nodes, its part along the
 /// strand torques on the spins. With eta = 1 forces and couples balance about every point.
 /// Source: our own; kinematics of rigid sections along the spline of the centreline.
+///
+/// Where the contact resists rolling (RollingResistance), the couple C acts on the section of a, and -C on that of b,
+/// so that m - C takes the place of m on a, and m + C on b. On a roller, whose own turn about its axis is psi, -C.axis
+/// is a torque on it; its rotation is phi_b = psi axis.
 struct SurfacePoint {
   Vec3 along_a = Vec3::Zero();      ///< a' [m]; b' is ContactPoint::db
   Vec3 turn_a = Vec3::Zero();       ///< V of a [m]; that of b is ContactPoint::turn
@@ -60,7 +64,27 @@ struct SurfacePoint {
   double s_a[2] = {}, s_b[2] = {};  ///< of the spins of edges a0, a0 + 1, and b0, b0 + 1 [m]
   double s_slope_b[2] = {};         ///< ds_b/du [m]
   Lanes on_a = {};                  ///< a^ x m [N]; lane 3: -a^.m [N]
-  Lanes on_b = {};                  ///< b^ x m [N]; lane 3: -b^.m [N]
+  Lanes on_b = {};                  ///< b^ x m [N]; lane 3: -b^.m [N]; on a roller -C.axis [N m]
+  double turned = 0.0;              ///< psi of the roller [rad]
+  Vec3 zeta = Vec3::Zero();         ///< of RollingResistance [-]
+  Vec3 couple = Vec3::Zero();       ///< C [N m]
+};
+
+/// Resistance of contacts to rolling: a couple per length, against the rotation of two sections relative to each other
+/// about axes in the tangent plane,
+///
+///     C = -w mu_r h p zeta,   zeta = y for |y| < 1, else y/|y|,   y = P rho/rho_s,
+///     rho = rho_n + alpha n x rho_n + h (phi_a - phi_b),   P = 1 - n n^T.
+///
+/// rho_n = rho_s zeta of the last accepted step is what the contact remembers, as friction does its slip: it first
+/// springs, and rolls where the couple reaches mu_r h p. A cylinder on a plane rests up to a slope of mu_r. Source:
+/// Iwashita, Oda 1998 and Ai, Chen, Rotter, Ooi 2011 (elastic-plastic spring of granular mechanics), on line contacts.
+struct RollingResistance {
+  double coefficient = 0.0;  ///< mu_r [-]; 0: none
+  double radius = 0.0;       ///< h [m]
+  double presliding = 0.0;   ///< rho_s [m]
+
+  bool on() const { return coefficient > 0.0; }
 };
 
 /// How the feet of a contact between edges move (edge_contact.hpp): inverse of H, zero where a foot stays [1/m^2].
@@ -75,8 +99,15 @@ void add_shifts(std::vector<ContactPoint>& contacts, const std::vector<SurfacePo
 /// u - (Dx_a - Dx_b) [m]
 Vec3 rolling(const ContactPoint& contact, const SurfacePoint& surface);
 
-/// Sets SurfacePoint::on_a and on_b of every active contact, once its force is known.
-void set_couples(const std::vector<ContactPoint>& contacts, std::vector<SurfacePoint>& surfaces);
+/// Sets SurfacePoint::on_a and on_b of every active contact, once its force is known, and what resists rolling.
+void set_couples(const RollingResistance& rolling, const std::vector<ContactPoint>& contacts,
+                 std::vector<SurfacePoint>& surfaces);
+
+/// What the friction law and the resistance to rolling keep of a contact once the step is accepted.
+FrictionMemory remember(const Friction& friction, const RollingResistance& rolling, const ContactPoint& contact,
+                        const SurfacePoint& surface, double dt);
+/// What resistance to rolling takes up in the step: the work against C [J].
+double rolling_loss(const ContactPoint& contact, const SurfacePoint& surface);
 
 /// Adds the couples `on_a` and `on_b`, as in SurfacePoint, to the forces on nodes [N] and the torques on spins [N m]
 /// (lane 3).
@@ -92,7 +123,7 @@ struct SurfaceModel {
   struct Response {
     Lanes force = {};     ///< -dg/dxi
     Lanes on_a = {};      ///< -d(a^ x m)/dxi, lane 3: d(a^.m)/dxi
-    Lanes on_b = {};      ///< the same of b
+    Lanes on_b = {};      ///< the same of b; on a roller lane 3: d(C.axis)/dxi
     double foot_a = 0.0;  ///< dt/dxi, motion of the foot on a, between edges only
     double foot_b = 0.0;  ///< du/dxi
   };
@@ -102,7 +133,7 @@ struct SurfaceModel {
   bool two_feet = false;  ///< between edges
   Lanes force = {};       ///< g with that pressure [N]
   Lanes on_a = {};        ///< a^ x m with it; lane 3: -a^.m
-  Lanes on_b = {};        ///< b^ x m with it; lane 3: -b^.m
+  Lanes on_b = {};        ///< b^ x m with it; lane 3: -b^.m, on a roller -C.axis
   Response by[kChanges];
 };
 
@@ -117,14 +148,15 @@ struct SurfaceModels {
 /// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
 /// four active contacts from number `from` on, or as many as are left. `surfaces`: one for each of `contacts`. Returns
 /// the number from which to go on.
-std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
-                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-                      std::size_t from, SurfaceModels& models);
+std::size_t linearise(const NormalLaw& normal, const Friction& friction, const RollingResistance& rolling, double dt,
+                      const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
+                      const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models);
 
 /// The same between edges, which have two feet each.
-std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
-                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-                      const std::vector<EdgeFeet>& feet, std::size_t from, SurfaceModels& models);
+std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingResistance& rolling, double dt,
+                      const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
+                      const std::vector<SurfacePoint>& surfaces, const std::vector<EdgeFeet>& feet, std::size_t from,
+                      SurfaceModels& models);
 
 /// Calls visit(number of the contact, its SurfaceModel) for each active contact with friction at the surface, in order.
 template <typename Contacts, typename Visit>

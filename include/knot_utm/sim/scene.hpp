@@ -84,7 +84,8 @@ struct StepSettings {
   Friction friction;                             ///< between strands
   Friction roller_friction;
   double friction_couple =
-      0.0;  ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
+      0.0;                    ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
+  RollingResistance rolling;  ///< of all contacts; only where friction acts at the surfaces
   double weighting_time = 0.05;             ///< relaxation time of weighting factors (smooth_contact.hpp) [s]
   Vec3 gravity = Vec3::Zero();              ///< g [m/s^2]
   double drag = 0.0;                        ///< c, force -c v per length [N s/m^2]
