@@ -74,7 +74,7 @@ class Warnings {
           " of the largest of them: choose a smaller physics.residual");
   }
 
-  /// Events of the pull: a knot that jumped open, a roller that touched a knot.
+  /// Says what happened in the pull: a knot opened, the rod snapped, knots still slid, a roller bore on a knot.
   void of_events() {
     const CurveReadings& curve = results_.curve;
     if (results_.opened_when_mounted)

@@ -34,9 +34,9 @@ class CrossheadCourse {
   double velocity() const { return leg_.velocity; }
   double begin_load() const { return begin_load_; }  ///< as the step began [N]
 
-  /// Since the step began, `more` commands from now [s].
+  /// The time since the step began, as it will be `more` commands from now [s].
   double time(std::uint64_t more = 0) const { return seconds(last_.sequence + more - begin_); }
-  /// Whether so much time has passed since the step began. It has after as many whole periods as cover it.
+  /// Whether so much time has passed since the step began, rounded up to whole periods.
   bool over(double time) const;
 
   /// Begins a leg. Every leg counts from its own beginning, so that rounding does not add up.

@@ -33,7 +33,7 @@ struct StepPlace {
   std::string key() const;  ///< "program.4.pull"
   /// Throws InvalidInput: the step cannot stand where it stands.
   [[noreturn]] void misplaced(const std::string& why) const;
-  /// Where the specimen is no loop.
+  /// Throws InvalidInput where the specimen is no loop.
   void needs_loop() const;
 };
 

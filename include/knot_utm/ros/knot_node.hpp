@@ -21,7 +21,7 @@ namespace knot_utm {
 
 /// The simulation as a node. It answers each command with the state of the same sequence number and stamp. A command
 /// that it has already answered gets the same answer again, so that a lost message never repeats a step. Command 0 of a
-/// new test begins with a new specimen, which is that of the test's order (test_order.hpp). A command out of
+/// new test begins with a new specimen, which is that of the test's order (order_of_test.hpp). A command out of
 /// order, as when the specimen was reset during a test, is answered with a failure. Only commands of the machine's node
 /// are accepted.
 class KnotNode {

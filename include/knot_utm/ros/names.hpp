@@ -44,7 +44,7 @@ inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test or a ba
 
 // Parameters that the nodes set
 inline constexpr char kTestId[] = "test/id";  ///< set by utm_node: identifies this utm_node among all others
-/// set by utm_node: what a test is, {name: ..., method: ..., out: ..., number: 2, count: 8} (test_order.hpp)
+/// set by utm_node: what a test is, {name: ..., method: ..., out: ..., number: 2, count: 8} (order_of_test.hpp)
 inline constexpr char kTestOrder[] = "test/order";
 /// set by recorder_node: the id of a batch's first test, a space, the batch's folder
 inline constexpr char kFolderOfBatch[] = "test/batch_folder";

@@ -27,10 +27,10 @@ class CentrelineTerms {
   /// Begins a step. `predicts`: the geometric stiffness uses the predicted tensions, at first those at its start; else
   /// the present ones.
   void begin(const StepStart& start, bool predicts);
-  /// Predicts the tensions after `factor` times a change of the nodes [m], with the stiffness as it was set.
+  /// Predicts the tensions after `factor` times a change of the nodes [m], with the stiffness that was added last.
   void predict_tensions(const std::vector<Lanes>& change, double factor);
 
-  /// Adds the forces on every node [N], which depend on the trial positions x only. A stiffness that is set afterwards
+  /// Adds the forces on every node [N], which depend on the trial positions x only. A stiffness that is added afterwards
   /// belongs to them.
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force);
 
