@@ -10,6 +10,7 @@
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -233,7 +234,9 @@ std::string what_keeps_a_knot(const Method& method) {
   if (rolls) {
     remedies.push_back("a smaller material.friction_couple (now " +
                        short_number(friction_couple(material, method.physics)) + ")");
-    remedies.push_back("a larger material.bending_set (now " + short_number(material.bending_set) + ")");
+    remedies.push_back("a larger material.rolling_resistance (now " + short_number(material.rolling_resistance) + ")");
+    if (!remembers_bends(material))
+      remedies.push_back("a larger material.bending_set (now " + short_number(material.bending_set) + ")");
   } else {
     if (method.specimen.to_be_tied) remedies.push_back(higher_preload(method));
     remedies.push_back("a higher material.friction_coefficient (now " + short_number(material.friction_coefficient) +

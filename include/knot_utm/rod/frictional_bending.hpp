@@ -24,7 +24,7 @@ struct RodMaterial;
 ///   T_max  the largest tension that this place of the rod has borne, the law's own number; it changes between two
 ///          steps only                                                           [N]
 ///
-/// A rod that is bent further than M_y reaches and let go keeps the curvature M_y/k_b. Textile testers call 2 M_y the
+/// A rod that is bent far, and let go, keeps the curvature M_y/k_b. Textile testers call 2 M_y the
 /// hysteresis of bending. Source: the law of Grosberg 1966 for fabrics; compaction is our own.
 struct FrictionalBending {
   static constexpr const char* kName = "frictional";
