@@ -30,8 +30,8 @@ class CentrelineTerms {
   /// Predicts the tensions after `factor` times a change of the nodes [m], with the stiffness that was added last.
   void predict_tensions(const std::vector<Lanes>& change, double factor);
 
-  /// Adds the forces on every node [N], which depend on the trial positions x only. A stiffness that is added afterwards
-  /// belongs to them.
+  /// Adds the forces on every node [N], which depend on the trial positions x only. A stiffness that is added
+  /// afterwards belongs to them.
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force);
 
   /// Tension of every edge at the positions that were evaluated last [N].
