@@ -35,22 +35,34 @@ double shorter_where_tied_hard(const SpecimenOptions& specimen, const Material& 
   return std::clamp(std::pow(preload_group(specimen, material) / kTiedHard, 0.25), 1.0, kShortestForHard);
 }
 
-Tolerances of(Accuracy accuracy, bool stretches) {
+/// How a loop takes a load, as far as its tolerances depend on it.
+struct Answer {
+  bool stretches = false;
+  bool rolls = false;  ///< its strands roll on each other
+};
+
+Answer answer(const PhysicsOptions& physics, const SpecimenOptions& specimen, const Material& material) {
+  return {stretches(specimen, material), friction_couple(material, physics) > 0.0};
+}
+
+Tolerances of(Accuracy accuracy, const Answer& rod) {
   switch (accuracy) {
     case Accuracy::kDraft:
-      return stretches ? kStretchingDraft : kDraft;
+      return rod.stretches ? kStretchingDraft : kDraft;
     case Accuracy::kNormal:
-      return stretches ? kStretchingNormal : kNormal;
+      if (rod.stretches) return kStretchingNormal;
+      return rod.rolls ? kRollingNormal : kNormal;
     case Accuracy::kFine:
       break;
   }
-  return stretches ? kStretchingFine : kFine;
+  return rod.stretches ? kStretchingFine : kFine;
 }
 
-Tolerances of(Accuracy accuracy, const SpecimenOptions& specimen, const Material& material) {
-  const bool solid = stretches(specimen, material);
-  Tolerances out = of(accuracy, solid);
-  if (!solid && accuracy != Accuracy::kDraft) out.refinement *= shorter_where_tied_hard(specimen, material);
+Tolerances of(Accuracy accuracy, const PhysicsOptions& physics, const SpecimenOptions& specimen,
+              const Material& material) {
+  const Answer rod = answer(physics, specimen, material);
+  Tolerances out = of(accuracy, rod);
+  if (!rod.stretches && accuracy != Accuracy::kDraft) out.refinement *= shorter_where_tied_hard(specimen, material);
   return out;
 }
 
@@ -68,7 +80,7 @@ double coarseness(const Tolerances& own, const Tolerances& normal, double edge) 
 }  // namespace
 
 Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& specimen, const Material& material) {
-  Tolerances out = of(physics.accuracy, specimen, material);
+  Tolerances out = of(physics.accuracy, physics, specimen, material);
   out.longest_step = physics.max_step.value_or(out.longest_step);
   out.residual = physics.residual.value_or(out.residual);
   out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);
@@ -95,12 +107,13 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
       machine.roller_friction == 0.0 && rollers_hold(specimen, machine);
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
-  const bool solid = stretches(specimen, material), opposite = specimen.handedness == Handedness::kOpposite;
+  const Answer rod = answer(physics, specimen, material);
+  const bool solid = rod.stretches, opposite = specimen.handedness == Handedness::kOpposite;
   const Tolerances own = tolerances(physics, specimen, material);
   // Where a rope is tied hard, edges in its knots are shorter, and so is the error there. The strands do not gain by
   // it.
-  const double coarse = coarseness(own, of(Accuracy::kNormal, solid), edge),
-               of_strands = coarseness(own, of(Accuracy::kNormal, specimen, material), edge);
+  const double coarse = coarseness(own, of(Accuracy::kNormal, rod), edge),
+               of_strands = coarseness(own, of(Accuracy::kNormal, physics, specimen, material), edge);
   const double slippery = std::max(1.0, kSlippery / std::max(material.friction_coefficient, kLeastFriction));
   out.plateau_force = coarse * (opposite ? kOppositePlateau : kPlateau * slippery);
   out.lock_extension = coarse * (opposite ? kOppositeLock : kLock);

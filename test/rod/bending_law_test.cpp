@@ -151,15 +151,23 @@ TEST(FrictionalBending, AStripKeepsItsFrictionMomentAndLosesItsLoop) {
   EXPECT_LT(std::abs(law.respond(strip).moment[0]), 1e-13 * yield) << "let go, the bend that is left needs no moment";
 }
 
-TEST(FrictionalBending, RemembersTheLargestTension) {
+/// The tension that compacts a place follows a larger one within tau, in steps of any length, and never falls.
+TEST(FrictionalBending, RemembersTheLargestTensionThatLasts) {
   const FrictionalBending law = frictional();
   double own[] = {4.0};
-  BendingNode strip{3.0, 0.1, {0.0, 0.0}, {0.0, 0.0}, 0.0, own};
-  for (const double tension : {3.0, -8.0, 6.0, 5.0}) {
+  BendingNode strip{3.0, 0.1, {0.0, 0.0}, {0.0, 0.0}, 1e-4, own};
+  const auto bear = [&](double tension, double time) {
     strip.tension = tension;
-    law.keep_own(strip, own);
-    EXPECT_EQ(own[0], tension < 4.0 ? 4.0 : 6.0);
-  }
+    for (double t = 0.0; t < time - 0.5 * strip.dt; t += strip.dt) law.keep_own(strip, own);
+  };
+  bear(3.0, 1.0);
+  bear(-8.0, 1.0);
+  EXPECT_EQ(own[0], 4.0);
+  bear(6.0, FrictionalBending::kCompactionTime);
+  EXPECT_NEAR(own[0], 6.0 - 2.0 * std::exp(-1.0), 2e-3);
+  bear(6.0, 1.0);
+  bear(5.0, 1.0);
+  EXPECT_NEAR(own[0], 6.0, 1e-6);
 }
 
 }  // namespace

@@ -21,8 +21,12 @@ struct RodMaterial;
 ///   s      stick ratio: bending stiffness while no fibre slides, over k_b       [-]
 ///   m_0    friction moment of a rope that was never pulled, in units of k_b/h   [-]
 ///   c_m    compaction: what tension adds to the friction moment for good        [-]
-///   T_max  the largest tension that this place of the rod has borne, the law's own number; it changes between two
-///          steps only                                                           [N]
+///   T_max  the largest tension that has compacted this place of the rod, the law's own number; it changes between
+///          two steps only                                                       [N]
+///
+/// Fibres need a time to come closer, dT_max/dt = (T - T_max)/tau where T is the larger, tau = 0.05 s. A tension that
+/// lasts counts whole, while the jerk of a tenth of a millisecond with which a drawn shape springs to rest, or of a
+/// snap, whose size is that of the mesh, does not.
 ///
 /// A rod that is bent far, and let go, keeps the curvature M_y/k_b. Textile testers call 2 M_y the
 /// hysteresis of bending. Source: the law of Grosberg 1966 for fabrics; compaction is our own.
@@ -36,6 +40,7 @@ struct FrictionalBending {
   static constexpr bool kStudied = false;
   static constexpr bool kRemembers = true;
   static constexpr int kOwn = 1;
+  static constexpr double kCompactionTime = 0.05;  ///< tau [s]
 
   double stick_ratio = 1.0;  ///< s [-]
   double curvature = 0.0;    ///< m_0/h: M_y/k_b of a rope that was never pulled [1/m]
@@ -45,7 +50,9 @@ struct FrictionalBending {
 
   BendingResponse respond(const BendingNode& node) const { return at(node).respond(node); }
   BendingMemory remember(const BendingNode& node) const { return at(node).remember(node); }
-  void keep_own(const BendingNode& node, double* own) const { own[0] = std::max(node.own[0], node.tension); }
+  void keep_own(const BendingNode& node, double* own) const {
+    own[0] = node.own[0] + std::max(node.tension - node.own[0], 0.0) * (node.dt / (node.dt + kCompactionTime));
+  }
 
   void state(Archive& archive) { archive(stick_ratio, curvature, by_tension); }
 
