@@ -15,12 +15,19 @@ STIFFENING_DEPTH = 0.015  # of the radius, from which the simulated contact stif
 SOLID = 10.0    # k_s h^2/k_b of less is a solid rod's, which is 4; ropes have hundreds
 
 MOST_TURNS = 30.0  # [rad] of a capstan: already with mu = 0.2 the heavy mass would be four hundred times the light one
+OVERCOME = 1.3     # by which a cantilever must be bent over the moment at which fibres slide to show k_b
+STICK_RATIO = 20.0, 10.0  # and its uncertainty, where none is measured: knots hardly feel whether it is 5 or 60
 
 # What may be measured: of each group the keys, all of them needed.
 GROUPS = {"diameter": None, "weighed": ("length", "mass"), "stretched": ("length", "mass", "elongation"),
           "cantilever": ("overhang", "drop"), "loop": ("length", "height"), "capstan": ("angle", "light", "heavy"),
+          "mandrel": ("radius", "kept_radius"), "light_cantilever": ("overhang", "drop"), "pulled": ("mass", "kept_radius"),
+          "incline": ("rise", "run"), "creeping": ("masses", "speeds"),
           "pressed": ("mass", "approach"), "tied": ("mass",), "broken": ("force",)}
+INSTEAD = {"kept_radius": ("chord", "sag")}  # the keys that may stand instead of one: the radius of an arc
+SEVERAL = ("masses", "speeds")               # the keys with a list of readings
 NEEDED = ("diameter", "weighed", "stretched", "capstan")
+NEEDS = {"light_cantilever": "mandrel", "pulled": "mandrel"}  # of these groups, the one without which they tell nothing
 
 
 class Wrong(Exception):
@@ -30,30 +37,71 @@ class Wrong(Exception):
 # ---- shapes of a heavy rod: w its weight per length ----------------------------------------------------------------
 
 
-def sag(end):
-    """(heaviness w l^3/k_b, drop over l) of a rod that is clamped level and whose free end hangs at an angle below the level.
+def sag(end, kept=0.0, ratio=2.0):
+    """(heaviness w l^3/k_b, drop over l, moment at the clamp) of a rod that is clamped level and whose free end hangs at an
+    angle below the level.
 
     From the free end, where it is not bent, a rod in units of (k_b/w)^(1/3) is the same whatever its length: it is as long
-    as it takes to come level."""
+    as it takes to come level. Its fibres may rub: it bends ratio times as stiffly until they slide, and keeps the curvature
+    `kept` of a far bend."""
+    slides = kept * ratio / (ratio - 1.0)
+
+    def bent(s, y):  # angle below the level, moment, down
+        return [-(y[1] / ratio if y[1] < slides else y[1] - kept), s * math.cos(y[0]), math.sin(y[0])]
+
     def is_level(_, y):
         return y[0]
 
     is_level.terminal = True
-    found = integrate.solve_ivp(lambda s, y: [y[1], -s * math.cos(y[0]), math.sin(y[0])], (0.0, 100.0), [end, 0.0, 0.0],
-                                "LSODA", events=is_level, rtol=1e-9, atol=1e-12)
-    length, drop = found.t[-1], found.y[2, -1]
-    return length ** 3, drop / length
+    found = integrate.solve_ivp(bent, (0.0, 100.0), [end, 0.0, 0.0], "LSODA", events=is_level, rtol=1e-9, atol=1e-12)
+    length, moment, drop = found.t[-1], *found.y[1:, -1]
+    return length ** 3, drop / length, moment
 
 
-def cantilever_stiffness(weight, overhang, drop):
+def steepness(share):
+    """The logarithm of the angle to straight down, of the free end of the elastic rod whose drop is this share of its overhang: of a
+    rope this angle is tiny."""
+    return optimize.brentq(lambda u: sag(0.5 * math.pi - math.exp(u))[1] - share, math.log(1e-12),
+                           math.log(0.5 * math.pi - 0.99 * LEAST_ANGLE))
+
+
+@functools.cache
+def cantilever_stiffness(weight, overhang, drop, group="cantilever"):
+    """k_b of a rod without friction among fibres; s k_b of a rope that is bent so little that they stick."""
     least, share = sag(LEAST_ANGLE)[1], drop / overhang
     if not least < share < 0.9:
-        raise Wrong(f"cantilever: the drop is {share:.4f} of the overhang, but must be between {least:.4f} and 0.9; "
-                    "of a rope that hangs straight down, measure a loop")
-    # The logarithm of the angle to straight down: of a rope it is tiny.
-    steep = optimize.brentq(lambda u: sag(0.5 * math.pi - math.exp(u))[1] - share, math.log(1e-12),
-                            math.log(0.5 * math.pi - 0.99 * LEAST_ANGLE))
-    return weight * overhang ** 3 / sag(0.5 * math.pi - math.exp(steep))[0]
+        raise Wrong(f"{group}: the drop is {share:.4f} of the overhang, but must be between {least:.4f} and 0.9; "
+                    "of a rope that hangs straight down, measure a shorter piece or, without a mandrel, a loop")
+    return weight * overhang ** 3 / sag(0.5 * math.pi - math.exp(steepness(share)))[0]
+
+
+@functools.cache
+def rubbing_stiffness(weight, overhang, drop, kept, stuck, ratio):
+    """k_b of a cantilever whose fibres rub, and slide where it is bent most: kept [1/m] is the curvature of a bend that was let go,
+    stuck the bending stiffness of a small bend or None, whose ratio to k_b is then given."""
+    most = cantilever_stiffness(weight, overhang, drop)  # friction only makes it stiffer
+    if stuck and stuck < 1.001 * most:
+        raise Wrong(f"light_cantilever: its bending stiffness comes out as {stuck:.3g} N m2, but must be more than that of cantilever, "
+                    f"{most:.3g} N m2: a rope whose fibres rub is stiffest where it is hardly bent")
+
+    def hangs(at, kept):
+        steep, k_b = min(max(at[0], math.log(1e-12)), 0.4), most * math.exp(min(max(at[1], -9.0), 5e-4))
+        unit = (k_b / weight) ** (1 / 3)
+        heaviness, share, moment = sag(0.5 * math.pi - math.exp(steep), kept * unit, stuck / k_b if stuck else ratio)
+        return [math.log(heaviness * unit ** 3 / overhang ** 3), share - drop / overhang], k_b, moment / unit
+
+    for parts in ((1.0,), (0.25, 0.5, 0.75, 1.0)):  # of the friction: at once, else little by little
+        at = [steepness(drop / overhang), 0.0]
+        for part in parts:
+            at = optimize.root(lambda at: hangs(at, part * kept)[0], at).x
+        left, k_b, moment = hangs(at, kept)
+        if max(map(abs, left)) < 1e-6:
+            break
+    overcome = moment / kept * (1 - (k_b / stuck if stuck else 1 / ratio))
+    if max(map(abs, left)) > 1e-6 or overcome < OVERCOME:
+        raise Wrong(f"cantilever: at the clamp it is bent by less than {OVERCOME} times the moment at which the fibres slide, as the kept "
+                    "bend tells, so that it does not show k_b; measure a longer overhang")
+    return k_b
 
 
 @functools.cache
@@ -83,6 +131,68 @@ def loop_stiffness(weight, length, height):
     return weight * length ** 3 / math.exp(np.interp(height / length, heights, np.log(heaviness)))
 
 
+# ---- friction: among fibres, and the speed of creep --------------------------------------------------------------
+
+
+def kept_curvature(m, group):
+    """Of the arc in which the rope lies once it is let go: its radius, or its chord and the sag of it, was read."""
+    if (group, "chord") in m:
+        chord, sagged = m[group, "chord"], m[group, "sag"]
+        return 1 / (chord ** 2 / (8 * sagged) + 0.5 * sagged)
+    return 1 / m[group, "kept_radius"]
+
+
+def least_bend(kept, ratio):
+    """The curvature of the mandrel from which on a rope keeps all it can, kept = M_y/k_b. Let go, the moment of friction falls
+    by (s - 1) k_b for each 1/m, from M_y to -M_y, if there is room: from kept + 2 M_y/((s - 1) k_b) on."""
+    return kept * (ratio + 1) / (ratio - 1)
+
+
+def bending(m, weight, h):
+    """The keys of bending."""
+    if ("mandrel", "radius") not in m:
+        if ("cantilever", "drop") in m:
+            return {"bending_stiffness": cantilever_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"])}
+        return {"bending_stiffness": loop_stiffness(weight, m["loop", "length"], m["loop", "height"])}
+    kept, stuck, ratio = kept_curvature(m, "mandrel"), None, m.get(("stick_ratio", ""))
+    if h * kept > 1:
+        raise Wrong(f"mandrel: the rope keeps a radius of {1 / kept:.3g} m, but must keep one of more than its own, {h:.3g} m")
+    if ratio is None:
+        stuck = cantilever_stiffness(weight, m["light_cantilever", "overhang"], m["light_cantilever", "drop"], "light_cantilever")
+    k_b = rubbing_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"], kept, stuck, ratio)
+    out = {"bending_stiffness": k_b, "friction_moment": h * kept, "stick_ratio": ratio or stuck / k_b}
+    if ("pulled", "mass") in m:
+        more = kept_curvature(m, "pulled") - kept
+        if more < 0:
+            raise Wrong(f"pulled: the rope keeps a radius of {1 / (kept + more):.3g} m, but after a pull it must keep at most the "
+                        f"{1 / kept:.3g} m of mandrel")
+        out["compaction"] = k_b * more / (h * m["pulled", "mass"] * GRAVITY)
+    return out
+
+
+def creep(loads, speeds):
+    """(a, v_0 [m/s]) of v = v_0 (exp((q - 1)/a) - 1) for speeds v at loads q over the one that just does not creep: two readings
+    have one answer, more the one of least squares of ln v."""
+    over, seen = np.array(loads) - 1, np.log(speeds)
+    if min(over) <= 0:
+        raise Wrong("creeping: within its uncertainty, every mass must be more than capstan.heavy, which does not creep")
+    slope = np.polyfit(seen, over, 1)[0] if len(set(speeds)) > 1 else 0.0  # of fast creep, this is a
+    if not slope > 0:
+        raise Wrong("creeping: a larger mass must creep faster")
+
+    def left(at):  # ln a, ln v_0
+        x = over / np.exp(at[0])
+        return at[1] + x + np.log(-np.expm1(-x)) - seen
+
+    start = [math.log(slope), np.mean(seen - over / slope)]
+    found = optimize.least_squares(left, start, xtol=1e-14, ftol=1e-14, gtol=1e-14, bounds=([-20.0, -200.0], [20.0, 20.0]))
+    rate, speed = (float(number) for number in np.exp(found.x))
+    if rate > 1:
+        raise Wrong("creeping: the speeds grow too little with the masses for a rate of at most 1: with the logarithm of the mass over "
+                    "that of capstan.heavy, they must grow more than in proportion")
+    return rate, speed
+
+
 # ---- from measurements to properties -------------------------------------------------------------------------------
 
 
@@ -94,10 +204,7 @@ def properties(m):
            "stretching_stiffness": m["stretched", "mass"] * GRAVITY * m["stretched", "length"] / m["stretched", "elongation"],
            "friction_coefficient": math.log(m["capstan", "heavy"] / m["capstan", "light"]) / m["capstan", "angle"]}
     weight = per_length * GRAVITY
-    if ("cantilever", "drop") in m:
-        out["bending_stiffness"] = cantilever_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"])
-    else:
-        out["bending_stiffness"] = loop_stiffness(weight, m["loop", "length"], m["loop", "height"])
+    out.update(bending(m, weight, h))
     solid = out["stretching_stiffness"] * h * h < SOLID * out["bending_stiffness"]
     out["twisting_stiffness"] = out["bending_stiffness"] * (2 / 3 if solid else 1)
     if ("pressed", "mass") in m:
@@ -107,7 +214,35 @@ def properties(m):
         out["tying_preload"] = m["tied", "mass"] * GRAVITY
     if ("broken", "force") in m:
         out["breaking_force"] = m["broken", "force"]
+    if ("incline", "rise") in m:
+        out["rolling_resistance"] = m["incline", "rise"] / m["incline", "run"]
+    if ("creeping", "masses") in m:
+        light, count = m["capstan", "light"], m["creeping", "masses"]
+        limit = math.log(m["capstan", "heavy"] / light)
+        loads = [math.log(m["creeping", f"masses[{i}]"] / light) / limit for i in range(count)]
+        out["rate"], out["rate_speed"] = creep(loads, [m["creeping", f"speeds[{i}]"] for i in range(count)])
     return out
+
+
+def usable(m, here):
+    """Refuses readings from which the numbers do not follow, and numbers that no method takes (doc/method.md)."""
+    for name, low, high, group in TAKEN:
+        if name in here and not low <= here[name] <= high:
+            unit = f" {UNITS[name]}".replace(" -", "")
+            raise Wrong(f"{group}: {name} comes out as {here[name]:.3g}{unit}, but a method takes {low:g} to {high:g}{unit}")
+    if "friction_moment" not in here:
+        return
+    h, ratio = here["radius"], here["stick_ratio"]
+    mandrel = 1 / (m["mandrel", "radius"] + h)
+    for group in ("mandrel", "pulled") if "compaction" in here else ("mandrel",):
+        kept = kept_curvature(m, group)
+        if mandrel < least_bend(kept, ratio):
+            raise Wrong(f"{group}: the rope keeps a radius of {1 / kept:.4g} m, for which the mandrel's must be at most "
+                        f"{1 / least_bend(kept, ratio) - h:.4g} m, so that all the friction of its fibres turns round as it is let go")
+    weight = m["weighed", "mass"] / m["weighed", "length"] * GRAVITY
+    longest = math.sqrt(2 * here["friction_moment"] / h * here["bending_stiffness"] * ratio / (ratio - 1) / weight)
+    if ("light_cantilever", "drop") in m and m["light_cantilever", "overhang"] > longest:
+        raise Wrong(f"light_cantilever: its overhang must be at most {longest:.3g} m, so that no fibre slides")
 
 
 def with_errors(values, errors):
@@ -138,6 +273,30 @@ def measured(where, given):
     raise Wrong(f"{where} is {given}, but must be [value, uncertainty], the value above 0 and more than the uncertainty")
 
 
+def read_group(group, content):
+    """The measured numbers by their keys, and of a list also its length, which is exact."""
+    keys = GROUPS[group]
+    if keys is None:
+        return {"": measured(group, content)}
+    for key, others in INSTEAD.items():
+        if key in keys and isinstance(content, dict) and key not in content and set(content) & set(others):
+            keys = tuple(name for name in keys if name != key) + others
+    if not isinstance(content, dict) or set(content) != set(keys):
+        others = "".join(f"; instead of {key}, {' and '.join(INSTEAD[key])} will do" for key in GROUPS[group] if key in INSTEAD)
+        raise Wrong(f"{group} must be a map with the keys " + ", ".join(GROUPS[group]) + others)
+    out = {}
+    for key in keys:
+        if key not in SEVERAL:
+            out[key] = measured(f"{group}.{key}", content[key])
+            continue
+        several = content[key]
+        if not isinstance(several, list) or len(several) < 2 or len(several) != len(content[keys[0]]):
+            raise Wrong(f"{group}.{key} must be a list of two readings or more, as many as {group}.{keys[0]}")
+        out[key] = len(several), 0.0
+        out.update({f"{key}[{i}]": measured(f"{group}.{key}[{i}]", reading) for i, reading in enumerate(several)})
+    return out
+
+
 def read(text):
     given = yaml.safe_load(text)
     if not isinstance(given, dict):
@@ -148,19 +307,20 @@ def read(text):
             continue
         if group not in GROUPS:
             raise Wrong(f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
-        keys = GROUPS[group]
-        if keys is None:
-            values[group, ""], errors[group, ""] = measured(group, content)
-            continue
-        if not isinstance(content, dict) or set(content) != set(keys):
-            raise Wrong(f"{group} must be a map with the keys " + ", ".join(keys))
-        for key in keys:
-            values[group, key], errors[group, key] = measured(f"{group}.{key}", content[key])
+        for key, (value, error) in read_group(group, content).items():
+            values[group, key], errors[group, key] = value, error
     missing = [group for group in NEEDED if group not in given]
     if not ({"cantilever", "loop"} & set(given)):
         missing.append("cantilever or loop")
     if missing:
         raise Wrong("missing: " + ", ".join(missing))
+    for group, other in NEEDS.items():
+        if group in given and other not in given:
+            raise Wrong(f"{group} tells nothing without {other}")
+    if "mandrel" in given and "cantilever" not in given:
+        raise Wrong("mandrel needs cantilever; a loop will not do, because how its fibres slid depends on how it was formed")
+    if "mandrel" in given and "light_cantilever" not in given:
+        values["stick_ratio", ""], errors["stick_ratio", ""] = STICK_RATIO
     if values["capstan", "heavy"] <= values["capstan", "light"]:
         raise Wrong("capstan: the heavy mass must be more than the light one")
     angle = values["capstan", "angle"]
@@ -176,19 +336,38 @@ def read(text):
 
 UNITS = {"radius": "m", "density": "kg/m3", "stretching_stiffness": "N", "bending_stiffness": "N m2",
          "twisting_stiffness": "N m2", "friction_coefficient": "-", "contact_stiffness": "N/m2", "tying_preload": "N",
-         "breaking_force": "N"}
+         "breaking_force": "N", "friction_moment": "k_b/h", "stick_ratio": "-", "compaction": "-", "rolling_resistance": "-",
+         "rate": "-", "rate_speed": "m/s"}
 HOW = {"radius": "measured: half the diameter", "density": "measured: mass over volume", "tying_preload": "measured",
        "stretching_stiffness": "measured: load over strain", "friction_coefficient": "measured: capstan",
        "bending_stiffness": "measured: sag under its own weight", "breaking_force": "measured",
-       "twisting_stiffness": "assumed: k_b of a rope, 2/3 k_b of a solid rod", "contact_stiffness": "measured: pressed crosswise"}
+       "twisting_stiffness": "assumed: k_b of a rope, 2/3 k_b of a solid rod", "contact_stiffness": "measured: pressed crosswise",
+       "friction_moment": "measured: kept bend", "stick_ratio": "measured: light over heavy cantilever",
+       "compaction": "measured: kept bend after a pull", "rolling_resistance": "measured: incline"}
+# Of the numbers that may come out wrong, those which a method takes, and the group that gives them.
+TAKEN = (("stick_ratio", 1.01, 1e3, "light_cantilever"), ("compaction", 0.0, 1.0, "pulled"),
+         ("rolling_resistance", 0.0, 1.0, "incline"), ("rate_speed", 1e-9, 1.0, "creeping"))
+
+
+def rates(here, errors):
+    """The law of friction, which is a method's and not the material's."""
+    return (f"--set physics.friction='{{law: rate, rate: {here['rate']:.4g}, rate_speed: {here['rate_speed']:.4g}}}'  # +- "
+            f"{errors['rate']:.2g}, +- {errors['rate_speed']:.2g} m/s, measured: creeping capstan")
 
 
 def material(given, here, errors):
     lines = [f"# {given.get('name', 'A rope')}, from measurements by scripts/material; the uncertainties are one standard "
              "deviation."]
     for name, value in here.items():
-        entry = f"{name}: {value:.6g}"
-        lines.append(f"{entry:<38}# [{UNITS[name]}] +- {errors[name]:.2g}, {HOW[name]}")
+        if name == "friction_moment":
+            lines.append(f"{'bending_law: frictional':<38}# because a rope that keeps a bend has fibres that rub")
+        if name in HOW:
+            how = HOW[name] if name != "stick_ratio" or "light_cantilever" in given else "assumed"
+            lines.append(f"{f'{name}: {value:.6g}':<38}# [{UNITS[name]}] +- {errors[name]:.2g}, {how}")
+    if "rolling_resistance" in here:
+        lines.append(f"{'friction_couple: 1':<38}# assumed: friction rolls strands only where it acts at their surface")
+    if "rate" in here:
+        lines.append("# for a method: " + rates(here, errors))
     lines.append("notes: " + yaml.safe_dump(str(given.get("notes", "Measured with a ruler, a weight and a scale.")),
                                             width=10000).splitlines()[0])
     return "\n".join(lines) + "\n"
@@ -221,6 +400,8 @@ def questions(here):
                "lengths in m, and masses in kg?")
     if not 0.01 <= here["friction_coefficient"] <= 2:
         yield f"the friction coefficient is {here['friction_coefficient']:.3g}, and ropes have 0.05 to 1: is capstan.angle in rad?"
+    if here.get("friction_moment", 1.0) < 3e-3:
+        yield f"the friction moment is {here['friction_moment']:.2g} k_b/h, and ropes have 0.01 to 0.3: is what mandrel keeps in m?"
     if here.get("breaking_force", here["stretching_stiffness"]) < 1e-4 * here["stretching_stiffness"]:
         yield f"it would break at a strain of {here['breaking_force'] / here['stretching_stiffness']:.1g}: is broken.force in N?"
 
@@ -247,12 +428,15 @@ def main():
     try:
         with open(asked.measurements, encoding="utf-8") as file:
             given, values, errors = read(file.read())
+        usable(values, properties(values))
         here, uncertain = with_errors(values, errors)
         with open(asked.out, "w", encoding="utf-8") as file:
             file.write(material(given, here, uncertain))
     except (Wrong, OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         refuse("material", f"{asked.measurements}: {' '.join(str(error).split())}")
     print(f"{asked.out}: {in_words(here)}")
+    if "rate" in here:
+        print("for a method: " + rates(here, uncertain))
     for line in warnings(here, uncertain, values):
         print("material: " + line, file=sys.stderr)
 

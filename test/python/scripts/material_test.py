@@ -1,9 +1,12 @@
 #!/usr/bin/python3
 """scripts/material: what a rod that is known would show to a ruler and a scale gives that rod back. The sags are computed
-here in another way than there: as boundary value problems, by collocation."""
+here in another way than there: as boundary value problems, by collocation, and of fibres that rub step by step, as chains that
+remember how they were bent."""
 import math
 import os
 import random
+import re
+import shlex
 import subprocess
 import tempfile
 import unittest
@@ -50,6 +53,65 @@ def height_of_loop(bending, weight, length):
     return y[3, -1]
 
 
+class Fibres:
+    """A section, or one for each node of a rod, whose fibres rub: kept = M_y/k_b is the curvature at which their friction is full,
+    ratio what they add to the stiffness until then. It is the law of include/knot_utm/rod/yielding_bend.hpp."""
+
+    def __init__(self, k_b, kept, ratio):
+        self.k_b, self.stiffness, self.yields = k_b, (ratio - 1) * k_b, kept / (ratio - 1)
+        self.slid = 0.0
+
+    def moment(self, curvature):
+        return self.k_b * curvature + self.stiffness * np.clip(curvature - self.slid, -self.yields, self.yields)
+
+    def slope(self, curvature):
+        return self.k_b + np.where(np.abs(curvature - self.slid) < self.yields, self.stiffness, 0.0)
+
+    def remember(self, curvature):
+        off = curvature - self.slid
+        self.slid = self.slid + off - np.clip(off, -self.yields, self.yields)
+
+
+def kept_by(fibres, bend):
+    """The curvature that a straight section keeps which is bent so far in small steps, and let go until it bears no moment."""
+    curvature, step = 0.0, bend / 4000
+    while curvature < bend:
+        curvature += step
+        fibres.remember(curvature)
+    while fibres.moment(curvature) > 0:
+        curvature -= step
+        fibres.remember(curvature)
+    return curvature
+
+
+def drop_of_a_rubbing_cantilever(fibres, weight, overhang, nodes=100):
+    """A chain of rods, let down slowly: its weight grows from nothing, and Newton's method finds where each step rests."""
+    length = overhang / nodes
+    bends = (np.eye(nodes) - np.eye(nodes, k=-1)) / length
+    bends[0, 0] = 2 / length  # at the clamp, half a rod away, it is level
+    lever = weight * length ** 2 * (np.arange(nodes, 0, -1) - 0.5)  # of the rods from each one to the end
+
+    def left(angles, share):
+        return fibres.moment(bends @ angles) - share * np.cumsum((lever * np.cos(angles))[::-1])[::-1]
+
+    angles = np.zeros(nodes)
+    for share in np.linspace(0.0, 1.0, 51)[1:]:
+        for _ in range(200):
+            off = left(angles, share)
+            if np.max(np.abs(off)) < 1e-10 * weight * overhang ** 2:
+                break
+            slope = fibres.slope(bends @ angles)[:, None] * bends + share * np.triu(np.tile(lever * np.sin(angles), (nodes, 1)))
+            step = np.linalg.solve(slope, off)
+            size = 1.0
+            while size > 1e-3 and np.linalg.norm(left(angles - size * step, share)) > np.linalg.norm(off):
+                size *= 0.5
+            angles = angles - size * step
+        else:
+            raise AssertionError(f"the chain does not come to rest at {share:.2f} of its weight")
+        fibres.remember(bends @ angles)
+    return length * np.sum(np.sin(angles))
+
+
 class Rod:
     """A rod that is known, and what it would show, each reading off by as much as its uncertainty allows."""
 
@@ -77,6 +139,23 @@ class Rod:
             overhang = 1.8 * (bending / weight) ** (1 / 3)
             self.measured["cantilever"] = {"overhang": self.read(overhang, 1e-3),
                                            "drop": self.read(drop_of_cantilever(bending, weight, overhang), 1e-3)}
+
+    def rub(self, kept, ratio, compaction):
+        """Fibres that rub, and what they show."""
+        k_b, h = self.true["bending_stiffness"], self.true["radius"]
+        self.true.update(friction_moment=h * kept, stick_ratio=ratio, compaction=compaction)
+        weight = self.true["density"] * math.pi * h * h * GRAVITY
+        far, near = 2.0 / kept + 1.8 * (k_b / weight) ** (1 / 3), 0.9 * math.sqrt(2 * kept * k_b / weight)
+        for group, overhang, error in (("cantilever", far, 1e-3), ("light_cantilever", near, 1e-4)):
+            drop = drop_of_a_rubbing_cantilever(Fibres(k_b, kept, ratio), weight, overhang)
+            self.measured[group] = {"overhang": self.read(overhang, 5e-4), "drop": self.read(drop, error)}
+        harder, bend = kept + compaction * h * 20 * GRAVITY / k_b, 200.0
+        self.measured["mandrel"] = {"radius": [1 / bend - h, 1e-5],
+                                    "kept_radius": self.read(1 / kept_by(Fibres(k_b, kept, ratio), bend), 5e-4)}
+        arc = kept_by(Fibres(k_b, harder, ratio), bend)
+        self.measured["pulled"] = {"mass": self.read(20.0, 0.05), "chord": self.read(1.6 / arc, 2e-4),
+                                   "sag": self.read(0.4 / arc, 2e-4)}  # of a sine of 0.8
+        return self
 
     def read(self, value, uncertainty):
         return [float(value + self.random.gauss(0, uncertainty)), uncertainty]
@@ -122,6 +201,73 @@ class Material(unittest.TestCase):
         # Neither larger nor smaller than they should be: of 25 draws, the mean square of a standard normal one.
         self.assertTrue(0.3 < np.mean(np.square(misses)) < 2.2, misses)
 
+    def test_fibres_that_rub_come_back_within_their_uncertainty(self):
+        k_b = 3e-5
+        rope = Rod(0, k_b, False).rub(25.0, 20.0, 2e-3)
+        made, uncertain = self.made(rope.measured)
+        self.assertEqual(made["bending_law"], "frictional")
+        for name, value in rope.true.items():
+            self.assertLess(abs(made[name] - value), 3.5 * uncertain[name], f"{name}: {made[name]}, not {value}")
+        for name in ("bending_stiffness", "friction_moment", "stick_ratio", "compaction"):
+            self.assertLess(uncertain[name], 0.25 * rope.true[name], name)
+        # Without the light one the ratio is assumed, and k_b remains about the same.
+        del rope.measured["light_cantilever"]
+        values = material.read(yaml.safe_dump(rope.measured))[1]
+        self.assertEqual(values["stick_ratio", ""], 20.0)
+        self.assertAlmostEqual(material.properties(values)["bending_stiffness"], k_b, delta=0.12 * k_b)
+
+    def test_a_bend_that_is_let_go_keeps_what_the_formulas_say(self):
+        kept = 25.0
+        for ratio in (2.0, 20.0):
+            least = material.least_bend(kept, ratio)
+            for bend in (1.01 * least, 3 * least):
+                self.assertAlmostEqual(kept_by(Fibres(1.0, kept, ratio), bend), kept, delta=5e-4 * bend)
+            for bend in (0.6 * least, 0.95 * least):  # friction does not turn round everywhere
+                less = ((ratio - 1) * bend - kept) / ratio
+                self.assertLess(less, 0.99 * kept)
+                self.assertAlmostEqual(kept_by(Fibres(1.0, kept, ratio), bend), less, delta=5e-4 * bend)
+
+    def test_a_cantilever_of_fibres_that_rub_is_the_chain_s(self):
+        weight = 0.157
+        for k_b, kept, ratio, far, near in ((3e-5, 25.0, 20.0, 0.2, 0.09), (1e-4, 12.0, 8.0, 0.3, 0.12)):
+            drop = drop_of_a_rubbing_cantilever(Fibres(k_b, kept, ratio), weight, far)
+            for stuck, given in ((None, ratio), (ratio * k_b, None)):
+                self.assertAlmostEqual(material.rubbing_stiffness(weight, far, drop, kept, stuck, given) / k_b, 1.0, delta=2e-3)
+            # Read without its friction it seems stiffer, and a short one has the stiffness of fibres that stick.
+            self.assertGreater(material.cantilever_stiffness(weight, far, drop), 1.5 * k_b)
+            short = drop_of_a_rubbing_cantilever(Fibres(k_b, kept, ratio), weight, near)
+            self.assertAlmostEqual(material.cantilever_stiffness(weight, near, short) / (ratio * k_b), 1.0, delta=2e-3)
+
+    def test_creep_gives_the_rate_back(self):
+        for rate, speed in ((0.02, 1e-7), (0.05, 1e-5), (0.6, 1e-3)):
+            for faster in ((2.0, 50.0), (0.1, 1.0, 10.0, 300.0)):
+                speeds = [speed * times for times in faster]
+                # The coefficient of friction at this speed, from the law's own words.
+                loads = [1 + rate * integrate.quad(lambda u: 1 / (1 + u), 0, times)[0] for times in faster]
+                found = material.creep(loads, speeds)
+                self.assertAlmostEqual(found[0] / rate, 1, places=5)
+                self.assertAlmostEqual(found[1] / speed, 1, places=5)
+
+    def test_rates_are_a_method_s_and_rolling_is_the_material_s(self):
+        measured = {**Rod(3, 2e-4, False).measured, "capstan": {"angle": [6.28, 0.09], "light": [0.2, 1e-3], "heavy": [2.9, 0.05]},
+                    "creeping": {"masses": [[4.0, 0.01], [5.4, 0.01]], "speeds": [[1e-4, 1e-5], [1e-3, 1e-4]]},
+                    "incline": {"rise": [0.04, 2e-3], "run": [0.5, 1e-3]}}
+        made, uncertain = self.made(measured)
+        self.assertNotIn("rate", made)
+        self.assertEqual((made["rolling_resistance"], made["friction_couple"]), (0.08, 1))
+        self.assertAlmostEqual(uncertain["rolling_resistance"], 0.08 * math.hypot(2e-3 / 0.04, 1e-3 / 0.5), places=4)
+        self.assertNotIn("bending_law", made)
+        said = self.run_script(measured).stdout.split("for a method: ")[1]
+        law = yaml.safe_load(re.search(r"{.*}", said)[0])
+        # Of two masses, as it is printed: v = v_0 (exp((q - 1)/a) - 1)
+        for mass, speed in ((4.0, 1e-4), (5.4, 1e-3)):
+            over = math.log(mass / 0.2) / math.log(2.9 / 0.2) - 1
+            self.assertAlmostEqual(law["rate_speed"] * math.expm1(over / law["rate"]) / speed, 1, delta=5e-3)
+        done = subprocess.run([os.path.join(TOOLS, "tensile_test"), os.path.join(ROOT, "config/tighten.yaml"), "--check", "--set",
+                               f"material={self.path('rope.yaml')}", *shlex.split(said, comments=True)], capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_of_a_small_sag_has_its_closed_form(self):
         for share in (0.002, 0.01):  # w l^4/(8 k_b) is the sag
             self.assertAlmostEqual(8.0 * share * material.cantilever_stiffness(1.0, 1.0, share), 1.0, delta=1e-3)
@@ -148,6 +294,57 @@ class Material(unittest.TestCase):
         del good["weighed"]
         self.assertIn("missing: weighed", self.run_script(good).stderr)
 
+
+    def test_what_is_wrong_of_friction_is_named(self):
+        with open(os.path.join(ROOT, "doc/measure.md"), encoding="utf-8") as file:
+            good = yaml.safe_load(file.read().split("```yaml\n")[1].split("```")[0])
+        material.usable(*self.understood(good))
+
+        def has(group, **changed):
+            return {**good, group: {**good[group], **changed}}
+
+        def without(*groups):
+            return {name: content for name, content in good.items() if name not in groups}
+
+        mandrel, speeds = good["mandrel"], good["creeping"]["speeds"]
+        for measured, named in (
+                (without("mandrel", "pulled"), "light_cantilever tells nothing without mandrel"),
+                (without("mandrel", "light_cantilever"), "pulled tells nothing without mandrel"),
+                ({**without("cantilever"), "loop": {"length": [0.5, 1e-3], "height": [0.22, 1e-3]}}, "mandrel needs cantilever"),
+                (has("mandrel", radius=[0.05, 1e-4]), "mandrel: the rope keeps a radius of 0.04 m, for which the mandrel's must be at"),
+                (has("mandrel", radius=[0.0145, 1e-4]), "pulled: the rope keeps a radius of 0.01806 m"),
+                (has("mandrel", kept_radius=[2e-3, 1e-4]), "mandrel: the rope keeps a radius of 0.002 m, but must keep one of more than its own"),
+                (has("mandrel", chord=[0.03, 1e-4]), "instead of kept_radius, chord and sag will do"),
+                (has("mandrel", kept_radius=0.04), "mandrel.kept_radius is 0.04, but must be [value, uncertainty]"),
+                ({**good, "mandrel": {"radius": mandrel["radius"]}}, "mandrel must be a map with the keys radius, kept_radius"),
+                ({**good, "pulled": {"mass": [20, 0.1], "kept_radius": [0.05, 1e-3]}}, "pulled: the rope keeps a radius of 0.05 m, but after a pull it must keep at most"),
+                (has("light_cantilever", overhang=[0.12, 1e-3]), "light_cantilever: its overhang must be at most 0.0979 m"),
+                (has("light_cantilever", drop=[0.03, 1e-3]), "light_cantilever: its bending stiffness comes out as"),
+                (has("cantilever", overhang=[0.1, 1e-3], drop=[0.005, 1e-4]), "measure a longer overhang"),
+                (has("cantilever", drop=[0.19, 1e-3]), "cantilever: the drop is 0.9500 of the overhang"),
+                (has("pulled", mass=[0.02, 1e-4]), "pulled: compaction comes out as 1.86, but a method takes 0 to 1"),
+                (has("incline", rise=[0.6, 0.01]), "incline: rolling_resistance comes out as 1.2, but a method takes 0 to 1"),
+                (has("incline", angle=[0.1, 0.01]), "incline must be a map with the keys rise, run"),
+                (has("creeping", masses=[[4, 0.01]]), "creeping.masses must be a list of two readings or more"),
+                (has("creeping", masses=4), "creeping.masses must be a list"),
+                (has("creeping", speeds=speeds[:1]), "creeping.speeds must be a list of two readings or more, as many as creeping.masses"),
+                (has("creeping", speeds=[speeds[0], 1e-3]), "creeping.speeds[1] is 0.001, but must be"),
+                (has("creeping", speeds=speeds[::-1]), "a larger mass must creep faster"),
+                (has("creeping", speeds=[speeds[0], speeds[0]]), "a larger mass must creep faster"),
+                (has("creeping", masses=[[2.8, 0.01], [5.4, 0.01]]), "every mass must be more than capstan.heavy"),
+                (has("creeping", speeds=[[1e-4, 1e-5], [1.2e-4, 1e-5]]), "creeping: the speeds grow too little"),
+                (has("creeping", speeds=[[1e-12, 1e-13], [1e-6, 1e-7]]), "creeping: rate_speed comes out as")):
+            with self.subTest(named), self.assertRaises(material.Wrong) as wrong:
+                material.usable(*self.understood(measured))
+            self.assertIn(named, str(wrong.exception))
+        done = self.run_script(has("mandrel", radius=[0.05, 1e-4]))
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        self.assertFalse(os.path.exists(self.path("rope.yaml")))
+
+    @staticmethod
+    def understood(measured):
+        values = material.read(yaml.safe_dump(measured))[1]
+        return values, material.properties(values)
 
     def test_slips_of_units_are_asked_about(self):
         good = Rod(1, 2e-4, False).measured
@@ -192,6 +389,15 @@ class Example(unittest.TestCase):
             subprocess.run([os.path.join(ROOT, "scripts/material"), files[0], "--out", files[1]], check=True)
             with open(files[1], encoding="utf-8") as file:
                 self.assertEqual(file.read(), said)
+            weight = 0.016 * GRAVITY
+            self.assertAlmostEqual(material.cantilever_stiffness(weight, 0.2, 0.159) / yaml.safe_load(said)["bending_stiffness"], 2.6, delta=0.05)
+            out = os.path.join(folder, "out")
+            subprocess.run([os.path.join(TOOLS, "tensile_test"), os.path.join(ROOT, "config/tighten.yaml"), "--quiet", "--set",
+                            f"material={files[1]}", "--set", "physics.accuracy=draft", "--out", out], check=True)
+            with open(os.path.join(out, "result.yaml"), encoding="utf-8") as file:
+                result = yaml.safe_load(file)
+            self.assertEqual(result["motion_pattern"], "sliding")
+            self.assertAlmostEqual(result["plateau_force"], 2.0, delta=0.5)
 
 
 if __name__ == "__main__":
