@@ -154,11 +154,8 @@ void check_twist(const Method& m) {
 void check_bending(const Method& m) {
   const bool remembers = remembers_bends(m.material);  // throws where its law misses a value
   if (remembers && m.material.bending_set > 0.0)
-    throw InvalidInput::sentence(
-        "material.bending_set", format_number(m.material.bending_set),
-        "material.bending_set makes the rod keep a share of its bends at once, and "
-        "this material.bending_law makes it keep what the law remembers: set material.bending_law: elastic or "
-        "material.bending_set: 0, so that only one of the two is given");
+    reject("material.bending_set", m.material.bending_set,
+           "at most 0 where material.bending_law remembers bends itself: bending_law: elastic takes a set");
 }
 
 void check_machine(const Method& m) {

@@ -174,7 +174,7 @@ GivenBy given_by(const std::string& key, const YAML::Node& method, const std::ve
     if (set.key == key) found = GivenBy::kOverride;
     const std::string section = set.key + ".";
     if (key.rfind(section, 0) == 0)
-      found = value_at(set.value(), key.substr(section.size())).IsDefined() ? GivenBy::kOverride : GivenBy::kOther;
+      found = value_at(set.value(), key.substr(section.size())).IsDefined() ? GivenBy::kSection : GivenBy::kOther;
   }
   return found;
 }

@@ -15,8 +15,9 @@ namespace knot_utm {
 void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const std::string& option,
                      const ConfigLibrary& library);
 
-/// Who gave the value that a key has. A material's file, or nobody, comes first, and the nearest to the user last.
-enum class GivenBy { kOther, kMethod, kOverride };
+/// Who gave the value that a key has, the nearest to the user last: a material's file or nobody, the method, an
+/// override of a whole section, an override of the key.
+enum class GivenBy { kOther, kMethod, kSection, kOverride };
 
 /// `method`: the map before the overrides.
 GivenBy given_by(const std::string& key, const YAML::Node& method, const std::vector<std::string>& overrides);
