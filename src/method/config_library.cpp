@@ -1,16 +1,35 @@
 #include "config_library.hpp"
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <system_error>
 
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "yaml_text.hpp"
 
 namespace knot_utm {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// What shipped materials have had since release 1.
+constexpr std::array kSinceFirstRelease{"bending_law", "friction_moment",    "stick_ratio",
+                                        "compaction",  "rolling_resistance", "friction_couple"};
+
+bool is_shipped(const std::string& kind, const fs::path& file) {
+  const std::vector<std::string> shipped = shipped_folders();
+  return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& folder) {
+    std::error_code error;
+    return fs::equivalent(file.parent_path(), fs::path(folder) / kind, error);
+  });
+}
+
+}  // namespace
 
 ConfigLibrary::ConfigLibrary(const fs::path& method_folder) {
   add(method_folder);
@@ -52,8 +71,16 @@ void ConfigLibrary::add(const fs::path& folder) {
   if (fs::is_directory(folder, error)) folders_.push_back(folder.lexically_normal());
 }
 
-YAML::Node named_map(const fs::path& file) {
+YAML::Node read_material_file(const fs::path& file, const YAML::Node& method) {
   YAML::Node map = read_yaml(file);
+  const YAML::Node asked = method["compatibility"];
+  const bool of_first_release = asked.IsDefined() && asked.IsScalar() && parse_number(asked.Scalar()) == 1.0;
+  if (!of_first_release || !map.IsMap() || !is_shipped("materials", file)) return map;
+  for (const char* key : kSinceFirstRelease) map.remove(key);
+  return map;
+}
+
+YAML::Node named_map(YAML::Node map, const fs::path& file) {
   if (map.IsMap() && !map["name"].IsDefined()) map["name"] = file.stem().string();
   return map;
 }

@@ -30,8 +30,12 @@ class ConfigLibrary {
   std::vector<std::filesystem::path> folders_;
 };
 
-/// The map in a file, with the file's name added, so that it can be put into the method.
-YAML::Node named_map(const std::filesystem::path& file);
+/// What the file of a method's material says. With `compatibility: 1` in the method a material that comes with the
+/// package is the one of release 1, without the keys that it has had since. An own material is what it is.
+YAML::Node read_material_file(const std::filesystem::path& file, const YAML::Node& method);
+
+/// The map of a file, with the file's name added, so that it can be put into the method.
+YAML::Node named_map(YAML::Node map, const std::filesystem::path& file);
 
 /// The name of the method's material; empty where the method gives none, or a map.
 std::string material_name(const YAML::Node& method);

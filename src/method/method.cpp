@@ -16,6 +16,7 @@
 #include "method_fields.hpp"
 #include "method_overrides.hpp"
 #include "method_reader.hpp"
+#include "overruled_keys.hpp"
 #include "specimens_section.hpp"
 #include "yaml_text.hpp"
 
@@ -28,7 +29,10 @@ using fields::Fields;
 using fields::one_line;
 using fields::Reader;
 
-Material read_material(const YAML::Node& node, const std::string& file, const ConfigLibrary& library) {
+constexpr double kCoupleOfFirstRelease = 0.0;  // friction acted on the centrelines then
+
+Material read_material(const YAML::Node& node, const YAML::Node& method, const std::string& file,
+                       const ConfigLibrary& library) {
   Material material;
   if (!node.IsDefined() || node.IsNull()) {
     throw InvalidInput::missing("material", library.allowed("materials")).in_file(file);
@@ -37,7 +41,7 @@ Material read_material(const YAML::Node& node, const std::string& file, const Co
     throw InvalidInput(file, "material", as_given(node), library.allowed("materials"));
   if (node.IsScalar()) {
     const fs::path path = library.find("materials", node.Scalar(), "material");
-    Reader reader(read_yaml(path), path.string(), "", "a material");
+    Reader reader(read_material_file(path, method), path.string(), "", "a material");
     fields::material(reader, material);
     reader.finish();
     if (material.name.empty()) material.name = path.stem().string();
@@ -182,7 +186,8 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   Method method;
   Reader top(root, file, "");
   top.note_automatic(automatic);
-  method.material = read_material(top.take("material"), file, library);
+  fields::compatibility(top, method.compatibility);
+  method.material = read_material(top.take("material"), root, file, library);
   Reader specimen = top.in("specimen");
   fields::knot(specimen, method.specimen.knot);
   const fields::Defaults defaults = fields::defaults(method.specimen.knot, method.material, known);
@@ -252,6 +257,12 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     method.name = path.stem().string();
     method.specimen.to_be_tied = has_step<TieStep>(method.program);
 
+    if (!method.material.friction_couple) {
+      method.material.friction_couple =
+          method.compatibility ? kCoupleOfFirstRelease : default_friction_couple(method.material);
+      noted.emplace_back("material.friction_couple");
+    }
+    drop_overruled_keys(parse_yaml(text, file), overrides, method);
     const Material& material = method.material;
     if (!method.specimen.preload && knot_of(method.specimen).has("preload")) {
       method.specimen.preload = default_preload(material);

@@ -129,31 +129,33 @@ void check_specimen(const Method& m) {
   check_ends(s);
 }
 
-/// Friction at the surface turns strands about themselves, which only a rod with twist can do.
+/// What takes part in a rod's twist needs a rod that has it. Friction at the surface, for one, turns strands about
+/// themselves.
 void check_twist(const Method& m) {
-  if (m.physics.twist != TwistMode::kOff || knot_of(m.specimen).about().straight) return;
-  if (friction_rolls(m.material, m.machine, m.physics))
+  if (m.physics.twist != TwistMode::kOff) return;
+  std::string needs, without;
+  const auto need = [&](bool is_so, const char* what, const char* instead) {
+    if (!is_so) return;
+    needs += (needs.empty() ? "" : ", and ") + std::string(what);
+    without += (without.empty() ? "" : " and ") + std::string(instead);
+  };
+  const bool knotted = !knot_of(m.specimen).about().straight;
+  need(knotted && friction_rolls(m.material, m.machine, m.physics), "friction at the surface twists the rod",
+       "physics.friction.at: centreline");
+  need(knotted && m.specimen.to_be_tied && m.material.bending_set > 0.0,
+       "material.bending_set curves the rod at rest, which takes part in its twist", "material.bending_set: 0");
+  need(bends_on_frames(m.material), "a rod of this material.bending_law bends on frames, which take part in its twist",
+       "material.bending_law: elastic");
+  if (!needs.empty())
     throw InvalidInput::sentence("physics.twist", "off",
-                                 "physics.twist is off, but friction at the surface twists the rod: set "
-                                 "physics.friction.at: centreline or material.friction_couple: 0 to go without");
-  if (m.specimen.to_be_tied && m.material.bending_set > 0.0)
-    throw InvalidInput::sentence("physics.twist", "off",
-                                 "physics.twist is off, but material.bending_set curves the rod at rest, which takes "
-                                 "part in its twist: set material.bending_set: 0 to go without");
+                                 "physics.twist is off, but " + needs + ": set " + without + " to go without");
 }
 
 void check_bending(const Method& m) {
   const bool remembers = remembers_bends(m.material);  // throws where its law misses a value
   if (remembers && m.material.bending_set > 0.0)
-    throw InvalidInput::sentence(
-        "material.bending_set", format_number(m.material.bending_set),
-        "material.bending_set makes the rod keep a share of its bends at once, and "
-        "this material.bending_law makes it keep what the law remembers: give one of the two only");
-  if (bends_on_frames(m.material) && m.physics.twist == TwistMode::kOff)
-    throw InvalidInput::sentence(
-        "physics.twist", "off",
-        "physics.twist is off, but a rod of this material.bending_law bends on frames, which take part in its twist: "
-        "set material.bending_law: elastic to go without");
+    reject("material.bending_set", m.material.bending_set,
+           "at most 0 where material.bending_law remembers bends itself: bending_law: elastic takes a set");
 }
 
 void check_machine(const Method& m) {

@@ -35,6 +35,10 @@ void chosen_law(Fields& f, const char* name, LawOptions<Number>& o) {
   law_keys<Registry>(f, o);
 }
 
+inline void compatibility(Fields& top, std::optional<double>& release) {
+  top.optional_number("compatibility", release, Range{1.0, 1.0, "-"}, "none");
+}
+
 inline void knot(Fields& f, KnotKind& knot) { f.choice("knot", knot, knot_names()); }
 
 inline void specimen(Fields& f, SpecimenOptions& o) {
@@ -133,8 +137,9 @@ inline void physics(Fields& f, PhysicsOptions& o) {
   f.optional_number("residual", o.residual, Range{1e-12, 0.1, "of k_b/h2"}, "auto");
 }
 
-/// The sections that stand before the program, and those of the physics of the test behind it.
+/// The keys that stand before the program, and those of the physics of the test behind it.
 inline void before_program(Fields& top, Method& m) {
+  compatibility(top, m.compatibility);
   top.section("specimen", [&](Fields& f) { specimen(f, m.specimen); });
   top.section("material", [&](Fields& f) { material(f, m.material); });
   top.section("machine", [&](Fields& f) {

@@ -11,6 +11,7 @@
 namespace knot_utm {
 namespace {
 
+namespace fs = std::filesystem;
 using fields::one_line;
 
 std::vector<std::string> split(const std::string& path) {
@@ -62,10 +63,21 @@ Override parse_override(const std::string& text, const std::string& option) {
   return set;
 }
 
+/// In the order in which they are applied: a whole section is put in place before single keys inside it.
+std::vector<Override> in_order(const std::vector<std::string>& overrides, const std::string& option) {
+  std::vector<Override> sets;
+  sets.reserve(overrides.size());
+  for (const std::string& text : overrides) sets.push_back(parse_override(text, option));
+  std::stable_sort(sets.begin(), sets.end(),
+                   [](const Override& a, const Override& b) { return a.path.size() < b.path.size(); });
+  return sets;
+}
+
 /// Puts the files behind `material` and `machine.load_cell` in place of their names when a key inside is to change.
 void expand(YAML::Node root, const Override& set, const ConfigLibrary& library) {
   if (set.path.size() >= 2 && set.path[0] == "material" && !material_name(root).empty()) {
-    root["material"] = named_map(library.find("materials", material_name(root), "material"));
+    const fs::path file = library.find("materials", material_name(root), "material");
+    root["material"] = named_map(read_material_file(file, root), file);
   }
   if (set.path.size() >= 3 && set.path[0] == "machine" && set.path[1] == "load_cell") {
     const YAML::Node machine = root["machine"];
@@ -78,8 +90,11 @@ void expand(YAML::Node root, const Override& set, const ConfigLibrary& library) 
     const YAML::Node of_material = material.IsDefined() && material.IsMap() ? material["load_cell"] : YAML::Node();
     const std::optional<std::string> name =
         load_cell_name(cell, of_material.IsDefined() && of_material.IsScalar() ? of_material.Scalar() : "");
-    root["machine"]["load_cell"] =
-        name ? named_map(library.find("load_cells", *name, "machine.load_cell")) : YAML::Node(YAML::NodeType::Map);
+    root["machine"]["load_cell"] = YAML::Node(YAML::NodeType::Map);
+    if (name) {
+      const fs::path file = library.find("load_cells", *name, "machine.load_cell");
+      root["machine"]["load_cell"] = named_map(read_yaml(file), file);
+    }
   }
 }
 
@@ -153,15 +168,20 @@ YAML::Node value_at(const YAML::Node& root, const std::string& key) {
   return way.back();
 }
 
+GivenBy given_by(const std::string& key, const YAML::Node& method, const std::vector<std::string>& overrides) {
+  GivenBy found = value_at(method, key).IsDefined() ? GivenBy::kMethod : GivenBy::kOther;
+  for (const Override& set : in_order(overrides, "")) {
+    if (set.key == key) found = GivenBy::kOverride;
+    const std::string section = set.key + ".";
+    if (key.rfind(section, 0) == 0)
+      found = value_at(set.value(), key.substr(section.size())).IsDefined() ? GivenBy::kSection : GivenBy::kOther;
+  }
+  return found;
+}
+
 void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const std::string& option,
                      const ConfigLibrary& library) {
-  std::vector<Override> sets;
-  sets.reserve(overrides.size());
-  for (const std::string& text : overrides) sets.push_back(parse_override(text, option));
-  // A whole section is put in place before single keys inside it.
-  std::stable_sort(sets.begin(), sets.end(),
-                   [](const Override& a, const Override& b) { return a.path.size() < b.path.size(); });
-  for (const Override& set : sets) {
+  for (const Override& set : in_order(overrides, option)) {
     expand(root, set, library);
     put(root, set, 0);
   }

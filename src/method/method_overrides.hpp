@@ -15,6 +15,13 @@ namespace knot_utm {
 void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const std::string& option,
                      const ConfigLibrary& library);
 
+/// Who gave the value that a key has, the nearest to the user last: a material's file or nobody, the method, an
+/// override of a whole section, an override of the key.
+enum class GivenBy { kOther, kMethod, kSection, kOverride };
+
+/// `method`: the map before the overrides.
+GivenBy given_by(const std::string& key, const YAML::Node& method, const std::vector<std::string>& overrides);
+
 /// The value at a dotted key; undefined where there is none.
 YAML::Node value_at(const YAML::Node& root, const std::string& key);
 

@@ -83,12 +83,14 @@ inline std::string whole_text(double value) { return std::to_string(static_cast<
 
 /// "0.0001 to 100000 N".
 inline std::string range_text(const Range& range) {
+  if (range.min == range.max) return with_unit(plain_number(range.min), range);
   if (std::isinf(range.max)) return "at least " + with_unit(plain_number(range.min), range);
   return with_unit(plain_number(range.min) + " to " + plain_number(range.max), range);
 }
 
 /// "a number from 0.0001 to 100000 (in N)".
 inline std::string number_text(const Range& range) {
+  if (range.min == range.max) return range_text(range);
   const std::string name = range.unit, in = name.rfind("of ", 0) == 0 ? "" : "in ";
   const std::string unit = name == "-" ? "" : " (" + in + name + ")";
   if (std::isinf(range.max)) return "a number of at least " + plain_number(range.min) + unit;

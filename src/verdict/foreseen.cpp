@@ -1,6 +1,7 @@
 #include "knot_utm/verdict/foreseen.hpp"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "knot_utm/machine/before_tying.hpp"
@@ -232,11 +233,14 @@ std::string what_keeps_a_knot(const Method& method) {
   const bool rolls = method.specimen.to_be_tied && friction_rolls(material, method.machine, method.physics);
   std::vector<std::string> remedies{longer_tail(method)};
   if (rolls) {
-    remedies.push_back("a smaller material.friction_couple (now " +
-                       short_number(friction_couple(material, method.physics)) + ")");
-    remedies.push_back("a larger material.rolling_resistance (now " + short_number(material.rolling_resistance) + ")");
-    if (!remembers_bends(material))
+    if (const std::optional<double> moment = material.bending.value("friction_moment")) {
+      remedies.push_back(higher_preload(method));
+      remedies.push_back("a larger material.friction_moment (now " + short_number(*moment) + ")");
+    } else if (!remembers_bends(material)) {
+      remedies.emplace_back("material.bending_law: frictional, if it is a rope,");
       remedies.push_back("a larger material.bending_set (now " + short_number(material.bending_set) + ")");
+    }
+    remedies.push_back("a larger material.rolling_resistance (now " + short_number(material.rolling_resistance) + ")");
   } else {
     if (method.specimen.to_be_tied) remedies.push_back(higher_preload(method));
     remedies.push_back("a higher material.friction_coefficient (now " + short_number(material.friction_coefficient) +

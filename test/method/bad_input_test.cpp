@@ -24,6 +24,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 const std::string kTighten = std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml";
+/// A shipped material without a bending law of its own.
+const std::string kElastic = "material=steel_wire";
 
 /// An override of tighten.yaml that must not pass, and what the one line must name: key, value and what is allowed.
 struct Wrong {
@@ -157,8 +159,6 @@ const std::vector<Wrong>& wrong_overrides() {
       {"material.twisting_law=linear", "material.twisting_law is no key", "", "the keys of material are"},
       {"physics.friction.at=skin", "physics.friction.at", "skin", "surface or centreline"},
       {"material.friction_couple=1.5", "material.friction_couple", "1.5", "must be 0 to 1"},
-      {"material.rolling_resistance=0.1", "material.rolling_resistance", "0.1",
-       "with material.friction_couple above 0"},
       {"physics.friction={law: smoothed, presliding: 0.01}", "physics.friction.presliding", "0.01",
        "only with law: memory"},
       {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "can only be the first step"},
@@ -207,17 +207,42 @@ TEST(BadInput, IsNamedOnOneLineWithFileKeyValueAndWhatIsAllowed) {
 }
 
 TEST(BadInput, FrictionAtTheSurfaceNeedsTwist) {
-  EXPECT_THAT(complaint(kTighten, {"material.friction_couple=0.5", "physics.twist=off"}),
+  EXPECT_THAT(complaint(kTighten, {kElastic, "physics.twist=off"}),
               AllOf(HasSubstr("tighten.yaml: physics.twist is off"),
                     HasSubstr("friction at the surface twists the rod"), Not(HasSubstr("\n"))));
-  EXPECT_EQ(
-      complaint(kTighten, {"material.friction_couple=0.5", "physics.twist=off", "physics.friction.at=centreline"}),
-      "nothing was wrong");
+  EXPECT_EQ(complaint(kTighten, {kElastic, "physics.twist=off", "physics.friction.at=centreline"}),
+            "nothing was wrong");
+}
+
+TEST(BadInput, WithoutTwistSaysAllThatNeedsIt) {
+  EXPECT_THAT(complaint(kTighten, {"physics.twist=off"}),
+              AllOf(HasSubstr("friction at the surface twists the rod, and a rod of this material.bending_law bends on "
+                              "frames"),
+                    HasSubstr("set physics.friction.at: centreline and material.bending_law: elastic to go without"),
+                    Not(HasSubstr("\n"))));
+}
+
+TEST(BadInput, ResistanceToRollingNeedsStrandsThatRoll) {
+  const std::string resists = "material.rolling_resistance=0.1";
+  for (const char* held : {"material.friction_couple=0", "physics.friction.at=centreline", "compatibility=1"})
+    EXPECT_THAT(complaint(kTighten, {resists, held}),
+                AllOf(HasSubstr("material.rolling_resistance is 0.1"),
+                      HasSubstr("only with material.friction_couple above 0"), Not(HasSubstr("\n"))))
+        << held;
+  EXPECT_EQ(complaint(kTighten, {resists}), "nothing was wrong");
+}
+
+TEST(BadInput, CompatibilityIsOneOrNone) {
+  for (const char* other : {"0", "2", "newest", "[1]", ".nan", "1.5"})
+    EXPECT_THAT(
+        complaint(kTighten, {std::string("compatibility=") + other}),
+        AllOf(HasSubstr("tighten.yaml: compatibility is "), HasSubstr("must be 1, or none"), Not(HasSubstr("\n"))))
+        << other;
 }
 
 TEST(BadInput, ABendThatSetsNeedsTwist) {
   EXPECT_THAT(
-      complaint(kTighten, {"material.bending_set=0.5", "physics.twist=off"}),
+      complaint(kTighten, {kElastic, "material.bending_set=0.5", "physics.twist=off"}),
       AllOf(HasSubstr("tighten.yaml: physics.twist is off"), HasSubstr("material.bending_set"), Not(HasSubstr("\n"))));
 }
 
@@ -232,21 +257,25 @@ TEST(BadInput, ABendThatYieldsNeedsAYieldStrainAndTwist) {
   };
   EXPECT_EQ(complaint(kTighten, plastic), "nothing was wrong");
   EXPECT_THAT(with("physics.twist=off"), AllOf(HasSubstr("physics.twist is off"), Not(HasSubstr("\n"))));
-  EXPECT_THAT(with("material.bending_set=0.5"), AllOf(HasSubstr("material.bending_set"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(with("material.bending_set=0.5"),
+              AllOf(HasSubstr("material.bending_set"), HasSubstr("bending_law: elastic"), Not(HasSubstr("\n"))));
   EXPECT_THAT(with("material.hardening=2"), AllOf(HasSubstr("material.hardening"), HasSubstr("0.01 to 1")));
 }
 
 TEST(BadInput, ABendWithFrictionNeedsItsMoment) {
-  EXPECT_THAT(complaint(kTighten, {"material.bending_law=frictional"}),
+  EXPECT_THAT(complaint(kTighten, {kElastic, "material.bending_law=frictional"}),
               AllOf(HasSubstr("material.friction_moment"), Not(HasSubstr("\n"))));
   const auto with = [&](const char* more) {
-    return complaint(kTighten, {"material.bending_law=frictional", "material.friction_moment=0.06", more});
+    return complaint(kTighten, {kElastic, "material.bending_law=frictional", "material.friction_moment=0.06", more});
   };
   EXPECT_EQ(with("material.compaction=0.002"), "nothing was wrong");
   EXPECT_THAT(with("material.friction_moment=-0.1"), HasSubstr("0 to 1 k_b/h"));
   EXPECT_THAT(with("material.stick_ratio=0.9"), HasSubstr("1.01 to 1000"));
   EXPECT_THAT(with("material.hardening=0.5"), HasSubstr("only with bending_law: plastic"));
-  EXPECT_THAT(complaint(kTighten, {"material.friction_moment=0.06"}), HasSubstr("only with bending_law: frictional"));
+  EXPECT_THAT(complaint(kTighten, {kElastic, "material.friction_moment=0.06"}),
+              HasSubstr("only with bending_law: frictional"));
+  EXPECT_THAT(complaint(kTighten, {"material.bending_law=elastic", "material.friction_moment=0.06"}),
+              HasSubstr("only with bending_law: frictional"));
 }
 
 class BadFile : public ::testing::Test {

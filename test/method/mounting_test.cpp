@@ -22,7 +22,7 @@ TEST_F(Mounting, OfALoopThatLiesAcrossARollersPlaceHasNoLoad) {
       "tighten --quiet --out '" + folder() +
           "' --set physics.accuracy=draft --set specimen.knot_distance=0.0526 --set specimen.preload=7.02 "
           "--set 'material={radius: 0.001, density: 1000, bending_stiffness: 1e-6, twisting_stiffness: 1e-6, "
-          "stretching_stiffness: 9.794, breaking_force: 600, friction_coefficient: 0.3363}' "
+          "stretching_stiffness: 9.794, breaking_force: 600, friction_coefficient: 0.3363, friction_couple: 0}' "
           "--set 'program=[{tie: {}}, {release: {duration: 3}}, {mount: {}}, {pull: {until: {extension: 0.001}}}]'"));
   EXPECT_EQ(answer.code, 0) << answer.text;
   const YAML::Node result = YAML::LoadFile(folder() + "/result.yaml");

@@ -36,9 +36,12 @@ std::string entry(const char* key, double value) {
 /// The shipped test on a rod with polypropylene's groups, with a short pull.
 Ended run(const Size& size) {
   const double h = 0.5 * size.diameter, bending = size.force * h * h;
-  const std::string material = "material={" + entry("radius", h) + entry("stretching_stiffness", 3.33e3 * size.force) +
-                               entry("bending_stiffness", bending) + entry("twisting_stiffness", bending) +
-                               entry("tying_preload", 4.3 * size.force) + "density: 900, friction_coefficient: 0.63}";
+  const std::string material =
+      "material={" + entry("radius", h) + entry("stretching_stiffness", 3.33e3 * size.force) +
+      entry("bending_stiffness", bending) + entry("twisting_stiffness", bending) +
+      entry("tying_preload", 4.3 * size.force) +
+      "density: 900, friction_coefficient: 0.63, bending_law: frictional, friction_moment: 0.06, "
+      "compaction: 0.002}";
   const double own = 900.0 * M_PI * h * h, similar = 4e-8 * bending / (h * h * h * h);  // [kg/m]; that of tau = 2e-4 s
   char inertia[64];
   std::snprintf(inertia, sizeof inertia, "physics.inertia=%.17g", similar / own);

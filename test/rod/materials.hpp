@@ -4,7 +4,8 @@
 
 namespace knot_utm {
 
-/// Materials of Table 1 of the source paper as tests use them.
+/// Materials of Table 1 of the source paper as tests use them: elastic, with friction on the centrelines. A test of
+/// friction at the surface sets the couple.
 inline Material table1(double density, double k_s, double k_b, double k_t, double mu) {
   Material out;
   out.radius = 3.175e-3;
@@ -13,6 +14,7 @@ inline Material table1(double density, double k_s, double k_b, double k_t, doubl
   out.bending_stiffness = k_b;
   out.twisting_stiffness = k_t;
   out.friction_coefficient = mu;
+  out.friction_couple = 0.0;
   return out;
 }
 

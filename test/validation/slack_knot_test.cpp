@@ -71,6 +71,7 @@ TEST(LooseKnot, DoesNotSwingWhileItIsPulled) {
   material.bending_stiffness = 3.1e-6;
   material.twisting_stiffness = 2.1e-6;
   material.friction_coefficient = 0.07;
+  material.friction_couple = 0.0;
   PhysicsOptions physics;
   physics.accuracy = Accuracy::kDraft;
   constexpr double kLength = 1.0, kEndToEnd = 0.5, kHold = 5.0, kSpeed = 1.1e-3, kInterval = 1.0;

@@ -22,7 +22,8 @@ class Untangled : public OwnFolder {
  protected:
   static Answer test(const std::string& more) {
     return answer_of(tool("tensile_test", "tighten --quiet --out '" + folder() + "' --set specimen.edge_length=0.005 " +
-                                              "--set physics.accuracy=draft --set material=polypropylene " + more));
+                                              "--set physics.accuracy=draft --set material=polypropylene " +
+                                              "--set compatibility=1 " + more));
   }
   static std::string result() { return read_whole(folder() + "/result.yaml"); }
 };
@@ -59,6 +60,7 @@ TEST_F(Untangled, NotWhatIsMountedAndPulledAsItWasTied) {
 TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {
   Method method;
   method.material.friction_coefficient = 0.3;
+  method.material.friction_couple = 0.0;
   method.material.tying_preload = 50.0;
   method.specimen.preload = 20.0;
   method.specimen.to_be_tied = true;
@@ -78,6 +80,21 @@ TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {
   method.specimen.turns = 2;
   method.specimen.tail = 0.02;
   EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("a longer specimen.tail (now 0.02 m; auto is 0.06 m) or a higher "));
+}
+
+TEST(KnotAdvice, OfStrandsThatRollNamesWhatKeepsThemFromIt) {
+  Method method;
+  method.material.friction_coefficient = 0.3;
+  method.specimen.preload = 20.0;
+  method.specimen.to_be_tied = true;
+  EXPECT_EQ(what_keeps_a_knot(method),
+            "the couple of friction rolls its strands: material.bending_law: frictional, if it is a rope, or a larger "
+            "material.bending_set (now 0) or a larger material.rolling_resistance (now 0) may keep it");
+  method.material.bending.law = static_cast<BendingLaw>(2);
+  method.material.bending.set("friction_moment", 0.06);
+  EXPECT_THAT(what_keeps_a_knot(method),
+              AllOf(HasSubstr("a higher specimen.preload (now 20 N"),
+                    HasSubstr("a larger material.friction_moment (now 0.06)"), Not(HasSubstr("bending_set"))));
 }
 
 }  // namespace

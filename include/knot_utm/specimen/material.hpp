@@ -38,9 +38,8 @@ inline double default_contact_stiffness(const Material& material) {
   return material.contact_stiffness.value_or(300.0 * material.bending_stiffness / (h2 * h2));
 }
 
-/// Fraction eta of friction's couple that the section transmits: the material's own, else none. A bundle of fibres that
-/// slide past one another carries the couple by a shift of its line of tension. A solid rod transmits all of it, but
-/// its knots then roll open, which those of the source paper did not (doc/model.md, section 5).
-inline double default_friction_couple(const Material& material) { return material.friction_couple.value_or(0.0); }
+/// Fraction eta of friction's couple that the section transmits: the material's own, else all of it, because friction
+/// acts at the surface of a strand, a radius off its centreline (doc/model.md, section 5). Less is for experiments.
+inline double default_friction_couple(const Material& material) { return material.friction_couple.value_or(1.0); }
 
 }  // namespace knot_utm

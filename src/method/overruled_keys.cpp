@@ -1,0 +1,40 @@
+#include "overruled_keys.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+#include "knot_utm/contact/friction.hpp"
+#include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
+#include "knot_utm/rod/stretching_laws.hpp"
+#include "method_overrides.hpp"
+
+namespace knot_utm {
+namespace {
+
+using Source = std::function<GivenBy(const std::string& key)>;
+
+/// `section`: where the keys of the law stand, with a dot; `name`: the key that chooses it.
+template <class Registry, class Number>
+void drop_keys_of_former_law(const std::string& section, const std::string& name, const Source& by,
+                             LawOptions<Number>& law) {
+  for (const LawKey& key : Registry::keys())
+    if (!Registry::entry(law.law).has(key.name) && by(section + key.name) < by(section + name))
+      law.set(key.name, std::nullopt);
+}
+
+}  // namespace
+
+void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>& overrides, Method& method) {
+  const Source by = [&](const std::string& key) { return given_by(key, given, overrides); };
+  Material& material = method.material;
+  drop_keys_of_former_law<StretchingRegistry>("material.", "stretching_law", by, material.stretching);
+  drop_keys_of_former_law<BendingRegistry>("material.", "bending_law", by, material.bending);
+  drop_keys_of_former_law<FrictionRegistry>("physics.friction.", "law", by, method.physics.friction);
+  const GivenBy rolls = std::max({by("material.friction_couple"), by("physics.friction.at"), by("compatibility")});
+  if (friction_couple(material, method.physics) == 0.0 && by("material.rolling_resistance") < rolls)
+    material.rolling_resistance = 0.0;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+#include <vector>
+
+#include "knot_utm/method/method.hpp"
+
+namespace knot_utm {
+
+/// Takes away the keys of a material and of friction that a choice nearer to the user has left without effect: what a
+/// material's file says of its own bending law where an override chooses another one, and its resistance to rolling
+/// where the method or an override has strands that do not roll. Who gives both in one place has them refused
+/// (check_method). `given`: the method's map before the overrides.
+void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>& overrides, Method& method);
+
+}  // namespace knot_utm
