@@ -18,7 +18,7 @@ HIGH, WIDE = 1080, 1920
 def setUpModule():
     global folders, nylon, other
     folders = Folders()
-    draft = ["config/tighten.yaml", "--set", "physics.accuracy=draft"]
+    draft = ["config/tighten.yaml", "--set", "compatibility=1", "--set", "physics.accuracy=draft"]
     nylon = folders.run("nylon", draft, "--shapes")
     other = folders.run("other", [*draft, "--set", "material=polypropylene"], "--shapes")
 
