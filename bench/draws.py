@@ -75,6 +75,7 @@ class Draw:
             "twisting_stiffness": significant(bending * self.uniform("twisting", 0.66, 1.0)),
             "friction_coefficient": self.uniform("friction_coefficient", 0.0, 1.5)}
         # Half of them with friction at the surface: strands roll and twist.
+        self.settings["material"]["friction_couple"] = 0.0
         if self.choice("friction_at_surface", [False, True]):
             self.settings["material"]["friction_couple"] = significant(self.uniform("friction_couple", 0.0, 1.0))
             if self.number % 10 == 3:  # not drawn, so that all other draws stay as they were
@@ -86,9 +87,27 @@ class Draw:
                              "twist": ["auto", "on", "off"],
                              "accuracy": ["draft", "normal"] if self.quick else ["draft", "normal", "fine"]}.items():
             self.settings["physics." + key] = self.choice(key, options)
-        if self.settings["physics.twist"] == "off" and "friction_couple" in self.settings["material"]:
+        if self.settings["physics.twist"] == "off" and self.settings["material"]["friction_couple"] > 0.0:
             self.settings["physics.friction.at"] = "centreline"
             self.settings["material"].pop("bending_set", None)
+        self.draw_laws()
+
+    def draw_laws(self):
+        """Those of ropes and silicones. They have random numbers of their own, so that all other draws stay as they were."""
+        others, self.random = self.random, random.Random(f"laws {self.seed} {self.number} {self.quick}")
+        material = self.settings["material"]
+        rolls = material["friction_couple"] > 0.0 and "physics.friction.at" not in self.settings
+        if "bending_set" not in material and self.random.random() < 0.5:
+            material.update(bending_law="frictional", friction_moment=self.log_uniform("friction_moment", 0.01, 0.5),
+                            stick_ratio=self.log_uniform("stick_ratio", 1.5, 60.0),
+                            compaction=self.log_uniform("compaction", 1e-4, 1e-2))
+        if rolls and self.random.random() < 0.5:
+            material["rolling_resistance"] = self.log_uniform("rolling_resistance", 0.01, 0.5)
+        if self.settings["physics.friction.law"] == "memory" and self.random.random() < 0.3:
+            self.settings.update({"physics.friction.law": self.keep("friction.law", "rate"),
+                                  "physics.friction.rate": self.log_uniform("rate", 0.01, 0.3),
+                                  "physics.friction.rate_speed": self.log_uniform("rate_speed", 1e-7, 1e-3)})
+        self.random = others
 
     def draw_fisherman(self):
         # The smallest of each do not fit, and are refused.

@@ -9,8 +9,9 @@ from table import Report, Table, at_least, at_most
 
 MATERIALS = []                     # each test draws its own
 SEED, COUNT = 19, 40
-HALVED = 4.5                       # twice the refinement of a rope at `normal`
-PRESLIDING, STEP = 5e-4, 0.025     # [h, s] of the fine run: a quarter of a rope's at `normal`, and a seventh
+HALVED = {True: 4.0, False: 4.5}   # twice the refinement of a rope at `normal`, whose strands roll or not
+PRESLIDING = {True: 1.25e-3, False: 5e-4}  # [h] a quarter of a rope's at `normal`
+STEP = 0.025                       # [s] a seventh
 TIED_HARD, FINEST = 6.0, 4 / 3     # pre-load [k_b/h^2] from which on `auto` has shorter edges, and by how much at most
 CPU_LIMIT = 300                    # [s]
 WITHIN = 0.95                      # of the true differences
@@ -19,7 +20,11 @@ READINGS = {"plateau_force": ("plateau force", "true_plateau_force"),
             "lock_extension": ("lock extension", "lock_extension"),
             "locked_stiffness": ("locked stiffness", "locked_stiffness")}
 
-# What is drawn.
+# What is drawn: three of four loops have friction at the surface and among fibres, as shipped materials do, the others
+# friction on centrelines and elastic bends.
+ROLLS = 0.75
+FIBRES = {"friction_moment": (0.03, 0.12), "stick_ratio": (5.0, 40.0), "compaction": (5e-4, 3e-3)}  # of ropes
+HYSTERESIS = {"friction_moment": (0.24, 0.4), "stick_ratio": (4.0, 8.0), "rolling_resistance": (0.05, 0.2)}  # of solids
 SIZES = [0.0005, PAPER_RADIUS, 0.016]  # radii of a thread, of the paper's ropes and of a hawser [m]
 RODS = {"limp braid": (1e4, 5e4), "stiff braid": (1e3, 1e4), "cable": (10.0, 1e3), "solid": (4.0, 4.0)}  # k_s h^2/k_b
 HARDEST = 50.0                         # pre-load [k_b/h^2]
@@ -41,8 +46,8 @@ def report(runner, _, seed=SEED, count=COUNT):
                   "0.2 to 0.9, pre-load 2 to 50 k_b/h² (of a solid rod not more than k_s, which doubles its length), "
                   "e from 0.11 to 0.19 m and L from where the coils clear the rollers to 2 m for the paper's radius, "
                   "three sizes, four kinds of rod. Each is run as it is by default and with "
-                  "`physics.accuracy=fine`, edges in the knots half as long, a presliding displacement of "
-                  f"{PRESLIDING:g} h and steps of {STEP:g} s at most. The true difference of a reading is "
+                  "`physics.accuracy=fine`, edges in the knots half as long, a quarter of the presliding displacement "
+                  f"and steps of {STEP:g} s at most. The true difference of a reading is "
                   "that between both; it is within where it is at most the error given. A reading that only one of "
                   "both has is not within, and neither is one without an error; one that neither has is. "
                   "Readings are in units of k_b/h², h and k_b/h³.", tables,
@@ -55,8 +60,8 @@ def fine_run(draw):
     """Edges in a rope's knots are half as long as by default, whatever its pre-load; those of a solid rod as in a
     rope. Presliding and steps are shorter than at `fine`, because both runs would share their error."""
     shorter = min(max((draw.preload / TIED_HARD) ** 0.25, 1.0), FINEST)
-    return {"physics.accuracy": "fine", "specimen.refinement": round(HALVED * shorter, 4),
-            "physics.friction.presliding": PRESLIDING, "physics.max_step": STEP}
+    return {"physics.accuracy": "fine", "specimen.refinement": round(HALVED[draw.rolls] * shorter, 4),
+            "physics.friction.presliding": PRESLIDING[draw.rolls], "physics.max_step": STEP}
 
 
 class Stranger(Draw):
@@ -85,6 +90,13 @@ class Stranger(Draw):
         })
         if rod == "solid":
             self.values["stretching"] = 4.0
+        self.draw_section(HYSTERESIS if rod == "solid" else FIBRES)
+
+    def draw_section(self, laws):
+        self.rolls = self.keep("rolls", self.random.random() < ROLLS)
+        drawn = {key: self.log_uniform(key, *ends) for key, ends in laws.items()}
+        self.settings["material"].update(
+            {"friction_couple": 1.0, "bending_law": "frictional", **drawn} if self.rolls else {"friction_couple": 0.0})
 
     def unit_of(self, key):
         """In which the reading of this key does not depend on the size [N, m or N/m]."""
@@ -92,7 +104,8 @@ class Stranger(Draw):
 
     def title(self):
         v = self.values
-        return (f"{self.number}: {v['rod']}, h {1e3 * v['radius']:.3g} mm, {v['handedness']} hands, mu "
+        section = f", M0 {v['friction_moment']:.3g}" if self.rolls else ", centreline"
+        return (f"{self.number}: {v['rod']}{section}, h {1e3 * v['radius']:.3g} mm, {v['handedness']} hands, mu "
                 f"{v['friction_coefficient']:.2f}, F_p h^2/k_b {v['preload']:.3g}, e/h "
                 f"{v['knot_distance'] / PAPER_RADIUS:.3g}, L/h {v['end_to_end'] / PAPER_RADIUS:.3g}")
 

@@ -66,6 +66,13 @@ Tolerances of(Accuracy accuracy, const PhysicsOptions& physics, const SpecimenOp
   return out;
 }
 
+/// Whether friction and bends go together as in the studies: friction on centrelines with elastic bends, or the whole
+/// couple of friction at the surface with fibres that rub.
+bool studied_section(const Material& material, const PhysicsOptions& physics) {
+  return material.bending_set == 0.0 && BendingRegistry::entry(material.bending.law).studied &&
+         friction_couple(material, physics) == (remembers_bends(material) ? 1.0 : 0.0);
+}
+
 /// The error over that at `normal` with edges of one radius. It grows with the square of the edge length, as the method
 /// is of second order, and in proportion to all else. `edge`: before refinement [h].
 double coarseness(const Tolerances& own, const Tolerances& normal, double edge) {
@@ -100,15 +107,15 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   RelativeErrors out;
   if (!StretchingRegistry::entry(material.stretching.law).studied) return out;
   if (study == ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
-  const bool studied =
-      study == ErrorStudy::kFisherman && specimen.to_be_tied && physics.contact_law == ContactLaw::kSmooth &&
-      FrictionRegistry::entry(physics.friction.law).studied && friction_couple(material, physics) == 0.0 &&
-      material.bending_set == 0.0 && BendingRegistry::entry(material.bending.law).studied &&
-      machine.roller_friction == 0.0 && rollers_hold(specimen, machine);
+  const bool studied = study == ErrorStudy::kFisherman && specimen.to_be_tied &&
+                       physics.contact_law == ContactLaw::kSmooth &&
+                       FrictionRegistry::entry(physics.friction.law).studied && studied_section(material, physics) &&
+                       machine.roller_friction == 0.0 && rollers_hold(specimen, machine);
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
   const Answer rod = answer(physics, specimen, material);
   const bool solid = rod.stretches, opposite = specimen.handedness == Handedness::kOpposite;
+  if (rod.rolls && opposite && !solid) return out;  // one of a distribution, of which no fraction holds
   const Tolerances own = tolerances(physics, specimen, material);
   // Where a rope is tied hard, edges in its knots are shorter, and so is the error there. The strands do not gain by
   // it.
@@ -117,7 +124,9 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   const double slippery = std::max(1.0, kSlippery / std::max(material.friction_coefficient, kLeastFriction));
   out.plateau_force = coarse * (opposite ? kOppositePlateau : kPlateau * slippery);
   out.lock_extension = coarse * (opposite ? kOppositeLock : kLock);
-  out.locked_stiffness = of_strands * (solid ? kSolidsStiffnessOfKnots * h / specimen.end_to_end : kRopesStiffness);
+  out.locked_stiffness = of_strands * (solid       ? kSolidsStiffnessOfKnots * h / specimen.end_to_end
+                                       : rod.rolls ? kRollingStiffness * slippery
+                                                   : kRopesStiffness);
   return out;
 }
 

@@ -81,6 +81,20 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
     EXPECT_EQ(refinement(loop, 50.0), refinement(loop, 4.0));
 }
 
+/// With the whole couple of friction and fibres that rub, and not with one of them.
+TEST(RelativeErrors, AreGivenForStrandsThatRollAsTheStudyHadThem) {
+  const auto errors = [](const std::string& change) {
+    const Method m = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml",
+                                 {"material=polypropylene", "specimen.edge_length=0.003175", change});
+    return relative_errors(m.specimen, m.material, m.machine, m.physics);
+  };
+  EXPECT_NEAR(errors("physics.accuracy=normal").plateau_force.value(), 0.048 * 0.8 / 0.63, 1e-12);
+  EXPECT_NEAR(errors("physics.accuracy=normal").locked_stiffness.value(), 0.030 * 0.8 / 0.63, 1e-12);
+  for (const char* other : {"material.friction_couple=0", "material.friction_couple=0.5",
+                            "material.bending_law=elastic", "specimen.handedness=opposite"})
+    EXPECT_FALSE(errors(other).plateau_force) << other;
+}
+
 TEST(RelativeErrors, AreNotGivenWhereNoStudySays) {
   Loop edge, smoothed, untied, overhand, rolling, set, rough, rubber, straight;
   edge.physics.contact_law = ContactLaw::kEdge;

@@ -37,7 +37,7 @@ struct FrictionalBending {
       "friction_moment", 0.0, 1.0, "k_b/h", LawDefault::kNone, std::numeric_limits<double>::quiet_NaN()};
   static constexpr LawKey kCompaction{"compaction", 0.0, 1.0, "-", LawDefault::kPlain, 0.0};
   static constexpr std::array kKeys{kStickRatio, kFrictionMoment, kCompaction};
-  static constexpr bool kStudied = false;
+  static constexpr bool kStudied = true;
   static constexpr bool kRemembers = true;
   static constexpr int kOwn = 1;
   static constexpr double kCompactionTime = 0.05;  ///< tau [s]

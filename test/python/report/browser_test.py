@@ -194,9 +194,9 @@ class ARodToTurn(unittest.TestCase):
     def test_turns_and_shows_all_that_is_known(self):
         seen = self.used(run, 0, -1)
         self.assertEqual([text for text, _ in seen["quantities"]],
-                         ["tension of the rod [N]", "curvature times radius", "contact force per length [N/mm]"])
+                         ["tension of the rod [N]", "curvature times radius", "twist [rad/m]", "contact force per length [N/mm]"])
         self.assertGreaterEqual(min(ticks for _, ticks in seen["quantities"]), 2)
-        self.assertEqual(seen["colours_drawn"], 3)
+        self.assertEqual(seen["colours_drawn"], 4)
         self.assertTrue(seen["turned"])
 
     def test_shows_twist_where_the_test_solves_for_it(self):
