@@ -63,7 +63,8 @@ class Tutorial(unittest.TestCase):
                 self.assertGreater(os.path.getsize(os.path.join(clone, "out", folder, f"report.{ending}")), 10000)
         with open(os.path.join(clone, "out", run, "result.yaml"), encoding="utf-8") as text:
             result = yaml.safe_load(text)
-        self.assertEqual((result["warnings"], result["ended_by"]), ([], "load"))
+        self.assertEqual(result["ended_by"], "load")
+        self.assertEqual([said for said in result["warnings"] if "the knots moved as they were released" not in said], [])
         with open(os.path.join(clone, "out/beside/comparison.yaml"), encoding="utf-8") as text:
             comparison = yaml.safe_load(text)
         for key in ("peak_force", "plateau_force", "lock_extension_by_load", "locked_stiffness"):
