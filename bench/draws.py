@@ -97,7 +97,8 @@ class Draw:
         others, self.random = self.random, random.Random(f"laws {self.seed} {self.number} {self.quick}")
         material = self.settings["material"]
         rolls = material["friction_couple"] > 0.0 and "physics.friction.at" not in self.settings
-        if "bending_set" not in material and self.random.random() < 0.5:
+        on_frames = "bending_set" not in material and self.settings["physics.twist"] != "off"
+        if on_frames and self.random.random() < 0.5:
             material.update(bending_law="frictional", friction_moment=self.log_uniform("friction_moment", 0.01, 0.5),
                             stick_ratio=self.log_uniform("stick_ratio", 1.5, 60.0),
                             compaction=self.log_uniform("compaction", 1e-4, 1e-2))

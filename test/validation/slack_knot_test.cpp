@@ -25,6 +25,7 @@ Material wire() {
   out.bending_stiffness = 7.2e-5;
   out.twisting_stiffness = 4.8e-5;
   out.friction_coefficient = 0.55;
+  out.friction_couple = 0.0;
   return out;
 }
 
