@@ -37,8 +37,8 @@ struct RelativeErrors {
 /// (`scripts/bench readings`). It depends on the handedness of the knots, on friction and, for rods that stretch, on
 /// the length of the loop. Other edges and tolerances raise or lower it. The contribution of the edges is proportional
 /// to the square of their length. Friction on centrelines with elastic bends was studied, and the whole couple of
-/// friction with fibres that rub; there a rope with knots of opposite hands has none, as its readings scatter. Those of contact tolerance, presliding displacement, longest step and residual are
-/// proportional to their values.
+/// friction with fibres that rub; there a rope with knots of opposite hands has none, as its readings scatter. Those of
+/// contact tolerance, presliding displacement, longest step and residual are proportional to their values.
 RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                                const PhysicsOptions& physics);
 
