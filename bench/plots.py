@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 def row_of_axes(titles, width, height):
     figure, all_axes = plt.subplots(1, len(titles), figsize=(width * len(titles), height), squeeze=False)
-    for axes, title in zip(all_axes, titles):
+    for axes, title in zip(all_axes[0], titles):
         axes.set_title(title, fontsize="small")
     return figure, all_axes[0]
 
