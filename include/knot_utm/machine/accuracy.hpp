@@ -36,9 +36,10 @@ struct RelativeErrors {
 /// the presliding displacement and shorter steps. Its size at `normal` was found over loops drawn at random
 /// (`scripts/bench readings`). It depends on the handedness of the knots, on friction and, for rods that stretch, on
 /// the length of the loop. Other edges and tolerances raise or lower it. The contribution of the edges is proportional
-/// to the square of their length. Friction on centrelines with elastic bends was studied, and the whole couple of
-/// friction with fibres that rub; there a rope with knots of opposite hands has none, as its readings scatter. Those of
-/// contact tolerance, presliding displacement, longest step and residual are proportional to their values.
+/// to the square of their length. Those of contact tolerance, presliding displacement, longest step and residual are
+/// proportional to their values. Two kinds of sections were studied: elastic ones with friction on the centrelines, and
+/// ones whose fibres rub with friction's whole couple. A rope of the second kind with knots of opposite hands has no
+/// errors, because its readings scatter.
 RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                                const PhysicsOptions& physics);
 
