@@ -264,7 +264,7 @@ class Means(unittest.TestCase):
         with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../src/machine/measured.hpp"),
                   encoding="utf-8") as source:
             text = source.read()
-        for material, name in (("nylon", "kNormal"), ("pink_vps", "kStretchingNormal")):
+        for material, name in (("nylon", "kRollingNormal"), ("pink_vps", "kStretchingNormal")):
             step, residual, contact_tolerance, presliding, _ = [
                 float(number) for number in re.search(name + r"\{(.*?)\}", text).group(1).split(",")]
             variants = {**specimens.gated_variants(material), **specimens.tolerances(material)}
