@@ -16,6 +16,9 @@ constexpr double kSharpest = 2.0;  // turn of the centreline at a node that is n
 constexpr double kSameFoot = 1.0;  // arclength within which a foot is that of the last step [h]
 constexpr double kDeepest = 0.5;   // overlap of a contact that may begin [fraction of radius]
 constexpr double kFading = 0.25;   // way to the end of the spline on which a foot loses its weighting factor [radii]
+// Least G that a foot's motion is linearised with [|b'|^2]. Newton's method needs the foot's own G, since a couple
+// moves along the strand with the foot. Friction on the centrelines hardly feels it, and keeps the bits it always had.
+constexpr double kLeastG = 1e-6, kLeastGOnCentrelines = 1e-3;
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
 double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
@@ -195,8 +198,9 @@ void SmoothContact::add_contact(Tracked& tracked) {
   const Lanes db = c.t + u * c.k;
   contact.db = to_vec3(db);
   const double length2 = dot(db, db);
-  // At a minimum G >= 0; it vanishes where the foot is about to jump, and there omega does too.
-  contact.inverse_g = 1.0 / std::max(length2 - dot(foot.x, c.k), 1e-3 * length2);
+  // At a minimum G >= 0; it vanishes where the foot is about to jump, and omega follows it there within 0.05 s.
+  const double least = turns_ ? kLeastG : kLeastGOnCentrelines;
+  contact.inverse_g = 1.0 / std::max(length2 - dot(foot.x, c.k), least * length2);
   if (contact.active() && friction_.on()) set_slip(contact);
   if (turns_) add_surface(contact, search_.parabola(segment), c, u);
 }

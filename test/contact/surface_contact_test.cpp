@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <type_traits>
@@ -175,7 +176,8 @@ class Surface : public testing::Test {
     return out;
   }
 
-  void expect_exact(const Friction& friction, double couple, const RollingResistance& rolling = {}) {
+  void expect_exact(const Friction& friction, double couple, const RollingResistance& rolling = {},
+                    double fraction = 1e-6) {
     Kind kind(scene, friction);
     kind.contact.act_at_surface(couple, scene.turns, rolling);
     const Eigen::VectorXd at = scene.unknowns();
@@ -183,7 +185,7 @@ class Surface : public testing::Test {
     // Positions and angles differ in size.
     Eigen::MatrixXd numeric(at.size(), at.size());
     for (Eigen::Index j = 0; j < at.size(); ++j) {
-      const double step = j % 4 == 3 ? 1e-6 : 1e-6 * kRadius;
+      const double step = j % 4 == 3 ? fraction : fraction * kRadius;
       const auto force = [&](const Eigen::VectorXd& shift) {
         Eigen::VectorXd moved = at;
         moved[j] += shift[0];
@@ -238,6 +240,41 @@ TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWithSmoothedFrictionAndASh
 TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWhereItResistsRolling) {
   for (const double presliding : {1e-3, 5.0})
     this->expect_exact(MemoryFriction{0.4, 1e-3 * kRadius}, 0.7, {0.3, kRadius, presliding * kRadius});
+}
+
+/// In the step, a straight strand bends around another one until its feet are about to jump: G falls to 4e-4 |b'|^2,
+/// while the contacts keep the weighting factors of the straight strand. The foot of a contact then moves by some
+/// 4000 times as much as its point, so that differences are taken over shorter ways.
+struct SurfaceWhereAFootIsAboutToJump : Surface<Smooth> {
+  static constexpr double kG = 4e-4;  // [|b'|^2]
+};
+
+TEST_F(SurfaceWhereAFootIsAboutToJump, JacobianIsTheDerivativeOfTheForces) {
+  const double away = 1.95 * kRadius, s2 = kEdge * kEdge;
+  // x.b'' = (1 - kG) |b'|^2 half way along a segment, where the foot is b''/8 nearer than the node.
+  const double wanted = (1.0 - kG) * s2, bend = 4.0 * (away - std::sqrt(away * away - 0.5 * wanted));
+  constexpr int kFirst = kHalf + kDetour, kMiddle = kFirst + kHalf / 2;
+  for (int i = kFirst; i < kFirst + kHalf; ++i) {
+    const double from_middle = i - kMiddle;
+    scene.start.col(i) << away, kEdge * from_middle, kEdge * kHalf / 2;
+    scene.position.col(i) = scene.start.col(i);
+    if (std::abs(i - kMiddle) < 2) scene.position(0, i) -= 0.5 * bend * from_middle * from_middle;
+  }
+  scene.position.leftCols<kHalf>() = scene.start.leftCols<kHalf>();
+  scene.set_lengths();
+  Smooth kind(scene, MemoryFriction{0.4, 1e-3 * kRadius});
+  kind.contact.act_at_surface(1.0, scene.turns);
+  kind.evaluate();
+  double least = 1.0, weighting = 0.0;
+  for (const ContactPoint& contact : kind.contact.contacts())
+    if (contact.touches() && contact.inverse_g * contact.db.squaredNorm() > 100.0) {
+      least = std::min(least, 1.0 / (contact.inverse_g * contact.db.squaredNorm()));
+      weighting = std::max(weighting, contact.weighting);
+    }
+  EXPECT_NEAR(least, kG, 0.1 * kG);
+  EXPECT_GT(weighting, 0.4);
+  for (const double presliding : {1e-3, 5.0})
+    expect_exact(MemoryFriction{0.4, presliding * kRadius}, 1.0, {0.3, kRadius, 1e-3 * kRadius}, 1e-9);
 }
 
 TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
