@@ -111,7 +111,7 @@ struct CrossedRods {
   std::unique_ptr<TimeStep> stepper;
   Points begin;
 
-  explicit CrossedRods(double couple) {
+  explicit CrossedRods(double couple, double rolling_resistance = 0.0) {
     Material material;
     material.radius = kRadius;
     material.density = 1000.0;
@@ -123,6 +123,7 @@ struct CrossedRods {
     settings.pressure_law = NormalLaw{1e5, 0.005 * kRadius};
     settings.friction = MemoryFriction{kFriction, kPresliding};
     settings.friction_couple = couple;
+    settings.rolling = {rolling_resistance, kRadius, kPresliding};
     settings.spin_inertia = false;
     RodState state;
     state.position.resize(3, nodes);
@@ -193,6 +194,25 @@ TEST(R14CrossedRods, HalfTheCoupleRollsFourTimesAsStiffly) {
                0.02);
 }
 
+/// The rod that is not dragged rests until friction's couple F lambda passes mu_r N h, and its turn phi gives way to
+/// what is beyond: F lambda - mu_r N h = 2 k_t phi/l, with lambda half of the centrelines' distance.
+TEST(R14CrossedRods, RestUntilResistanceToRollingIsOvercome) {
+  constexpr double kRolling = 0.2;
+  CrossedRods scene(1.0, kRolling);
+  scene.force_at(0.0, 1e-9, 1);
+  const double pressed = scene.stepper->readings().contact().normal_force, h = CrossedRods::lever();
+  const double roll = 2.0 * scene.rod.material.twisting_stiffness / (scene.free_length() * h * h);
+  const double sticks = CrossedRods::kFriction * pressed / CrossedRods::kPresliding;
+  const double held = kRolling * pressed * CrossedRods::kRadius / h, limit = CrossedRods::kFriction * pressed;
+  const double force = 0.5 * (held + limit), way = force / sticks + (force - held) / roll;
+  ASSERT_GT((force - held) / roll, 3.0 * CrossedRods::kPresliding) << "it should roll further than both springs give";
+  hold_against("R14 crossed rods that resist rolling: force while they roll [N]", force, scene.force_at(1e-9, way, 20),
+               0.02);
+  const double slips_at = limit / sticks + (limit - held) / roll;
+  hold_against("R14 crossed rods that resist rolling: force as they slip [N]", limit,
+               scene.force_at(way, 1.5 * slips_at, 20), 0.02);
+}
+
 // ---- R15 ------------------------------------------------------------------------------------------------------------
 
 /// A limp rod over nine tenths of a half turn of a fixed shaft along x, in the plane of y and z; its centreline runs
@@ -206,7 +226,7 @@ struct SurfaceCapstan {
   int last = 0;
   double time = 0.0;
 
-  SurfaceCapstan(double eta, double t1, double edges_a_radian) {
+  SurfaceCapstan(double eta, double t1, double edges_a_radian, double rolling_resistance = 0.0) {
     edge = 1.0 / edges_a_radian;
     const double tail = 1.5 + 7.0 / std::sqrt(t1);
     const int tails = static_cast<int>(std::ceil(tail / edge)), wrapped = static_cast<int>(std::lround(kWrap / edge));
@@ -235,6 +255,7 @@ struct SurfaceCapstan {
     StepSettings settings = capstan_settings(material, t1, 1e-3, 1e-7);
     settings.roller_friction = MemoryFriction{kFriction, 1e-3};
     settings.friction_couple = 1.0;
+    settings.rolling = {rolling_resistance, eta, 1e-3};
     settings.spin_inertia = false;
     stepper = TimeStep::make(rod, state, settings);
     Roller roller;
@@ -297,6 +318,18 @@ TEST(R15Capstan, TensionGrowsByTheLeverOfTheSurface) {
     SurfaceCapstan scene(eta, 3e4, 32.0);
     hold_against(formatted("R15 capstan at the surface, h/rho = %.2f: exponent per radian", eta),
                  surface_exponent(SurfaceCapstan::kFriction, eta), scene.exponent(), 0.02);
+  }
+}
+
+/// As the rod slides around the shaft its sections turn against it, and contacts resist that: -(mu - mu_r) p h is left
+/// of the shear force. Where mu_r is mu, nothing is, and T grows as with friction on the centreline.
+TEST(R15Capstan, ResistanceToRollingTakesFrictionBackToTheCentreline) {
+  constexpr double kEta = 0.5, kSlips = SurfaceCapstan::kFriction;
+  EXPECT_NEAR(surface_exponent(kSlips, kEta, kSlips), kSlips, 1e-12);
+  for (const double rolling : {0.2, kSlips}) {
+    SurfaceCapstan scene(kEta, 3e4, 32.0, rolling);
+    hold_against(formatted("R15 capstan that resists rolling by %.2f: exponent per radian", rolling),
+                 surface_exponent(kSlips, kEta, rolling), scene.exponent(), 0.02);
   }
 }
 
