@@ -97,6 +97,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
       foot.memory.weighting = std::min(weighting(search_.feet()[foot.foot], position), largest_weighting(foot.memory));
       foot.memory.offset = offset_at(search_.feet()[foot.foot], position);
       foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * diameter_ && began_inside(foot);
+      if (turns_ && !first_step_ && overlap(foot) > 0.0) foot.memory.weighting = 0.0;  // smooth_contact.hpp
     }
     if (takes_part(foot)) add_contact(foot);
   }

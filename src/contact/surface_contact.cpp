@@ -1,6 +1,7 @@
 #include "knot_utm/contact/surface_contact.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "four_contacts.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
@@ -119,6 +120,19 @@ template <typename Contact>
 FourVectors rolled_by(const std::array<Contact*, 4>& contacts) {
   return FourVectors::of(to_lanes(contacts[0]->memory.rolled), to_lanes(contacts[1]->memory.rolled),
                          to_lanes(contacts[2]->memory.rolled), to_lanes(contacts[3]->memory.rolled));
+}
+
+/// mu_r(p), and d(mu_r p)/dp, of four contacts. A linear model may have a pressure below zero.
+Lanes square_root_of(const RollingResistance& rolling, const Lanes& pressure) {
+  return rolling.growth * square_root(larger(pressure, Lanes{}));
+}
+Lanes rolling_coefficient(const RollingResistance& rolling, const Lanes& pressure) {
+  if (rolling.growth == 0.0) return constant<Lanes>(rolling.coefficient);
+  return rolling.coefficient + square_root_of(rolling, pressure);
+}
+Lanes rolling_slope(const RollingResistance& rolling, const Lanes& pressure) {
+  if (rolling.growth == 0.0) return constant<Lanes>(rolling.coefficient);
+  return rolling.coefficient + 1.5 * square_root_of(rolling, pressure);
 }
 
 /// The resistance of four contacts to rolling.
@@ -263,15 +277,16 @@ class FourSurfaces {
   void resist(const RollingResistance& rolling, const std::array<const ContactPoint*, 4>& contacts,
               const Points4& surfaces, const ContactLinearisation& how, const Lanes& weight) {
     const FourRolling now(rolling, contacts, surfaces, n_, axis_, a_, b_, how.friction);
-    const double whole = -rolling.coefficient * rolling.radius;
+    const auto whole = [&](const Lanes& coefficient) { return -coefficient * rolling.radius; };
+    const Lanes now_whole = whole(rolling_coefficient(rolling, pressures_.pressure));
     resists_ = true;
     radius_ = rolling.radius;
     rho_ = now.rho;
     rolled_ = now.remembered;
     unit_ = now.mapping.unit;
-    couple_ = (whole * weight * pressures_.pressure) * now.mapping.z;
-    couple_pressing_ = (whole * weight * pressures_.slope) * now.mapping.z;
-    const Lanes spring = (whole / rolling.presliding) * turning_;
+    couple_ = (now_whole * weight * pressures_.pressure) * now.mapping.z;
+    couple_pressing_ = (whole(rolling_slope(rolling, pressures_.pressure)) * weight * pressures_.slope) * now.mapping.z;
+    const Lanes spring = (whole(rolling_coefficient(rolling, pressures_.turning)) / rolling.presliding) * turning_;
     couple_across_ = spring * now.mapping.across;
     couple_along_ = spring * now.mapping.along;
   }
@@ -405,6 +420,10 @@ std::size_t linearise_next(const Friction& friction, const std::vector<ContactPo
 
 }  // namespace
 
+double RollingResistance::growth_of_hysteresis(double alpha, double radius, double stretching_stiffness) {
+  return 2.0 * alpha / (3.0 * M_PI) * std::sqrt(3.0 * radius / stretching_stiffness);
+}
+
 FrictionMemory remember(const Friction& friction, const RollingResistance& rolling, const ContactPoint& contact,
                         const SurfacePoint& surface, double dt) {
   FrictionMemory out = remember(friction, contact, dt);
@@ -455,8 +474,9 @@ void set_couples(const RollingResistance& rolling, const std::vector<ContactPoin
       zeta =
           FourRolling(rolling, four, points, of(&ContactPoint::n), axis, section_a, section_b, Linearisation::kTangent)
               .mapping.z;
-      const double whole = -rolling.coefficient * rolling.radius;
-      couple = (whole * of(&ContactPoint::weight) * of(&ContactPoint::pressure)) * zeta;
+      const Lanes pressure = of(&ContactPoint::pressure),
+                  whole = -rolling_coefficient(rolling, pressure) * rolling.radius;
+      couple = (whole * of(&ContactPoint::weight) * pressure) * zeta;
     }
     const FourVectors &a = section_a.over, &b = section_b.over, m_a = m - couple, m_b = m + couple;
     const bool on_roller = four[0]->on_roller();

@@ -43,7 +43,10 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   out.friction = Friction::of(physics.friction, {material.friction_coefficient, h, tolerance.presliding});
   out.roller_friction = Friction::of(physics.friction, {machine.roller_friction, h, tolerance.presliding});
   out.friction_couple = friction_couple(material, physics);
-  if (out.friction_couple > 0.0) out.rolling = {material.rolling_resistance, h, tolerance.presliding * h};
+  if (out.friction_couple > 0.0)
+    out.rolling = {
+        material.rolling_resistance, h, tolerance.presliding * h,
+        RollingResistance::growth_of_hysteresis(material.rolling_hysteresis, h, material.stretching_stiffness)};
   // A slow test; and a rod that is free to turn is then the same with twist and without. But where friction rolls
   // strands their spin can jump as they let go, and without inertia no step would be short enough.
   out.spin_inertia = friction_rolls(material, machine, physics);

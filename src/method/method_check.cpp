@@ -103,8 +103,14 @@ void check_effects(const Method& m) {
   has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
              "for knot: " + loops() + ", with grips: rollers");
 
-  has_effect(friction_couple(m.material, m.physics) > 0.0, "material.rolling_resistance", m.material.rolling_resistance,
-             0.0, "with material.friction_couple above 0 and friction.at: surface");
+  const Material& material = m.material;
+  const bool rolls = friction_couple(material, m.physics) > 0.0;
+  constexpr const char* kWhereItRolls = "with material.friction_couple above 0 and friction.at: surface";
+  has_effect(rolls, "material.rolling_resistance", material.rolling_resistance, 0.0, kWhereItRolls);
+  has_effect(rolls, "material.rolling_hysteresis", material.rolling_hysteresis, 0.0, kWhereItRolls);
+  if (material.rolling_hysteresis > 0.0 && !is_solid(material))
+    reject("material.rolling_hysteresis", material.rolling_hysteresis,
+           "0 for a rope: the width of its contacts does not follow from its stretching_stiffness");
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
   check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
   check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");

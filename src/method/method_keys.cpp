@@ -102,6 +102,7 @@ constexpr Label kLabels[] = {
     {"specimen.edge_length", "Edge length of the mesh"},
     {"specimen.refinement", "Refinement within the knots"},
     {"material.rolling_resistance", "Resistance of contacts to rolling"},
+    {"material.rolling_hysteresis", "Work lost as a soft contact rolls"},
     {"material.friction_couple", "Share of friction's couple that sections take"},
     {"material.hardening", "Share of the bending stiffness that does not yield"},
     {"material.friction_moment", "Friction moment of a bent rope"},

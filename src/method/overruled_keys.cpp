@@ -33,8 +33,9 @@ void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>
   drop_keys_of_former_law<BendingRegistry>("material.", "bending_law", by, material.bending);
   drop_keys_of_former_law<FrictionRegistry>("physics.friction.", "law", by, method.physics.friction);
   const GivenBy rolls = std::max({by("material.friction_couple"), by("physics.friction.at"), by("compatibility")});
-  if (friction_couple(material, method.physics) == 0.0 && by("material.rolling_resistance") < rolls)
-    material.rolling_resistance = 0.0;
+  if (friction_couple(material, method.physics) > 0.0) return;
+  if (by("material.rolling_resistance") < rolls) material.rolling_resistance = 0.0;
+  if (by("material.rolling_hysteresis") < rolls) material.rolling_hysteresis = 0.0;
 }
 
 }  // namespace knot_utm

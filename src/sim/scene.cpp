@@ -36,7 +36,7 @@ void StepSettings::state(Archive& archive) {
   archive(pressure_law, friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia,
           residual, residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit,
           overlap_limit, candidate_margin);
-  if (friction_couple > 0.0) archive(rolling.coefficient, rolling.radius, rolling.presliding);
+  if (friction_couple > 0.0) archive(rolling.coefficient, rolling.radius, rolling.presliding, rolling.growth);
   archive.number("iterations", max_iterations, 1, kMostIterations);
   const double reach = -2.0 * pressure_law.begin();
   const bool finite =

@@ -52,6 +52,14 @@ class Beside {
     return out;
   }
 
+  /// From now on friction acts at the surfaces.
+  void act_at_surface() { contact_.act_at_surface(1.0, turns_); }
+  /// Weighting factor of a contact in the middle of the strands, in the last iterate.
+  double weighting() const {
+    const auto in_middle = [](const ContactPoint& point) { return point.a0 == kMiddle[2]; };
+    return std::find_if(contact_.contacts().begin(), contact_.contacts().end(), in_middle)->weighting;
+  }
+
   std::string saved() {
     Archive archive("contact");
     archive(contact_);
@@ -69,6 +77,7 @@ class Beside {
 
   Points at(double overlap) const { return strands_.moved(Vec3(-overlap, 0.0, 0.0)); }
 
+  SectionTurns turns_;
   TwoStrandsOfARod strands_;
   SmoothContact contact_;
   Points accepted_;
@@ -102,6 +111,22 @@ TEST(DeepFoot, PressesWhereItAppearsNoDeeperThanAContactCanBegin) {
   strands.close(0.2);
   EXPECT_EQ(strands.step_to(0.2), 1.0);
   EXPECT_EQ(strands.step_to(1.0), 1.0) << "one that pressed before does so however deep it is pushed";
+}
+
+/// Two straight strands share their contacts by halves, towards which omega relaxes as dt/(dt + 0.05 s).
+TEST(DeepFoot, BeginsWithoutWeightWhereFrictionActsAtTheSurfaces) {
+  Beside strands;
+  strands.act_at_surface();
+  strands.step_to(kFar);
+  strands.close(0.2);
+  EXPECT_EQ(strands.step_to(0.2), 0.0);
+  EXPECT_EQ(strands.step_to(0.2), 1.0);
+  EXPECT_NEAR(strands.weighting(), 0.5 * kStep / (kStep + 0.05), 1e-4);
+  Beside followed;
+  followed.act_at_surface();
+  followed.step_to(-0.2);
+  EXPECT_EQ(followed.step_to(0.2), 1.0) << "a foot that was there before the strands touched";
+  EXPECT_NEAR(followed.weighting(), 0.5, 1e-4);
 }
 
 TEST(DeepFoot, PressesHoweverDeepWhereItWasFollowedBefore) {

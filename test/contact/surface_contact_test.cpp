@@ -239,7 +239,8 @@ TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWithSmoothedFrictionAndASh
 /// Beyond the elastic rolling, and within it.
 TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWhereItResistsRolling) {
   for (const double presliding : {1e-3, 5.0})
-    this->expect_exact(MemoryFriction{0.4, 1e-3 * kRadius}, 0.7, {0.3, kRadius, presliding * kRadius});
+    for (const double growth : {0.0, 0.05})
+      this->expect_exact(MemoryFriction{0.4, 1e-3 * kRadius}, 0.7, {0.3, kRadius, presliding * kRadius, growth});
 }
 
 /// In the step, a straight strand bends around another one until its feet are about to jump: G falls to 4e-4 |b'|^2,

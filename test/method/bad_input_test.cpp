@@ -222,6 +222,16 @@ TEST(BadInput, WithoutTwistSaysAllThatNeedsIt) {
                     Not(HasSubstr("\n"))));
 }
 
+TEST(BadInput, HysteresisOfRollingNeedsASolidRod) {
+  EXPECT_THAT(complaint(kTighten, {"material.rolling_hysteresis=0.2"}),
+              AllOf(HasSubstr("tighten.yaml: material.rolling_hysteresis is 0.2, but must be 0 for a rope"),
+                    Not(HasSubstr("\n"))));
+  EXPECT_EQ(complaint(kTighten, {"material=pink_vps", "material.rolling_hysteresis=0.2"}), "nothing was wrong");
+  EXPECT_THAT(complaint(kTighten, {"material=pink_vps", "material.rolling_hysteresis=1.1"}), HasSubstr("0 to 1"));
+  EXPECT_THAT(complaint(kTighten, {"material=pink_vps", "material.rolling_hysteresis=0.2", "compatibility=1"}),
+              HasSubstr("only with material.friction_couple above 0"));
+}
+
 TEST(BadInput, ResistanceToRollingNeedsStrandsThatRoll) {
   const std::string resists = "material.rolling_resistance=0.1";
   for (const char* held : {"material.friction_couple=0", "physics.friction.at=centreline", "compatibility=1"})

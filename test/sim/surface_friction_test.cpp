@@ -37,10 +37,10 @@ struct AcrossAnIncline : OnAnIncline {
   double radius = material.radius;
   std::unique_ptr<TimeStep> stepper;
 
-  AcrossAnIncline(double angle, bool spin_inertia, double rolling_resistance = 0.0)
-      : OnAnIncline(angle, Vec3::UnitY(), 16, MemoryFriction{kMu, 1e-4 * braided_rope().radius}) {
+  AcrossAnIncline(double angle, bool spin_inertia, double rolling_resistance = 0.0, double growth = 0.0, int edges = 16)
+      : OnAnIncline(angle, Vec3::UnitY(), edges, MemoryFriction{kMu, 1e-4 * braided_rope().radius}) {
     settings.friction_couple = 1.0;
-    settings.rolling = {rolling_resistance, radius, 1e-4 * radius};
+    settings.rolling = {rolling_resistance, radius, 1e-4 * radius, growth};
     settings.spin_inertia = spin_inertia;
     initialise_frames(&state);
     stepper = TimeStep::make(rod, state, settings);
@@ -79,6 +79,31 @@ TEST(R12Rolling, ResistanceHoldsACylinderAndThenSlowsIt) {
     hold_against(formatted("R12 rolling against resistance, tan alpha/mu_r = %.2f: acceleration [m/s^2]", slope),
                  expected, down, 0.01);
     EXPECT_NEAR(std::abs(spin) * scene.radius, expected, 0.01 * expected) << "it rolls";
+  }
+}
+
+/// A soft cylinder whose contact, of half width a, loses the fraction alpha of the work that goes into it: it rests up
+/// to the slope alpha 2 a/(3 pi h). a is Hertz's, of two like cylinders side by side under their weight per length.
+TEST(R12Rolling, HysteresisOfAWideContactHoldsACylinderUpToItsHalfWidth) {
+  constexpr double kAlpha = 0.5, kModulus = 5e3, kPoisson = 0.5;  // [-, Pa, -]
+  const Material rope = braided_rope();
+  const double h = rope.radius, growth = RollingResistance::growth_of_hysteresis(kAlpha, h, M_PI * h * h * kModulus);
+  const auto slope = [&](double angle) {
+    const double load = rope.density * M_PI * h * h * kGravity * std::cos(angle);
+    const double reduced = kModulus / (2.0 * (1.0 - kPoisson * kPoisson));
+    return kAlpha * 2.0 * std::sqrt(4.0 * load * (0.5 * h) / (M_PI * reduced)) / (3.0 * M_PI * h);
+  };
+  const double steepest = std::atan(slope(0.0));
+  ASSERT_GT(steepest, 0.01);
+  // The last half edge on either side has no contact, so that the others bear 1/kEdges more load, and resist more.
+  constexpr int kEdges = 256;
+  AcrossAnIncline held(0.95 * steepest, true, 0.0, growth, kEdges);
+  EXPECT_LT(std::abs(held.accelerations().first), 1e-5 * kGravity);
+  for (const double angle : {1.5 * steepest, 4.0 * steepest}) {
+    AcrossAnIncline scene(angle, true, 0.0, growth, kEdges);
+    const double expected = 2.0 / 3.0 * kGravity * (std::sin(angle) - slope(angle) * std::cos(angle));
+    hold_against(formatted("R12 rolling against hysteresis, slope %.4f: acceleration [m/s^2]", std::tan(angle)),
+                 expected, scene.accelerations().first, 0.01);
   }
 }
 

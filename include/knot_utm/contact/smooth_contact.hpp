@@ -27,7 +27,9 @@ namespace knot_utm {
 /// of a tight knot could alternate between two places from step to step, however short the steps are. omega, o and the
 /// friction's memory belong to the last accepted step and are constant within a step. The integration point carries
 /// them from iterate to iterate, and each is assigned to one foot, that of the nearest arclength. A new foot has no
-/// memory; its omega and o are those of its place.
+/// memory; its omega and o are those of its place. But where friction acts at the surfaces, a foot that appears inside
+/// the rod begins with omega = 0, which then relaxes, too: with a finite omega its force would come and go from iterate
+/// to iterate, and no step would be short enough.
 class SmoothContact {
  public:
   using Model = ContactModel;
