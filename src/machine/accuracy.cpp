@@ -101,6 +101,15 @@ bool hardly_closed(double plateau_force, const Material& material) {
   return plateau_force < kHardlyClosed * material.bending_stiffness / (h * h);
 }
 
+RelativeErrors errors_of_hardly_closed(const RelativeErrors& errors) {
+  RelativeErrors out;
+  if (!errors.rolls) return out;
+  out.rolls = true;
+  if (errors.plateau_force) out.plateau_force = kHardlyClosedPlateau * *errors.plateau_force;
+  if (errors.lock_extension) out.lock_extension = kHardlyClosedLock * *errors.lock_extension;
+  return out;
+}
+
 RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                                const PhysicsOptions& physics) {
   const ErrorStudy study = knot_of(specimen).about().error_study;
@@ -115,15 +124,17 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   const double h = material.radius, edge = specimen.edge_length / h;
   const Answer rod = answer(physics, specimen, material);
   const bool solid = rod.stretches, opposite = specimen.handedness == Handedness::kOpposite;
-  if (rod.rolls && opposite && !solid) return out;  // one of a distribution, of which no fraction holds
   const Tolerances own = tolerances(physics, specimen, material);
   // Where a rope is tied hard, edges in its knots are shorter, and so is the error there. The strands do not gain by
   // it.
   const double coarse = coarseness(own, of(Accuracy::kNormal, rod), edge),
                of_strands = coarseness(own, of(Accuracy::kNormal, physics, specimen, material), edge);
   const double slippery = std::max(1.0, kSlippery / std::max(material.friction_coefficient, kLeastFriction));
-  out.plateau_force = coarse * (opposite ? kOppositePlateau : kPlateau * slippery);
-  out.lock_extension = coarse * (opposite ? kOppositeLock : kLock);
+  out.rolls = rod.rolls;
+  const double opposite_plateau = rod.rolls ? kOppositeRollingPlateau : kOppositePlateau;
+  out.plateau_force = coarse * (opposite ? opposite_plateau : kPlateau * slippery);
+  out.lock_extension = coarse * (opposite ? kOppositeLock : rod.rolls && !solid ? kRollingLock : kLock);
+  if (rod.rolls && opposite) return out;  // its stiffness is one of a distribution, of which no fraction holds
   out.locked_stiffness = of_strands * (solid       ? kSolidsStiffnessOfKnots * h / specimen.end_to_end
                                        : rod.rolls ? kRollingStiffness * slippery
                                                    : kRopesStiffness);

@@ -86,8 +86,7 @@ bool knots_hardly_closed(const Results& results, const RunFacts& facts) {
 
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   if (!why_not_at_rest(results, facts).empty() || results.curve.jump_force || results.opened_when_mounted) return {};
-  if (knots_hardly_closed(results, facts)) return {};
-  RelativeErrors share = facts.errors;
+  RelativeErrors share = knots_hardly_closed(results, facts) ? errors_of_hardly_closed(facts.errors) : facts.errors;
   // Studied are locks that the knots have come to, not loads that rise while they still slide.
   if (slid_to_the_end(results)) share.locked_stiffness.reset();
   if (share.locked_stiffness) *share.locked_stiffness += change_along_the_curve(results, share);

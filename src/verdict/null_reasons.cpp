@@ -41,17 +41,19 @@ std::string why_the_load_has_no_stiffness(const Results& results) {
   return results.lock_extension ? "the lock does not show in the load" : why_they_did_not_lock(results);
 }
 
-/// `no_reading`: why there is no reading that could be off; empty: there is one. `studied`: the error of mesh and
-/// tolerances, which is larger than half of the reading where a reading has no error all the same.
+/// `no_reading`: why there is no reading that could be off; empty: there is one. `error`: that of mesh and tolerances,
+/// or none; where it is known, it is larger than half of the reading if a reading has no error all the same.
 std::string why_no_error(const ResultSource& source, const std::string& no_reading,
-                         const std::optional<double>& studied) {
+                         std::optional<double> RelativeErrors::*error) {
   const Results& results = source.results;
+  const bool hardly_closed = knots_hardly_closed(results, source.facts);
+  const RelativeErrors errors = hardly_closed ? errors_of_hardly_closed(source.facts.errors) : source.facts.errors;
+  const bool studied = error && errors.*error;
   if (!why_not_at_rest(results, source.facts).empty()) return "unknown: the specimen was not at rest as its pull began";
   if (results.curve.jump_force) return "unknown: a knot jumped open, which no convergence study covers";
   if (results.opened_when_mounted)
     return "unknown: a knot opened as the loop was mounted, which no convergence study covers";
-  if (knots_hardly_closed(results, source.facts))
-    return "unknown: the knots were hardly closed, which no convergence study covers";
+  if (hardly_closed && !studied) return "unknown: the knots were hardly closed, which no convergence study covers";
   if (!no_reading.empty()) return no_reading;
   return studied ? "unknown: the estimate is more than half of the reading"
                  : "unknown: no convergence study covers this case";
@@ -82,7 +84,7 @@ std::string why_no_plateau(const ResultSource& source) {
 }
 
 std::string why_no_plateau_error(const ResultSource& source) {
-  return why_no_error(source, why_no_plateau(source), source.facts.errors.plateau_force);
+  return why_no_error(source, why_no_plateau(source), &RelativeErrors::plateau_force);
 }
 
 std::string why_no_place_of_drop(const ResultSource& source) {
@@ -95,7 +97,7 @@ std::string why_no_lock(const ResultSource& source) {
 }
 
 std::string why_no_lock_error(const ResultSource& source) {
-  return why_no_error(source, why_no_lock(source), source.facts.errors.lock_extension);
+  return why_no_error(source, why_no_lock(source), &RelativeErrors::lock_extension);
 }
 
 std::string why_no_lock_by_load(const ResultSource& source) {
@@ -111,10 +113,10 @@ std::string why_no_stiffness_error(const ResultSource& source) {
   const std::string no_reading = why_no_stiffness(source);
   const bool slides = no_reading.empty() && slid_to_the_end(source.results);
   return why_no_error(source, slides ? why_they_did_not_lock(source.results) : no_reading,
-                      source.facts.errors.locked_stiffness);
+                      &RelativeErrors::locked_stiffness);
 }
 
-std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_no_peak(source), {}); }
+std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_no_peak(source), nullptr); }
 
 std::string why_no_snap(const ResultSource& source) {
   return of_the_pull(source,

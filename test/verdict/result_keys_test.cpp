@@ -132,6 +132,23 @@ TEST_F(ResultYaml, SaysThatErrorsOfHardlyClosedKnotsAreNotKnown) {
   }
 }
 
+/// Where strands roll they were studied: plateau and lock have larger errors, the stiffness has none.
+TEST_F(ResultYaml, HasLargerErrorsOfHardlyClosedKnotsWhoseStrandsRoll) {
+  facts.material.radius = 1e-3;
+  facts.material.bending_stiffness = 1e-6;
+  facts.errors = {0.05, 0.01, 0.02, true};
+  results.lock_extension = 0.1;
+  results.curve.locked_stiffness = 7.0;
+  for (const double force : {0.2, 0.1}) {
+    const bool closed = force > 0.15;
+    results.curve.plateau_force = results.true_plateau_force = force;
+    EXPECT_NEAR(number("plateau_force_error"), (closed ? 0.05 : 0.1) * force, 1e-12);
+    EXPECT_NEAR(number("lock_extension_error"), closed ? 1e-3 : 2e-3, 1e-12);
+    EXPECT_EQ(static_cast<bool>(says("locked_stiffness_error: null  # unknown: the knots were hardly closed")),
+              !closed);
+  }
+}
+
 TEST_F(ResultYaml, SaysTheForceOverTheDeadLoadAtTheOtherEnd) {
   results.steady_force = 12.0;
   EXPECT_TRUE(says("force_ratio: null  # no dead load"));

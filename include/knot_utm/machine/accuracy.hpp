@@ -30,6 +30,7 @@ struct RelativeErrors {
   std::optional<double> plateau_force;
   std::optional<double> lock_extension;
   std::optional<double> locked_stiffness;
+  bool rolls = false;  ///< strands roll on each other: then knots that are hardly closed were studied, too
 };
 
 /// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long, a quarter of
@@ -38,13 +39,15 @@ struct RelativeErrors {
 /// the length of the loop. Other edges and tolerances raise or lower it. The contribution of the edges is proportional
 /// to the square of their length. Those of contact tolerance, presliding displacement, longest step and residual are
 /// proportional to their values. Two kinds of sections were studied: elastic ones with friction on the centrelines, and
-/// ones whose fibres rub with friction's whole couple. A rope of the second kind with knots of opposite hands has no
-/// errors, because its readings scatter.
+/// ones whose fibres rub with friction's whole couple. A loop of the second kind with knots of opposite hands has no
+/// error of its stiffness, which is one of a wide distribution.
 RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                                const PhysicsOptions& physics);
 
 /// Whether knots slide under so small a force [N] that they are hardly closed. What the mesh then does to the readings
-/// is not known.
+/// is known only where strands roll (errors_of_hardly_closed).
 bool hardly_closed(double plateau_force, const Material& material);
+/// The errors of such knots: larger ones of plateau and lock where strands roll, and none otherwise.
+RelativeErrors errors_of_hardly_closed(const RelativeErrors& errors);
 
 }  // namespace knot_utm
