@@ -131,9 +131,10 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
                of_strands = coarseness(own, of(Accuracy::kNormal, physics, specimen, material), edge);
   const double slippery = std::max(1.0, kSlippery / std::max(material.friction_coefficient, kLeastFriction));
   out.rolls = rod.rolls;
-  const double opposite_plateau = rod.rolls ? kOppositeRollingPlateau : kOppositePlateau;
+  const double opposite_plateau = rod.rolls ? kOppositeRollingPlateau : kOppositePlateau,
+               opposite_lock = rod.rolls ? kOppositeRollingLock : kOppositeLock;
   out.plateau_force = coarse * (opposite ? opposite_plateau : kPlateau * slippery);
-  out.lock_extension = coarse * (opposite ? kOppositeLock : rod.rolls && !solid ? kRollingLock : kLock);
+  out.lock_extension = coarse * (opposite ? opposite_lock : rod.rolls && !solid ? kRollingLock : kLock);
   if (rod.rolls && opposite) return out;  // its stiffness is one of a distribution, of which no fraction holds
   out.locked_stiffness = of_strands * (solid       ? kSolidsStiffnessOfKnots * h / specimen.end_to_end
                                        : rod.rolls ? kRollingStiffness * slippery

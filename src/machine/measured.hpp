@@ -40,7 +40,7 @@ inline constexpr double kPlateau = 0.048, kSlippery = 0.8, kLeastFriction = 0.1;
 // move it by as much, in either direction, whatever mu is.
 inline constexpr double kOppositePlateau = 0.25;
 // The same where strands roll: this includes all such loops of seeds 51, 61 and 62.
-inline constexpr double kOppositeRollingPlateau = 0.30;
+inline constexpr double kOppositeRollingPlateau = 0.36;
 // Knots that slide under a smaller force than this [k_b/h^2] are hardly closed. Their errors are not known, but where
 // strands roll: there those of plateau and lock are larger by these factors, which include all such loops of
 // seeds 51, 61 and 62, whose knots have the same handedness.
@@ -48,14 +48,13 @@ inline constexpr double kHardlyClosed = 0.15;
 inline constexpr double kHardlyClosedPlateau = 2.0, kHardlyClosedLock = 2.0;
 // The lock extension, with two knots of the same handedness and of opposite handedness.
 inline constexpr double kLock = 0.014, kOppositeLock = 0.045;
-// The former where strands roll, which includes all closed loops of seeds 51, 61 and 62.
-inline constexpr double kRollingLock = 0.020;
+// The same where strands roll, which include all closed loops of seeds 51, 61 and 62 but one.
+inline constexpr double kRollingLock = 0.022, kOppositeRollingLock = 0.08;
 // The locked stiffness of a rope, and that of a solid rod. The latter is multiplied by h over the distance of the
 // grips, because the error arises in the knots, which are the smaller a part of a loop the longer it is.
 inline constexpr double kRopesStiffness = 0.010, kSolidsStiffnessOfKnots = 1.2;
-// The locked stiffness of a rope whose strands roll. It includes all such loops of seeds 51, 61 and 62 with
-// knots of the same handedness that are closed, as the errors of plateau and lock
-// above do.
+// The locked stiffness of a rope whose strands roll. It includes all closed loops of these seeds with knots of the same
+// handedness.
 inline constexpr double kRollingStiffness = 0.030;
 // an upper bound by judgement: the solution is exact except for the residual
 inline constexpr double kStraightStiffness = 1e-3;
