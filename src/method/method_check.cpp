@@ -108,9 +108,8 @@ void check_effects(const Method& m) {
   constexpr const char* kWhereItRolls = "with material.friction_couple above 0 and friction.at: surface";
   has_effect(rolls, "material.rolling_resistance", material.rolling_resistance, 0.0, kWhereItRolls);
   has_effect(rolls, "material.rolling_hysteresis", material.rolling_hysteresis, 0.0, kWhereItRolls);
-  if (material.rolling_hysteresis > 0.0 && !is_solid(material))
-    reject("material.rolling_hysteresis", material.rolling_hysteresis,
-           "0 for a rope: the width of its contacts does not follow from its stretching_stiffness");
+  has_effect(is_solid(material), "material.rolling_hysteresis", material.rolling_hysteresis, 0.0,
+             "in a solid rod, whose stretching_stiffness says how wide its contacts are");
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
   check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
   check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");

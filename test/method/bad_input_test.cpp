@@ -223,9 +223,10 @@ TEST(BadInput, WithoutTwistSaysAllThatNeedsIt) {
 }
 
 TEST(BadInput, HysteresisOfRollingNeedsASolidRod) {
-  EXPECT_THAT(complaint(kTighten, {"material.rolling_hysteresis=0.2"}),
-              AllOf(HasSubstr("tighten.yaml: material.rolling_hysteresis is 0.2, but must be 0 for a rope"),
-                    Not(HasSubstr("\n"))));
+  EXPECT_THAT(
+      complaint(kTighten, {"material.rolling_hysteresis=0.2"}),
+      AllOf(HasSubstr("tighten.yaml: material.rolling_hysteresis is 0.2, but has an effect only in a solid rod"),
+            Not(HasSubstr("\n"))));
   EXPECT_EQ(complaint(kTighten, {"material=pink_vps", "material.rolling_hysteresis=0.2"}), "nothing was wrong");
   EXPECT_THAT(complaint(kTighten, {"material=pink_vps", "material.rolling_hysteresis=1.1"}), HasSubstr("0 to 1"));
   EXPECT_THAT(complaint(kTighten, {"material=pink_vps", "material.rolling_hysteresis=0.2", "compatibility=1"}),
