@@ -2,8 +2,7 @@
 """Makes raw data as Instron's Bluehill exports it from a simulated curve: nobody measured them.
 
     tensile_test my_test.yaml --out out/softer --set material.stretching_stiffness=2.79e4 \\
-        --set material.friction_coefficient=0.63 --set specimen.knot_distance=0.102 \\
-        --set material.bending_law=elastic --set material.friction_couple=0
+        --set material.friction_coefficient=0.63 --set specimen.knot_distance=0.102
     synthetic_raw_data.py out/softer/curve.csv >Specimen_RawData_1.csv
 
 The cell is not balanced and noisy. The crosshead starts anywhere, and stands there for two seconds before it moves.

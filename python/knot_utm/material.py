@@ -13,18 +13,20 @@ GRAVITY = 9.81  # [m/s2]
 LEAST_ANGLE = math.radians(0.05)  # of the end of a cantilever: less is not seen
 STIFFENING_DEPTH = 0.015  # of the radius, from which the simulated contact stiffens (doc/model.md)
 SOLID = 10.0    # k_s h^2/k_b of less is a solid rod's, which is 4; ropes have hundreds
+ROPE = 100.0    # k_s h^2/k_b of more is a rope's
 
 MOST_TURNS = 30.0  # [rad] of a capstan: already with mu = 0.2 the heavy mass would be four hundred times the light one
 OVERCOME = 1.3     # by which a cantilever must be bent over the moment at which fibres slide to show k_b
 STICK_RATIO = 20.0, 10.0  # and its uncertainty, where none is measured: knots hardly feel whether it is 5 or 60
 
-# What may be measured: of each group the keys, all of them needed.
+# What may be measured: of each group the keys, all of them needed but for those that may be added.
 GROUPS = {"diameter": None, "weighed": ("length", "mass"), "stretched": ("length", "mass", "elongation"),
           "cantilever": ("overhang", "drop"), "loop": ("length", "height"), "capstan": ("angle", "light", "heavy"),
           "mandrel": ("radius", "kept_radius"), "light_cantilever": ("overhang", "drop"), "pulled": ("mass", "kept_radius"),
           "incline": ("rise", "run"), "creeping": ("masses", "speeds"),
           "pressed": ("mass", "approach"), "tied": ("mass",), "broken": ("force",)}
 INSTEAD = {"kept_radius": ("chord", "sag")}  # the keys that may stand instead of one: the radius of an arc
+MAY_BE_ADDED = {"capstan": ("post_radius",)}
 SEVERAL = ("masses", "speeds")               # the keys with a list of readings
 NEEDED = ("diameter", "weighed", "stretched", "capstan")
 NEEDS = {"light_cantilever": "mandrel", "pulled": "mandrel"}  # of these groups, the one without which they tell nothing
@@ -131,7 +133,24 @@ def loop_stiffness(weight, length, height):
     return weight * length ** 3 / math.exp(np.interp(height / length, heights, np.log(heaviness)))
 
 
-# ---- friction: among fibres, and the speed of creep --------------------------------------------------------------
+# ---- friction: around a post, among fibres, and the speed of creep -----------------------------------------------
+
+
+def capstan_friction(m, h, heavy):
+    """mu, of which a mass `heavy` is the one that just does not slide. Friction acts at the surface of the rope and its tension at
+    the centreline, so that the tension grows by the factor e^(x angle) with (mu - mu_r) h' x^2 + x = mu (1 - h') + mu_r h', where h'
+    is the radius of the rope over that of its centreline, and mu_r resists rolling (doc/references.md, R15). Of a post whose radius
+    is not given, h' = 0."""
+    grown = math.log(heavy / m["capstan", "light"]) / m["capstan", "angle"]
+    if ("capstan", "post_radius") not in m:
+        return grown
+    thick = h / (m["capstan", "post_radius"] + h)
+    resists = m["incline", "rise"] / m["incline", "run"] if ("incline", "rise") in m else 0.0
+    left = 1 - thick * (1 + grown ** 2)
+    if left <= 0:
+        raise Wrong(f"capstan: around a post as thin as {m['capstan', 'post_radius']:.3g} m no friction at the surface of the rope gives "
+                    "this ratio of the masses; is post_radius in m? Else take a thicker post")
+    return (grown - resists * thick * (1 + grown ** 2)) / left
 
 
 def kept_curvature(m, group):
@@ -196,17 +215,21 @@ def creep(loads, speeds):
 # ---- from measurements to properties -------------------------------------------------------------------------------
 
 
+def limpness(here):
+    """k_s h^2/k_b."""
+    return here["stretching_stiffness"] * here["radius"] ** 2 / here["bending_stiffness"]
+
+
 def properties(m):
     """All that follows from the measurements, whose values are plain numbers by (group, key)."""
     h = m["diameter", ""] / 2
     per_length = m["weighed", "mass"] / m["weighed", "length"]
     out = {"radius": h, "density": per_length / (math.pi * h * h),
            "stretching_stiffness": m["stretched", "mass"] * GRAVITY * m["stretched", "length"] / m["stretched", "elongation"],
-           "friction_coefficient": math.log(m["capstan", "heavy"] / m["capstan", "light"]) / m["capstan", "angle"]}
+           "friction_coefficient": capstan_friction(m, h, m["capstan", "heavy"])}
     weight = per_length * GRAVITY
     out.update(bending(m, weight, h))
-    solid = out["stretching_stiffness"] * h * h < SOLID * out["bending_stiffness"]
-    out["twisting_stiffness"] = out["bending_stiffness"] * (2 / 3 if solid else 1)
+    out["twisting_stiffness"] = out["bending_stiffness"] * (2 / 3 if limpness(out) < SOLID else 1)
     if ("pressed", "mass") in m:
         out["contact_stiffness"] = (3 * m["pressed", "mass"] * GRAVITY /
                                     (8 * math.sqrt(h) * m["pressed", "approach"] ** 1.5))
@@ -217,9 +240,8 @@ def properties(m):
     if ("incline", "rise") in m:
         out["rolling_resistance"] = m["incline", "rise"] / m["incline", "run"]
     if ("creeping", "masses") in m:
-        light, count = m["capstan", "light"], m["creeping", "masses"]
-        limit = math.log(m["capstan", "heavy"] / light)
-        loads = [math.log(m["creeping", f"masses[{i}]"] / light) / limit for i in range(count)]
+        count = m["creeping", "masses"]
+        loads = [capstan_friction(m, h, m["creeping", f"masses[{i}]"]) / out["friction_coefficient"] for i in range(count)]
         out["rate"], out["rate_speed"] = creep(loads, [m["creeping", f"speeds[{i}]"] for i in range(count)])
     return out
 
@@ -281,8 +303,10 @@ def read_group(group, content):
     for key, others in INSTEAD.items():
         if key in keys and isinstance(content, dict) and key not in content and set(content) & set(others):
             keys = tuple(name for name in keys if name != key) + others
+    keys += tuple(key for key in MAY_BE_ADDED.get(group, ()) if isinstance(content, dict) and key in content)
     if not isinstance(content, dict) or set(content) != set(keys):
         others = "".join(f"; instead of {key}, {' and '.join(INSTEAD[key])} will do" for key in GROUPS[group] if key in INSTEAD)
+        others += "".join(f"; {key} may be added" for key in MAY_BE_ADDED.get(group, ()))
         raise Wrong(f"{group} must be a map with the keys " + ", ".join(GROUPS[group]) + others)
     out = {}
     for key in keys:
@@ -291,7 +315,8 @@ def read_group(group, content):
             continue
         several = content[key]
         if not isinstance(several, list) or len(several) < 2 or len(several) != len(content[keys[0]]):
-            raise Wrong(f"{group}.{key} must be a list of two readings or more, as many as {group}.{keys[0]}")
+            other = next(name for name in keys if name in SEVERAL and name != key)
+            raise Wrong(f"{group}.{key} must be a list of two readings or more, as many as {group}.{other}")
         out[key] = len(several), 0.0
         out.update({f"{key}[{i}]": measured(f"{group}.{key}[{i}]", reading) for i, reading in enumerate(several)})
     return out
@@ -331,6 +356,10 @@ def read(text):
     low, high = 1e-5, 0.05
     if not low <= values["diameter", ""] / 2 <= high:
         raise Wrong(f"diameter is {values['diameter', '']:g} m, but must be {2 * low:g} to {2 * high:g} m; is it in metres?")
+    # Before what follows from it: grams given as kilograms end here.
+    density = values["weighed", "mass"] / values["weighed", "length"] / (math.pi * (values["diameter", ""] / 2) ** 2)
+    if not 10 <= density <= 25e3:
+        raise Wrong(f"{which_density(density)} A method takes 10 to 25000 kg/m3")
     return given, values, errors
 
 
@@ -345,7 +374,7 @@ HOW = {"radius": "measured: half the diameter", "density": "measured: mass over 
        "friction_moment": "measured: kept bend", "stick_ratio": "measured: light over heavy cantilever",
        "compaction": "measured: kept bend after a pull", "rolling_resistance": "measured: incline"}
 # Of the numbers that may come out wrong, those which a method takes, and the group that gives them.
-TAKEN = (("stick_ratio", 1.01, 1e3, "light_cantilever"), ("compaction", 0.0, 1.0, "pulled"),
+TAKEN = (("friction_coefficient", 0.0, 5.0, "capstan"), ("stick_ratio", 1.01, 1e3, "light_cantilever"), ("compaction", 0.0, 1.0, "pulled"),
          ("rolling_resistance", 0.0, 1.0, "incline"), ("rate_speed", 1e-9, 1.0, "creeping"))
 
 
@@ -376,9 +405,11 @@ def material(given, here, errors):
 def in_words(here):
     """The rod in numbers that a person can check."""
     area = math.pi * here["radius"]**2
+    limp = limpness(here) / 4
+    bent = f"1/{float(f'{limp:.2g}'):.0f}" if limp > 2 else f"{1 / limp:.2g} times"
     return (f"{1e3 * here['density'] * area:.3g} g/m at a diameter of {2e3 * here['radius']:.3g} mm, E = {modulus(here):.2g} GPa "
-            f"stretched, friction {here['friction_coefficient']:.2g}; bent a solid rod of this E would be "
-            f"{here['stretching_stiffness'] * here['radius']**2 / (4 * here['bending_stiffness']):.2g} times as stiff")
+            f"stretched, friction {here['friction_coefficient']:.2g}; in bending {bent} as stiff as a solid rod of this E"
+            + (", as ropes are" if ROPE < limpness(here) < 4e6 else ""))
 
 
 def modulus(here):
@@ -386,11 +417,15 @@ def modulus(here):
     return 1e-9 * here["stretching_stiffness"] / (math.pi * here["radius"]**2)
 
 
+def which_density(density):
+    return (f"the density is {density:.3g} kg/m3, and cork has 200, water 1000, steel 7850: is weighed.mass in kg, and are "
+            "weighed.length and the diameter in m?")
+
+
 def questions(here):
     """What no rod is like: most likely a slip of a unit. The limits are those of src/verdict/foreseen.cpp."""
     if not 150 <= here["density"] <= 12000:
-        yield (f"the density is {here['density']:.3g} kg/m3, and cork has 200, water 1000, steel 7850: is weighed.mass in kg, and are "
-               "weighed.length and the diameter in m?")
+        yield which_density(here["density"])
     if not 1e-5 <= modulus(here) <= 1.5e3:
         yield (f"E is {modulus(here):.3g} GPa, and rubber has 0.001, nylon 2, steel 200: is stretched.mass in kg, are stretched.length "
                "and stretched.elongation in m?")
@@ -409,6 +444,9 @@ def questions(here):
 def warnings(here, errors, values):
     yield from questions(here)
     h = here["radius"]
+    if limpness(here) > ROPE and "friction_moment" not in here:
+        yield ("it is a rope, but its bends are taken as elastic, with which the knots of most ropes open: measure cantilever and mandrel, "
+               "which tell how its fibres rub")
     if ("pressed", "approach") in values and values["pressed", "approach"] > STIFFENING_DEPTH * h:
         yield (f"the strands were pressed {values['pressed', 'approach'] / h:.3f} radii together; beyond {STIFFENING_DEPTH} the "
                "simulated contact stiffens by itself, so that it will be too stiff")

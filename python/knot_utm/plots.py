@@ -193,8 +193,8 @@ def numbers_of_curves(table, keys, cases, runs):
 def _at_instants(row, curve):
     time, distance = _from(curve, *(ACROSS["knot_distance"][i] for i in (1, 0)), "knot_distance")
     seen = np.array([t for t in INSTANTS if len(time) and t <= time[-1]])
-    found = pd.DataFrame({"time": seen, "knot_distance": np.interp(seen, time, distance) if len(seen) else seen})
-    return found.assign(**{key: [row[key]] * len(seen) for key in row.index if key not in found})
+    return pd.DataFrame({**{key: [row[key]] * len(seen) for key in row.index}, "time": seen,
+                         "knot_distance": np.interp(seen, time, distance) if len(seen) else seen})
 
 
 def _from(curve, phase, across, result):

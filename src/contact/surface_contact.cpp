@@ -420,8 +420,8 @@ std::size_t linearise_next(const Friction& friction, const std::vector<ContactPo
 
 }  // namespace
 
-double RollingResistance::growth_of_hysteresis(double alpha, double radius, double stretching_stiffness) {
-  return 2.0 * alpha / (3.0 * M_PI) * std::sqrt(3.0 * radius / stretching_stiffness);
+double RollingResistance::growth_of_hysteresis(double lost, double radius, double stretching_stiffness) {
+  return 2.0 * lost / (3.0 * M_PI) * std::sqrt(3.0 * radius / stretching_stiffness);
 }
 
 FrictionMemory remember(const Friction& friction, const RollingResistance& rolling, const ContactPoint& contact,

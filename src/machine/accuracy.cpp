@@ -66,6 +66,13 @@ Tolerances of(Accuracy accuracy, const PhysicsOptions& physics, const SpecimenOp
   return out;
 }
 
+/// By how much the error of a plateau is larger where friction among fibres nearly locks the knots.
+double near_locking(const Material& material) {
+  const double moment = material.bending.value("friction_moment").value_or(0.0);
+  const double near = moment * material.friction_coefficient / kNearLocking;
+  return 1.0 + near * near;
+}
+
 /// Whether friction and bends go together as in the studies: friction on centrelines with elastic bends, or the whole
 /// couple of friction at the surface with fibres that rub.
 bool studied_section(const Material& material, const PhysicsOptions& physics) {
@@ -133,7 +140,7 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   out.rolls = rod.rolls;
   const double opposite_plateau = rod.rolls ? kOppositeRollingPlateau : kOppositePlateau,
                opposite_lock = rod.rolls ? kOppositeRollingLock : kOppositeLock;
-  out.plateau_force = coarse * (opposite ? opposite_plateau : kPlateau * slippery);
+  out.plateau_force = coarse * (opposite ? opposite_plateau : kPlateau * slippery * near_locking(material));
   out.lock_extension = coarse * (opposite ? opposite_lock : rod.rolls && !solid ? kRollingLock : kLock);
   if (rod.rolls && opposite) return out;  // its stiffness is one of a distribution, of which no fraction holds
   out.locked_stiffness = of_strands * (solid       ? kSolidsStiffnessOfKnots * h / specimen.end_to_end

@@ -26,9 +26,9 @@ constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which a law
 // and specimen.preload= at draft).
 constexpr double kLargestStrain = 5.0;  // by a pre-load [-]
 constexpr double kMuchStretch = 0.2;    // by choice: no shipped rope is stretched by a tenth of it as it is tied [-]
-// The limits follow from runs of ropes. Of those that were tied with 2 to 8 k_b/h^2, 41 of 43 opened or jumped open
-// with a friction of 0.3 to 0.5, and 5 of 111 with more; of those with 20 to 60 k_b/h^2, 12 of 34 did (the Sobol
-// sequence of config/studies/pattern_map.yaml).
+// The limits follow from runs of ropes that bend elastically, with friction on centrelines. Of those that were tied
+// with 2 to 8 k_b/h^2, 41 of 43 opened or jumped open with a friction of 0.3 to 0.5, and 5 of 111 with more; of those
+// with 20 to 60 k_b/h^2, 12 of 34 did (the Sobol sequence of config/studies/pattern_map.yaml).
 constexpr double kHoldsLoosely = 0.5, kLimp = 300.0;    // friction [-]; k_s h^2/k_b of a rope [-]
 constexpr double kTightly = 20.0, kVeryTightly = 60.0;  // [k_b/h^2]
 constexpr double kMetal = 20e9;  // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
@@ -53,6 +53,7 @@ std::string automatic_warning(double preload, double stretch, const Material& ma
   const std::string which = "the automatic pre-load of " + short_number(preload) + " N";
   const std::string set = "; set specimen.preload or material.tying_preload to the load that your knots are tied with";
   if (stretch > kMuchStretch) return which + " stretches the rod by " + short_number(100.0 * stretch) + " %" + set;
+  if (remembers_bends(material)) return "";  // 4 of 4 of nylon's specimens hold that are tied so
   if (material.stretching_stiffness <= kLimp * force || material.friction_coefficient >= kHoldsLoosely) return "";
   return which + " is little for a rope whose friction is below " + short_number(kHoldsLoosely) +
          ": most knots that are tied so open, while most hold that are tied with " + short_number(kTightly * force) +

@@ -1,8 +1,11 @@
 #include "knot_utm/machine/frame.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/material.hpp"
 
@@ -16,7 +19,8 @@ constexpr double kInertia = 3.0;  // m/m_a
 
 }  // namespace
 
-Frame::Frame(double stiffness, const Material& material, int strands, double around) : stiffness_(stiffness) {
+Frame::Frame(double stiffness, const Material& material, int strands, double around)
+    : stiffness_(stiffness), specimen_(std::numeric_limits<double>::max()) {
   if (!(stiffness > 0.0)) throw InvalidInput("machine.stiffness", std::to_string(stiffness), "more than 0 N/m");
   const double line_density = material.density * M_PI * material.radius * material.radius;
   strands_ = strands * material.stretching_stiffness;
@@ -28,8 +32,25 @@ bool Frame::rigid() const { return std::isinf(stiffness_); }
 
 double Frame::grip_after(double grip, double displacement, double force, double length, double dt) const {
   if (rigid()) return displacement;
-  const double resistance = strands_ / length + (damping_ + mass_ / dt) / dt;
+  const double resistance = std::min(specimen_, strands_ / length) + (damping_ + mass_ / dt) / dt;
   return grip + (stiffness_ * (displacement - grip) - force) / (stiffness_ + resistance);
 }
+
+bool Frame::passed_balance(double moved, double grip, double displacement, double force, double length, double dt,
+                           double least) const {
+  constexpr double kMuch = 0.1;
+  if (rigid() || (damping_ + mass_ / dt) / dt >= strands_ / length) return false;
+  const double too_much = force - stiffness_ * (displacement - grip);
+  return std::copysign(1.0, moved) * too_much > kMuch * std::abs(force) + least;
+}
+
+void Frame::follow(double moved, double gained, double length) {
+  constexpr double kForgets = 0.5;
+  if (moved == 0.0) return;
+  const double taut = strands_ / length;
+  specimen_ = std::min(taut, std::max(gained / moved, kForgets * std::min(specimen_, taut)));
+}
+
+void Frame::state(Archive& archive) { archive(specimen_); }
 
 }  // namespace knot_utm

@@ -186,6 +186,13 @@ double Grips::force_upper(const TimeStep& step) const {
   return sum;
 }
 
+double Grips::tried_force_upper(const TimeStep& step) const {
+  if (on_rollers()) return -step.tried_roller_force(1)[2];
+  double sum = 0.0;
+  for (const FixedNode& node : upper_nodes_) sum += step.tried_reaction(node.node)[2];
+  return sum;
+}
+
 double Grips::force_lower(const TimeStep& step) const {
   if (on_rollers()) return step.readings().roller_force(0)[2];
   double sum = 0.0;

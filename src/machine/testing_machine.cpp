@@ -38,6 +38,7 @@ constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
 constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
+constexpr double kLeastPassed = 1e-2;    // by which the grip may pass the balance of forces [k_b/h^2]
 constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for
 
 }  // namespace
@@ -63,6 +64,7 @@ struct TestingMachine::Impl {
   double displacement = 0.0;  // of the crosshead [m]
   double grip = 0.0;          // of the upper grip, the same on a rigid frame [m]
   double grip_tried = 0.0;    // in the step that is being made
+  double borne_before = 0.0;  // by the upper grip as that step begins, on a frame that gives [N]
   double extension_zero = 0.0, raw_extension_zero = 0.0;
   double recoil_end = 0.0;  // of a rod that has just parted [s]
   BreakPlace break_place = BreakPlace::kNone;
@@ -120,6 +122,12 @@ struct TestingMachine::Impl {
                     centreline.points, centreline.windings());
     }
     if (can_part(material)) watch_for_break(kNearBreak * options.longest);
+    if (breaks || !frame.rigid())
+      stepper->refuse_by([this](const Points& end, double dt) {
+        const std::string why = refuse(end, dt);
+        refused = !why.empty();
+        return why;
+      });
     extension_zero = grips.end_to_end(grip);
     has_weight = !specimen.to_be_tied;
   }
@@ -130,8 +138,9 @@ struct TestingMachine::Impl {
     stepper->set_gravity(part * gravity);
   }
 
-  /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
-  /// to turn has no twist where friction acts on its centreline; nor has one that stays straight.
+  /// `auto`: where frames are held at two places or friction rolls strands, of a rod that does not stay straight; or
+  /// where its bends are remembered, or it is twisted at rest. A rod whose ends are free to turn has no twist where
+  /// friction acts on its centreline.
   bool solves_for_twist(const RodProperties& rod, const RodState& state) const {
     switch (physics.twist) {
       case TwistMode::kOn:
@@ -155,9 +164,8 @@ struct TestingMachine::Impl {
     travel_tried = travel;
     refused = false;
     // This depends on the last accepted state only, so that a step that is tried again begins from the same.
-    grip_tried = frame.rigid()
-                     ? travel
-                     : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
+    if (!frame.rigid()) borne_before = grips.force_upper(*stepper);
+    grip_tried = frame.grip_after(grip, travel, borne_before, held_length(from, to), to - from);
     grips.set(grip_tried, loop ? loop->left_to_put_on(to) : 0.0, boundary);
     grips.turn_rollers(to, boundary.rollers);
     apply_gravity(to);
@@ -210,11 +218,18 @@ struct TestingMachine::Impl {
 
   void watch_for_break(double shortest) {
     breaks.emplace(shortest, most_exposed(material, stepper->rod(), stepper->state().position));
-    stepper->refuse_by([this](const Points& end, double dt) {
-      const std::string why = parted() ? "" : breaks->refuse(most_exposed(material, stepper->rod(), end), dt);
-      refused = !why.empty();
-      return why;
-    });
+  }
+
+  /// Why a step that was solved is none that the rod and the machine make. Empty: it is.
+  std::string refuse(const Points& end, double dt) const {
+    if (parted()) return "";
+    if (breaks)
+      if (std::string why = breaks->refuse(most_exposed(material, stepper->rod(), end), dt); !why.empty()) return why;
+    const double least = kLeastPassed * material.bending_stiffness / (material.radius * material.radius);
+    const bool passed =
+        frame.passed_balance(grip_tried - grip, grip_tried, travel_tried, grips.tried_force_upper(*stepper),
+                             held_length(time, time + dt), dt, least);
+    return passed ? "the grip passed the balance of the forces of specimen and frame" : "";
   }
 
   /// After an accepted step: does the rod part? The next step ends where at this pace it will.
@@ -332,6 +347,7 @@ struct TestingMachine::Impl {
     archive.require(parted() == (status == BenchStatus::kBroken), "status of a rod that parted",
                     break_place_name(break_place));
     archive(control, cell, *stepper, grips);
+    if (!frame.rigid()) archive(frame);
     archive.same("loop", loop ? 1 : 0);
     archive.same("knot", watch ? 1 : 0);
     if (loop) archive(*loop);
@@ -357,7 +373,9 @@ struct TestingMachine::Impl {
           displacement = mounts()            ? travel_tried
                          : to < command.time ? start.displacement + speed * (to - start.time)
                                              : command.displacement;
+          const double moved = grip_tried - grip;
           grip = frame.rigid() ? displacement : grip_tried;
+          if (!frame.rigid()) frame.follow(moved, grips.force_upper(*stepper) - borne_before, held_length(to - dt, to));
           work += stepper->readings().work();
           if (loop) loop->follow(phase, {to, displacement, grip}, dt);
           judge_break(dt);

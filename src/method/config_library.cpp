@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What shipped materials have had since release 1.
-constexpr std::array kSinceFirstRelease{"bending_law", "friction_moment",    "stick_ratio",
-                                        "compaction",  "rolling_resistance", "friction_couple"};
+/// The keys that shipped materials have gained after release 1.
+constexpr std::array kSinceFirstRelease{"bending_law",        "friction_moment",    "stick_ratio",    "compaction",
+                                        "rolling_resistance", "rolling_hysteresis", "friction_couple"};
 
 bool is_shipped(const std::string& kind, const fs::path& file) {
   const std::vector<std::string> shipped = shipped_folders();

@@ -274,6 +274,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     }
     check_method(method);
     keep_own_keys(method);
+    check_scatter(method);
     keep_automatic(noted, method);
     return method;
   } catch (const OutOfRange&) {

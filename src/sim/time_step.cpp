@@ -55,6 +55,8 @@ class ImplicitStep final : public TimeStep {
   }
 
   const StepReadings& readings() const override { return readings_; }
+  Vec3 tried_reaction(int node) const override { return -to_vec3(equation_.force[static_cast<std::size_t>(node)]); }
+  Vec3 tried_roller_force(int roller) const override { return readings_.tried_roller_force(roller); }
 
   void state(Archive& archive) override {
     archive.section("STEP");

@@ -45,6 +45,20 @@ TEST(RelativeErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
   EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.096);
 }
 
+/// Friction among fibres that nearly locks the knots makes small errors of the mesh large.
+TEST(RelativeErrors, GrowAsKnotsNearlyLockThemselves) {
+  Loop loop;
+  loop.material.friction_couple = 1.0;
+  loop.material.friction_coefficient = 0.9;
+  const auto with_moment = [&loop](double moment) {
+    loop.material.bending.law = static_cast<BendingLaw>(2);
+    loop.material.bending.set("friction_moment", moment);
+    return loop.errors().plateau_force.value();
+  };
+  EXPECT_NEAR(with_moment(0.07 / 0.9), 2.0 * with_moment(0.0), 1e-12);
+  EXPECT_NEAR(with_moment(0.14 / 0.9), 5.0 * with_moment(0.0), 1e-12);
+}
+
 /// Nylon's edges are shorter, as it is tied hard, and its error is smaller with their square.
 TEST(RelativeErrors, OfTheMethodOfTheFirstReleaseNeedNoWarning) {
   const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml", {"compatibility=1"});
@@ -88,7 +102,8 @@ TEST(RelativeErrors, AreGivenForStrandsThatRollAsTheStudyHadThem) {
                                  {"material=polypropylene", "specimen.edge_length=0.003175", change});
     return relative_errors(m.specimen, m.material, m.machine, m.physics);
   };
-  EXPECT_NEAR(errors("physics.accuracy=normal").plateau_force.value(), 0.048 * 0.8 / 0.63, 1e-12);
+  const double near = 0.06 * 0.63 / 0.07;
+  EXPECT_NEAR(errors("physics.accuracy=normal").plateau_force.value(), 0.048 * 0.8 / 0.63 * (1.0 + near * near), 1e-12);
   EXPECT_NEAR(errors("physics.accuracy=normal").lock_extension.value(), 0.022, 1e-12);
   EXPECT_NEAR(errors("physics.accuracy=normal").locked_stiffness.value(), 0.030 * 0.8 / 0.63, 1e-12);
   for (const char* other :

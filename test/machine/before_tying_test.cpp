@@ -105,6 +105,10 @@ TEST(BeforeTying, AnAutomaticPreloadIsLittleForARopeOfLittleFriction) {
   EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("tied with 85.5 to 257 N")));
   loop.material.friction_coefficient = 0.55;
   EXPECT_THAT(loop.warnings(), IsEmpty());
+  loop.material.friction_coefficient = 0.45;
+  loop.material.bending.law = static_cast<BendingLaw>(2);
+  loop.material.bending.set("friction_moment", 0.06);
+  EXPECT_THAT(loop.warnings(), IsEmpty()) << "fibres that rub hold it";
 }
 
 TEST(BeforeTying, AStrainThatTheLooseCoilHasAlreadyIsRefusedAndThatOfATiedOneIsAWarning) {

@@ -49,6 +49,39 @@ TEST(Frame, TheGripComesToWhereForcesAreInBalanceFromOneSide) {
   }
 }
 
+/// A slack knot is a hundred thousand times softer than taut strands. The grip follows the balance of forces, lagging
+/// by K tau and the impedance of the strand at the speed of the crosshead only. As the knot tightens at once, the step
+/// is refused until the grip does not pass the balance by more than a tenth of the force.
+TEST(Frame, OnASlackSpecimenThatTightensTheGripStaysAtTheBalanceOfForces) {
+  constexpr double kSpeed = 3.3e-3, kLongest = 0.17, kTightens = 0.05;
+  const double soft = 1e-5 * kRod;
+  for (const double stiffness : {1e-3 * kRod, 1e-1 * kRod, kRod}) {
+    Frame frame(stiffness, nylon(), 1, 0.0);
+    const auto force = [&](double grip) { return soft * grip + kRod * std::max(0.0, grip - kTightens); };
+    double grip = 0.0, displacement = 0.0, dt = kLongest;
+    int refused = 0;
+    for (int i = 0; i < 400; ++i) {
+      dt = std::min(2.0 * dt, kLongest);
+      double next = 0.0, travel = 0.0;
+      for (;; dt *= 0.5, ++refused) {
+        travel = displacement + kSpeed * dt;
+        next = frame.grip_after(grip, travel, force(grip), kLength, dt);
+        if (!frame.passed_balance(next - grip, next, travel, force(next), kLength, dt, 0.0)) break;
+      }
+      frame.follow(next - grip, force(next) - force(grip), kLength);
+      grip = next;
+      displacement = travel;
+      const double too_much = force(grip) - stiffness * (displacement - grip);
+      ASSERT_LE(too_much, 0.1 * force(grip)) << stiffness << " N/m, step " << i;
+      if (i > 40 && grip < kTightens) {  // it begins as if the specimen were taut
+        EXPECT_LT(-too_much, 0.1 * kSpeed * kLongest * stiffness + kSpeed * 3e-3 * stiffness + 0.2);
+      }
+    }
+    EXPECT_GT(grip, kTightens);
+    EXPECT_GT(refused, 0);
+  }
+}
+
 /// A rod that snaps leaves the grip no time to jump.
 TEST(Frame, InShortStepsTheGripMovesLittle) {
   const Frame frame(1e5, nylon(), 1, 0.0);

@@ -70,8 +70,8 @@ struct SurfacePoint {
   Vec3 couple = Vec3::Zero();       ///< C [N m]
 };
 
-/// Resistance of contacts to rolling: a couple per length, against the rotation of two sections relative to each other
-/// about axes in the tangent plane,
+/// Resistance of contacts to rolling: a couple of each contact, against the rotation of two sections relative to each
+/// other about axes in the tangent plane,
 ///
 ///     C = -w mu_r(p) h p zeta,   zeta = y for |y| < 1, else y/|y|,   y = P rho/rho_s,
 ///     rho = rho_n + alpha n x rho_n + h (phi_a - phi_b),   P = 1 - n n^T.
@@ -80,8 +80,8 @@ struct SurfacePoint {
 /// springs, and rolls where the couple reaches mu_r h p. A cylinder on a plane rests up to a slope of mu_r. Source:
 /// Iwashita, Oda 1998 and Ai, Chen, Rotter, Ooi 2011 (elastic-plastic spring of granular mechanics), on line contacts.
 ///
-/// mu_r(p) = mu_0 + g sqrt(p). The second part is that of a wide contact whose material loses the fraction alpha of the
-/// work that goes into it (of_hysteresis).
+/// mu_r(p) = mu_0 + g sqrt(p). The second part is that of a wide contact whose material loses a fraction of the work
+/// that goes into it (growth_of_hysteresis).
 struct RollingResistance {
   double coefficient = 0.0;  ///< mu_0 [-]
   double radius = 0.0;       ///< h [m]
@@ -90,15 +90,15 @@ struct RollingResistance {
 
   bool on() const { return coefficient > 0.0 || growth > 0.0; }
 
-  /// g of solid rods that lie along each other and lose the fraction alpha of the work that goes into their contact.
+  /// g of solid rods that lie along each other and lose the fraction `lost` of the work that goes into their contact.
   /// Its half width by Hertz is a = sqrt(2 h p/(pi E')), E' = E/(2 (1 - nu^2)) with nu = 1/2, and k_s = pi h^2 E.
-  /// Rolling by a length takes up alpha 2 a p/(3 pi), which is mu_r h p over the radius:
+  /// The couple lost 2 a p/(3 pi) per length resists rolling, which is mu_r h p:
   ///
-  ///     mu_r = alpha 2 a/(3 pi h),   a = h sqrt(3 h p/k_s).
+  ///     mu_r = lost 2 a/(3 pi h),   a = h sqrt(3 h p/k_s).
   ///
   /// A roller is taken to be as soft and as thick as the rod. Source: Greenwood, Minshall, Tabor 1961; Johnson, Contact
   /// Mechanics, 9.4.
-  static double growth_of_hysteresis(double alpha, double radius, double stretching_stiffness);
+  static double growth_of_hysteresis(double lost, double radius, double stretching_stiffness);
 };
 
 /// How the feet of a contact between edges move (edge_contact.hpp): inverse of H, zero where a foot stays [1/m^2].

@@ -4,6 +4,7 @@
 
 namespace knot_utm {
 
+class Archive;
 struct Material;
 
 /// The machine's frame, load train and crosshead drive as one spring of stiffness K [N/m] between the crosshead, which
@@ -14,18 +15,19 @@ struct Material;
 ///
 ///     K (D' - g') = F + (k + c/dt + m/dt^2) (g' - g)        F at the beginning of the step
 ///
-/// n strands resist a motion of their grip by at most k + n Z/dt. k = n k_s/l is their stiffness once taut, over the
-/// length l from the grip to what else holds them. Z = sqrt(k_s rho A) is the impedance of the wave that the grip sends
-/// along each. The right-hand side is thus no less than F at the end of the step, and the grip approaches its place
-/// from one side, whatever K and dt are. c = n Z + K tau; tau stands for the inertia of crosshead and grip, without
-/// which they would whip to and fro when a rod snaps.
+/// k is the specimen's present stiffness. It is what F gained over the motion of the grip in the last step, or half of
+/// the k before where that is more, so that it rises at once and falls within some steps; never below zero, and never
+/// above n k_s/l, that of n taut strands of the length l from the grip to what else holds them, with which it begins.
+/// Z = sqrt(k_s rho A) is the impedance of the wave that the grip sends along each strand. c = n Z + K tau; tau stands
+/// for the inertia of crosshead and grip, without which they would whip to and fro when a rod snaps.
 ///
 /// The rod around a roller moves with it, so that F contains the inertia force of its mass m_a = rho A pi (r + h) in
 /// the last step. A motion that alternates from step to step decays, however small K and dt are, if m > 2 m_a: at m = 2
 /// m_a, (m + n Z dt) x^2 + (m_a + n Z dt) x - m_a has the root -1. Here m = 3 m_a.
 ///
 /// At rest F = K (D - g) exactly. In motion the spring bears more than F, by (k - dF/dg + c/dt + m/dt^2) (g' - g), so
-/// that the grip lags as if on a damper. The curve of F over g does not contain this lag.
+/// that the grip lags as if on a damper: a little, as k follows dF/dg. Where F stiffens at once, passed_balance asks
+/// for shorter steps. The curve of F over g does not contain this lag.
 class Frame {
  public:
   /// `strands`: their number n. `around`: length of rod around the grip [m]; 0 where the grip holds nodes. Throws
@@ -37,10 +39,20 @@ class Frame {
   /// g' [m] for a displacement D' of the crosshead at the end of a step of length dt [s]. `length` l of the strands
   /// [m].
   double grip_after(double grip, double displacement, double force, double length, double dt) const;
+  /// Whether a step that was solved moved the grip by `moved` to where the specimen bears more than the frame, by more
+  /// than a tenth of it and `least` [N]: it stiffened within the step, which is to be tried again in shorter ones.
+  /// Never in steps so short that a wave along taut strands bears all that the grip can gain.
+  bool passed_balance(double moved, double grip, double displacement, double force, double length, double dt,
+                      double least) const;
+  /// After an accepted step that moved the grip by `moved` [m] and changed its force by `gained` [N].
+  void follow(double moved, double gained, double length);
+
+  void state(Archive& archive);
 
  private:
   double stiffness_;  ///< K [N/m]
-  double strands_;    ///< k times their length [N]
+  double strands_;    ///< n k_s [N]
+  double specimen_;   ///< k, unless taut strands are softer [N/m]
   double damping_;    ///< c [N s/m]
   double mass_;       ///< m [kg]
 };

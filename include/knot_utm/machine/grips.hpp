@@ -61,6 +61,7 @@ class Grips {
   /// Force of the rod on each grip along z, tension positive [N]. That on the lower grip includes all posts and dead
   /// loads.
   double force_upper(const TimeStep& step) const;
+  double tried_force_upper(const TimeStep& step) const;  ///< of the step that is judged (TimeStep::refuse_by)
   double force_lower(const TimeStep& step) const;
 
  private:

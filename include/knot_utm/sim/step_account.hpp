@@ -37,8 +37,9 @@ struct ContactReading {
 /// every contact its weight w, pressure p, slip s in the step, overlap D and energy e(D) per length:
 ///
 ///   boundary     sum 1/2 (F_n + F) . dx, and what slipping grips, forces and gravity do at the end of the step
-///   friction     sum w mu p z . s, all work against friction. The energy of a presliding spring, less than
-///                mu p w xi_s/2 each, counts as lost until it is given back
+///   friction     sum w mu p z . u, all work against friction, u the slip of the surfaces, and the work against
+///                resistance to rolling. The energy of a presliding spring, less than mu p w xi_s/2 each, counts as
+///                lost until it is given back
 ///   drag         sum c lbar |dx|^2/dt
 ///   plastic      what bending dissipates by its law (bending_law.hpp)
 ///   numerical    that of the implicit Euler step, which takes all forces at its end:

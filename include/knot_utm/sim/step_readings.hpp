@@ -33,6 +33,8 @@ class StepReadings {
   /// Force of the rod on a roller [N], and its moment about the roller's centre [N m]; zero before the first accepted
   /// step, and where there is no such roller.
   Vec3 roller_force(int roller) const { return load_on(roller).force; }
+  /// The same of contacts as they were last evaluated [N].
+  Vec3 tried_roller_force(int roller) const { return rollers_now_.force_on(roller); }
   Vec3 roller_moment(int roller) const { return load_on(roller).moment; }
   /// How far a roller has turned about its axis since the first step, and its rate.
   RollerTurn roller_turn(int roller) const { return rollers_now_.turn(roller); }

@@ -89,6 +89,10 @@ class TimeStep {
   /// positions and the length [s] that it would have.
   void refuse_by(std::function<std::string(const Points& end, double dt)> judge) { judge_ = std::move(judge); }
 
+  // While `judge` is asked: what the solved step would have a node's holder, and a roller, bear [N].
+  virtual Vec3 tried_reaction(int node) const = 0;
+  virtual Vec3 tried_roller_force(int roller) const = 0;
+
   /// From now on `watcher` is called with every iterate; an empty one ends that.
   void watch(std::function<void(const Iterate&)> watcher) { watcher_ = std::move(watcher); }
 

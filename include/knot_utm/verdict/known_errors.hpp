@@ -28,9 +28,10 @@ struct ReadingErrors {
 };
 
 /// The errors consist of the effects of mesh and tolerances (`RunFacts::errors`) and, for forces and their slopes, of
-/// those of drag, inertia and the noise of the load cell. They are empty where the specimen had not come to rest, a
-/// knot opened or the knots were hardly closed (errors_of_hardly_closed), since no convergence study covers these
-/// cases. Those of more than half of the reading are left out.
+/// those of drag, inertia and the noise of the load cell. They are empty where the specimen had not come to rest or a
+/// knot opened, since no convergence study covers these cases, and where the knots were hardly closed and do not roll;
+/// where they roll, they are larger then (errors_of_hardly_closed). Those of more than half of the reading are left
+/// out.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts);
 
 }  // namespace knot_utm

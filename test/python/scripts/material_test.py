@@ -268,6 +268,38 @@ class Material(unittest.TestCase):
                               text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_a_thick_rope_around_a_post_gives_its_friction_back(self):
+        """The tension grows as that of a rope with friction at its surface (doc/references.md, R15), forwards."""
+        good = Rod(4, 2e-4, False).measured
+        radius, angle, rate, speed = 0.0025, 4 * math.pi, 0.05, 1e-5
+        for friction, resists, post in ((0.42, 0.0, 0.05), (0.42, 0.08, 0.02), (0.2, 0.05, 0.01)):
+            thick = radius / (post + radius)
+
+            def light_over_heavy(mu):
+                a, b, c = (mu - resists) * thick, 1.0, -mu * (1 - thick) - resists * thick
+                return math.exp(-angle * 2 * -c / (b + math.sqrt(b * b - 4 * a * c)))  # its positive root
+
+            heavy = 0.2 / light_over_heavy(friction)
+            speeds = [2 * speed, 50 * speed]
+            masses = [0.2 / light_over_heavy(friction * (1 + rate * math.log1p(v / speed))) for v in speeds]
+            measured = {**good, "diameter": [2 * radius, 1e-5],
+                        "capstan": {"angle": [angle, 0.05], "light": [0.2, 1e-4], "heavy": [heavy, 0.01 * heavy], "post_radius": [post, 1e-3]},
+                        "creeping": {"masses": [[m, 1e-4 * m] for m in masses], "speeds": [[v, 0.1 * v] for v in speeds]}}
+            if resists:
+                measured["incline"] = {"rise": [0.5 * resists, 1e-3], "run": [0.5, 1e-3]}
+            values, errors = material.read(yaml.safe_dump(measured))[1:]
+            here, uncertain = material.with_errors(values, errors)
+            self.assertAlmostEqual(here["friction_coefficient"], friction, places=9)
+            self.assertAlmostEqual(here["rate"] / rate, 1, places=5)
+            self.assertAlmostEqual(here["rate_speed"] / speed, 1, places=5)
+            without = {key: value for key, value in values.items() if key != ("capstan", "post_radius")}
+            self.assertLess(material.properties(without)["friction_coefficient"], friction)
+            # The uncertainty of the post goes in.
+            exact = material.with_errors(values, {**errors, ("capstan", "post_radius"): 0.0})[1]
+            of_post = math.sqrt(uncertain["friction_coefficient"] ** 2 - exact["friction_coefficient"] ** 2)
+            slope = (material.properties({**values, ("capstan", "post_radius"): post + 1e-6})["friction_coefficient"] - friction) / 1e-6
+            self.assertAlmostEqual(of_post / abs(slope * 1e-3), 1, delta=0.02)
+
     def test_of_a_small_sag_has_its_closed_form(self):
         for share in (0.002, 0.01):  # w l^4/(8 k_b) is the sag
             self.assertAlmostEqual(8.0 * share * material.cantilever_stiffness(1.0, 1.0, share), 1.0, delta=1e-3)
@@ -325,7 +357,12 @@ class Material(unittest.TestCase):
                 (has("pulled", mass=[0.02, 1e-4]), "pulled: compaction comes out as 1.86, but a method takes 0 to 1"),
                 (has("incline", rise=[0.6, 0.01]), "incline: rolling_resistance comes out as 1.2, but a method takes 0 to 1"),
                 (has("incline", angle=[0.1, 0.01]), "incline must be a map with the keys rise, run"),
-                (has("creeping", masses=[[4, 0.01]]), "creeping.masses must be a list of two readings or more"),
+                (has("creeping", masses=[[4, 0.01]]), "creeping.masses must be a list of two readings or more, as many as creeping.speeds"),
+                (has("capstan", post_radius=0.05), "capstan.post_radius is 0.05, but must be [value, uncertainty]"),
+                (has("capstan", post_radius=[2e-4, 1e-5]), "capstan: around a post as thin as 0.0002 m no friction"),
+                (has("capstan", post_radius=[4e-4, 1e-5]), "capstan: around a post as thin as 0.0004 m no friction"),
+                (has("capstan", post=[0.05, 1e-3]), "capstan must be a map with the keys angle, light, heavy; post_radius may be added"),
+                (has("weighed", mass=[160, 1]), "is weighed.mass in kg, and are weighed.length and the diameter in m? A method takes 10 to 25000 kg/m3"),
                 (has("creeping", masses=4), "creeping.masses must be a list"),
                 (has("creeping", speeds=speeds[:1]), "creeping.speeds must be a list of two readings or more, as many as creeping.masses"),
                 (has("creeping", speeds=[speeds[0], 1e-3]), "creeping.speeds[1] is 0.001, but must be"),
@@ -349,16 +386,28 @@ class Material(unittest.TestCase):
     def test_slips_of_units_are_asked_about(self):
         good = Rod(1, 2e-4, False).measured
         done = self.run_script(good)
-        self.assertRegex(done.stdout, r"rope.yaml: [0-9.]+ g/m at a diameter of [0-9.]+ mm, E = [0-9.e+-]+ GPa")
+        self.assertRegex(done.stdout, r"rope.yaml: [0-9.]+ g/m at a diameter of [0-9.]+ mm, E = [0-9.e+-]+ GPa stretched, friction 0.4\d?; "
+                                      r"in bending 1/\d+ as stiff as a solid rod of this E, as ropes are\n")
+        # It is a rope, whose fibres were not measured.
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertIn("its bends are taken as elastic", done.stderr)
+        solid = {**good, "stretched": {**good["stretched"], "elongation": [1000 * number for number in good["stretched"]["elongation"]]}}
+        done = self.run_script(solid)
         self.assertEqual(done.stderr, "")
+        self.assertIn("times as stiff as a solid rod of this E\n", done.stdout)
         def times(group, key, factor):
             return {**good, group: {**good[group], key: [factor * number for number in good[group][key]]}}
-        for measured, asked in ((times("weighed", "mass", 1000), "is weighed.mass in kg"),
-                                (times("stretched", "elongation", 1e-3), "is stretched.mass in kg"),
-                                (times("weighed", "length", 100), "is weighed.mass in kg, and are")):
+        for measured, asked in ((times("stretched", "elongation", 1e-3), "is stretched.mass in kg"),
+                                (times("weighed", "length", 10), "is weighed.mass in kg, and are")):
             done = self.run_script(measured)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn(asked, done.stderr)
+        os.remove(self.path("rope.yaml"))
+        for measured in (times("weighed", "mass", 1000), times("weighed", "length", 100)):  # no method takes such a rod
+            done = self.run_script(measured)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertIn("is weighed.mass in kg", done.stderr)
+            self.assertFalse(os.path.exists(self.path("rope.yaml")))
 
     def test_nothing_is_written_over(self):
         self.run_script(Rod(1, 2e-4, False).measured)
