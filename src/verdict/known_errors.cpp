@@ -15,10 +15,6 @@ namespace {
 constexpr double kOfStart = 0.1;      // of the larger force as the pull begins
 constexpr double kOfReading = 0.001;  // of the plateau force, or of the largest one where there is no plateau
 
-// At rest the strands of the knots and the far side bend the difference by nearly the rod's weight each, because what
-// holds the middle of the far side makes it as uneven as the side with the knots.
-constexpr double kOfWeight = 2.0;
-
 constexpr double kMeaningless = 0.5;  // an error that is more than this of the reading says nothing
 
 /// By how much a stiffness changes where the part that it is read from lies a little further along the curve: by twice
@@ -73,11 +69,11 @@ std::string why_not_at_rest(const Results& results, const RunFacts& facts) {
   const GripForces& start = *results.at_start;
   const double larger = std::max(std::abs(start.upper), std::abs(start.lower));
   const double reading = results.true_plateau_force.value_or(results.true_peak_force.value_or(0.0));
-  const double most = std::max(kOfStart * larger, kOfReading * std::abs(reading)) + kOfWeight * facts.weight;
+  const double most = std::max(kOfStart * larger, kOfReading * std::abs(reading)) + kDifferByWeight * facts.weight;
   if (!(start.difference() > most)) return {};
   return "the specimen was not at rest as its pull began: its grips bore " + short_number(start.upper) + " and " +
          short_number(start.lower) + " N, which " +
-         (facts.weight > 0.0 ? "at rest differ by at most " + short_number(kOfWeight * facts.weight) + " N"
+         (facts.weight > 0.0 ? "at rest differ by at most " + short_number(kDifferByWeight * facts.weight) + " N"
                              : "would be the same at rest") +
          "; hold it longer before, or pull more slowly";
 }

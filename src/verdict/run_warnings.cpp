@@ -100,17 +100,26 @@ class Warnings {
           short_number(plateau) + " N: see true_plateau_force");
   }
 
-  /// An overhand whose pull left it a loose loop: a straight pin fits into it that is thicker than the strand that a
-  /// closed knot has there. Friction and fibres that rub hold a loop open that the force alone would close.
+  /// An overhand whose pull left it a loose loop. At rest the thickest pin that fits into it tells. Else its force
+  /// does: a loop of the radius R under the tension T has 2 T R^2 = k_b, and is wider with friction and fibres that
+  /// rub.
   void of_a_loose_knot() {
-    constexpr double kLoose = 1.5;  // by choice: hole of a loose knot over the diameter of the rod
+    constexpr double kLoose = 1.5;   // by choice: hole of a loose knot over the diameter of the rod
+    constexpr double kClosed = 2.0;  // radius of a loop that lies on the strands in it [h]
+    const double force = results_.true_peak_force.value_or(0.0), h = facts_.material.radius;
     const bool whole = results_.knot_type == KnotType::kKept && results_.break_place == BreakPlace::kNone;
-    const double diameter = 2.0 * facts_.material.radius;
-    if (!facts_.one_knot_in_a_strand || !whole || !facts_.knot_hole || !results_.true_peak_force) return;
-    if (*facts_.knot_hole <= kLoose * diameter) return;
-    say("the knot was still loose as the test ended: a pin of " + short_number(*facts_.knot_hole / diameter) +
-        " times the diameter of the rod fits into it, and the largest force was " +
-        short_number(*results_.true_peak_force) + " N; a longer pull brings it tight");
+    if (!facts_.one_knot_in_a_strand || !whole || !(force > 0.0)) return;
+    const std::string begin = "the knot was still loose as the test ended: the largest force, " + short_number(force) +
+                              " N, leaves ",
+                      end = "; a longer pull brings it tight";
+    if (facts_.knot_hole) {
+      const double hole = *facts_.knot_hole / (2.0 * h);
+      if (hole > kLoose) say(begin + "it a hole of " + short_number(hole) + " times the diameter of the rod" + end);
+      return;
+    }
+    const double radius = std::sqrt(facts_.material.bending_stiffness / (2.0 * force)) / h;
+    if (radius > kClosed)
+      say(begin + "its loop a radius of at least " + short_number(radius) + " radii of the rod" + end);
   }
 
   /// The weight of strands and tails may change the sliding force, or the largest force where nothing slides.
@@ -186,9 +195,9 @@ class Warnings {
     const std::string moved = why_not_at_rest(results_, facts_);
     say(moved);
     if (!moved.empty() || !results_.force_balance_error || !results_.true_peak_force) return;
-    if (*results_.force_balance_error > kForcesDiffer + facts_.weight / *results_.true_peak_force)
+    if (*results_.force_balance_error > kForcesDiffer + kDifferByWeight * facts_.weight / *results_.true_peak_force)
       say("the forces on the two grips differ by up to " + short_number(100.0 * *results_.force_balance_error) +
-          " % of the largest one, where at rest they are the same: pull more slowly");
+          " % of the largest one, more than at rest: pull more slowly");
   }
 
   void say(const std::string& line) {

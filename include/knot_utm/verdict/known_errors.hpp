@@ -16,6 +16,10 @@ std::string why_not_at_rest(const Results& results, const RunFacts& facts);
 /// sliding.
 bool slid_to_the_end(const Results& results);
 
+/// By how many weights of the rod the forces on two grips may differ at rest. What holds the middle of a loop's far
+/// side makes that side as uneven as the one with the knots, which has most of the weight.
+inline constexpr double kDifferByWeight = 2.0;
+
 /// Whether knots whose errors were studied slid under so small a force that they were hardly closed.
 bool knots_hardly_closed(const Results& results, const RunFacts& facts);
 
