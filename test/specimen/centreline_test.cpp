@@ -323,6 +323,29 @@ TEST(FromPoints, SaysWhereStrandsLieThroughEachOther) {
   EXPECT_NEAR(second, 0.3 + std::hypot(0.05, 0.1), 1e-2);
 }
 
+/// A strand that lies half around a straight one. Between its nodes the polyline is nearer than a
+/// diameter, whereas the smooth strand touches. The same around an axis that is 0.1 h nearer is refused.
+TEST(FromPoints, TakesStrandsThatTouchAlongTheSmoothCentreline) {
+  constexpr double h = 3e-3;
+  const auto wound = [](double radius) {
+    std::vector<Vec3> path = {{0.0, 0.0, -20.0 * h},
+                              {0.0, 0.0, 20.0 * h},
+                              {20.0 * h, 0.0, 24.0 * h},
+                              {20.0 * h, -20.0 * h, 0.0},
+                              {radius, -20.0 * h, 0.0}};
+    for (int i = 0; i <= 12; ++i) {
+      const double angle = M_PI / 12.0 * i;
+      path.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    }
+    path.emplace_back(-radius, -20.0 * h, 0.0);
+    Points out(3, static_cast<Eigen::Index>(path.size()));
+    for (std::size_t i = 0; i < path.size(); ++i) out.col(static_cast<Eigen::Index>(i)) = path[i];
+    return out;
+  };
+  EXPECT_EQ(refusal(wound(2.0 * h), h, h), "");
+  EXPECT_THAT(refusal(wound(1.9 * h), h, h), testing::HasSubstr("strands overlap"));
+}
+
 TEST(FromPoints, RefusesALoopSoSmallThatItsStrandsAreNeighbours) {
   // Of 6.3 mm, where strands up to 14 mm apart along the rod may lie nearer than a diameter.
   const double radius = 3e-3, loop = 1e-3;
