@@ -140,7 +140,9 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   out.rolls = rod.rolls;
   const double opposite_plateau = rod.rolls ? kOppositeRollingPlateau : kOppositePlateau,
                opposite_lock = rod.rolls ? kOppositeRollingLock : kOppositeLock;
-  out.plateau_force = coarse * (opposite ? opposite_plateau : kPlateau * slippery * near_locking(material));
+  out.plateau_force =
+      coarse *
+      (opposite ? opposite_plateau : (rod.rolls ? kRollingPlateau * near_locking(material) : kPlateau) * slippery);
   out.lock_extension = coarse * (opposite ? opposite_lock : rod.rolls && !solid ? kRollingLock : kLock);
   if (rod.rolls && opposite) return out;  // its stiffness is one of a distribution, of which no fraction holds
   out.locked_stiffness = of_strands * (solid       ? kSolidsStiffnessOfKnots * h / specimen.end_to_end

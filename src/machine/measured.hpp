@@ -35,10 +35,12 @@ inline constexpr double kTiedHard = 6.0, kShortestForHard = 4.0 / 3.0;
 // steps of 0.025 s at most. They were chosen from loops that `scripts/bench readings` draws with seeds 41, 42, 44
 // and 46. doc/developers/benchmarks.md says how many of these draws, and of others, they include. Two knots of the same
 // handedness: nearly all plateaus are too low, and the more so the smaller mu is.
-inline constexpr double kPlateau = 0.048, kSlippery = 0.8, kLeastFriction = 0.1;
+// Seeds 71 and 81 had three loops with friction on centrelines, whose plateaus were off by 4.8 to 5.5 %; 0.048 was too
+// little for them, but includes all that roll.
+inline constexpr double kPlateau = 0.06, kRollingPlateau = 0.048, kSlippery = 0.8, kLeastFriction = 0.1;
 // Where strands roll and friction among fibres holds bends, the force grows faster than M0 mu as the knots come near to
 // locking themselves, and so does its error: by 1 + (M0 mu/kNearLocking)^2, with M0 in k_b/h. This includes all
-// plateaus of seeds 61, 62 and 71 whose knots have the same handedness and are closed.
+// plateaus of seeds 61, 62, 71 and 81 whose knots have the same handedness and are closed.
 inline constexpr double kNearLocking = 0.07;
 // Two knots of opposite handedness: the plateau is one of a distribution. Small changes of mesh, tolerances or specimen
 // move it by as much, in either direction, whatever mu is.

@@ -40,9 +40,9 @@ TEST(RelativeErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
   Loop loop;
   loop.specimen.edge_length = loop.material.radius;
   loop.material.friction_coefficient = 0.9;
-  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.048);
+  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.06);
   loop.material.friction_coefficient = 0.4;
-  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.096);
+  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.12);
 }
 
 /// Friction among fibres that nearly locks the knots makes small errors of the mesh large.
@@ -65,8 +65,8 @@ TEST(RelativeErrors, OfTheMethodOfTheFirstReleaseNeedNoWarning) {
   const RelativeErrors errors = relative_errors(shipped.specimen, shipped.material, shipped.machine, shipped.physics);
   EXPECT_NEAR(shipped.specimen.edge_length / shipped.material.radius, 1.008, 5e-4);
   const double edges = 1.008 * 2.25 / 3.0;
-  EXPECT_NEAR(errors.plateau_force.value(), (0.6 + 0.4 * edges * edges) * 0.048 * 0.8 / 0.46, 5e-5);
-  EXPECT_LT(errors.plateau_force.value(), 0.075);
+  EXPECT_NEAR(errors.plateau_force.value(), (0.6 + 0.4 * edges * edges) * 0.06 * 0.8 / 0.46, 5e-5);
+  EXPECT_LT(errors.plateau_force.value(), 0.09);
   const double force = *plateau().true_plateau_force;
   EXPECT_EQ(accuracy_warning(plateau(), {*errors.plateau_force * force, {}, {}, {}}), "");
   EXPECT_NE(accuracy_warning(plateau(), {0.11 * force, {}, {}, {}}), "");
