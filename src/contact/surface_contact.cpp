@@ -378,12 +378,10 @@ class FourSurfaces {
   Lanes turning_, stiffness_;
   FourVectors pressing_, force_, m_;
   // Of the resistance to rolling.
-  bool resists_ = false;
-  double radius_ = 0.0;
   FourVectors rho_, rolled_, unit_, couple_ = {}, couple_pressing_;
   Lanes couple_across_, couple_along_;
-  double carried_ = 0.0;
-  bool on_roller_;
+  double radius_ = 0.0, carried_ = 0.0;
+  bool on_roller_, resists_ = false;
 };
 
 /// phi_a + phi_b

@@ -124,7 +124,7 @@ struct TestingMachine::Impl {
     if (can_part(material)) watch_for_break(kNearBreak * options.longest);
     if (breaks || !frame.rigid())
       stepper->refuse_by([this](const Points& end, double dt) {
-        const std::string why = refuse(end, dt);
+        std::string why = refuse(end, dt);
         refused = !why.empty();
         return why;
       });
