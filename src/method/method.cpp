@@ -163,22 +163,6 @@ void set_creep(FrictionLaw law, double speed, FrictionOptions& friction) {
       friction.set(key.name, speed);
 }
 
-/// A law has the plain values of its own keys that were not given. Keys of other laws, which have no effect, go.
-template <class Registry, class Number>
-void keep_own_keys(LawOptions<Number>& law) {
-  const LawEntry& chosen = Registry::entry(law.law);
-  for (const LawKey& key : Registry::keys()) {
-    if (!chosen.has(key.name)) law.set(key.name, std::nullopt);
-    if (chosen.has(key.name) && key.otherwise == LawDefault::kPlain) law.set(key.name, law.number(key));
-  }
-}
-
-void keep_own_keys(Method& method) {
-  keep_own_keys<FrictionRegistry>(method.physics.friction);
-  keep_own_keys<StretchingRegistry>(method.material.stretching);
-  keep_own_keys<BendingRegistry>(method.material.bending);
-}
-
 /// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of
 /// the rest. Notes the keys whose values are `automatic`.
 Method read_method(const YAML::Node& root, const std::string& file, const ConfigLibrary& library, const Method* known,
@@ -274,7 +258,6 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     }
     check_method(method);
     keep_own_keys(method);
-    check_scatter(method);
     keep_automatic(noted, method);
     return method;
   } catch (const OutOfRange&) {

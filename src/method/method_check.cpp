@@ -244,6 +244,7 @@ void check_method(const Method& method) {
   check_effects(method);
   check_analysis(method);
   check_report(method);
+  check_scatter(method);
   if (method.specimen.to_be_tied && pulls_anything(method)) check_tying(method.specimen, method.material);
 }
 

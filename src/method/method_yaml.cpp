@@ -4,6 +4,7 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "method_overrides.hpp"
 #include "method_reader.hpp"
+#include "overruled_keys.hpp"
 #include "specimens_section.hpp"
 
 namespace knot_utm {
@@ -61,6 +62,7 @@ std::string method_yaml(const Method& method) {
 std::optional<double> number_at(const Method& method, const std::string& key) {
   Method one = method;
   one.specimens.count = 1;
+  keep_own_keys(one);
   const YAML::Node value = value_at(YAML::Load(method_yaml(one)), key);
   if (!value.IsDefined() || !value.IsScalar()) return std::nullopt;
   return parse_number(value.Scalar());

@@ -24,7 +24,22 @@ void drop_keys_of_former_law(const std::string& section, const std::string& name
       law.set(key.name, std::nullopt);
 }
 
+template <class Registry, class Number>
+void keep_own_keys(LawOptions<Number>& law) {
+  const LawEntry& chosen = Registry::entry(law.law);
+  for (const LawKey& key : Registry::keys()) {
+    if (!chosen.has(key.name)) law.set(key.name, std::nullopt);
+    if (chosen.has(key.name) && key.otherwise == LawDefault::kPlain) law.set(key.name, law.number(key));
+  }
+}
+
 }  // namespace
+
+void keep_own_keys(Method& method) {
+  keep_own_keys<FrictionRegistry>(method.physics.friction);
+  keep_own_keys<StretchingRegistry>(method.material.stretching);
+  keep_own_keys<BendingRegistry>(method.material.bending);
+}
 
 void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>& overrides, Method& method) {
   const Source by = [&](const std::string& key) { return given_by(key, given, overrides); };

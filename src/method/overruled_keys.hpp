@@ -15,4 +15,7 @@ namespace knot_utm {
 /// (check_method). `given`: the method's map before the overrides.
 void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>& overrides, Method& method);
 
+/// A law has the plain values of its own keys that were not given. Keys of other laws, which have no effect, go.
+void keep_own_keys(Method& method);
+
 }  // namespace knot_utm

@@ -15,6 +15,7 @@
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "overhand_specimen.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
@@ -56,6 +57,24 @@ std::string wrong_key(const SpecimenOptions& specimen) {
     return invalid.key;
   }
   return "";
+}
+
+/// A slack overhand is a hundred thousand times softer than taut strands: on a soft frame, too, its grip stays where
+/// forces balance, within what the frame's own damping makes at this speed.
+TEST(TestingMachine, OnASoftFrameASlackKnotFollowsTheCrosshead) {
+  constexpr double kStiffness = 1e4, kSpeed = 3.3e-3;
+  TestingMachine machine = bench(overhand_specimen(1.0, 0.7, 0.005), GripKind::kNodes, kStiffness);
+  Command rest;
+  const Sample start = machine.respond(rest);
+  for (std::uint64_t i = 1; i <= 30; ++i) {
+    const double time = static_cast<double>(i) / 3.0;
+    const Sample sample = machine.respond(pull(i, time, kSpeed * time));
+    ASSERT_EQ(sample.status, BenchStatus::kRunning);
+    const double lag = sample.displacement - (sample.end_to_end - start.end_to_end) - sample.force_upper / kStiffness;
+    if (i > 15) {
+      EXPECT_LT(std::abs(lag), 1e-4) << "after " << time << " s";
+    }
+  }
 }
 
 /// What is read of two knots is read of a loop alone, and each list has a number for each knot.

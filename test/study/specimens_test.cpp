@@ -107,6 +107,14 @@ TEST(Specimens, AreThoseOfTheMethodThatIsWritten) {
   }
 }
 
+/// A key of the chosen law that the method leaves out has its plain value, which scatters.
+TEST(Specimens, MayDifferInAKeyThatIsLeftOut) {
+  EXPECT_EQ(refused("tighten.yaml", {"specimens.count=2", "specimens.scatter={material.stick_ratio: {normal: 0.1}}"}),
+            "");
+  EXPECT_THAT(refused("tighten.yaml", {"specimens.count=2", "specimens.scatter={material.hardening: {normal: 0.1}}"}),
+              HasSubstr("material.hardening"));
+}
+
 TEST(Specimens, AreRefusedBeforeAnyIsTested) {
   const std::string scatter = "specimens.scatter=";
   EXPECT_THAT(refused("straight.yaml", {"specimens.count=2", scatter + "{specimen.lenght: {normal: 0.1}}"}),
