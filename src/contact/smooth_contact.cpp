@@ -114,7 +114,7 @@ std::size_t SmoothContact::follow(std::size_t foot) {
   for (; foot < feet.size() && feet[foot].point == point; ++foot) {
     const double arclength_b = arclength_at(arclength_, feet[foot].segment, feet[foot].u);
     if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) continue;
-    tracked_.push_back({{arclength_b, kUnknown, 0.0, -1.0, {}, false, false}, foot, kNone});
+    tracked_.push_back({{arclength_b, kUnknown, 0.0, -1.0, {}, Vec3::Zero(), false, false}, foot, kNone});
   }
   recall(row_of(point), first);
   return foot;
@@ -195,6 +195,7 @@ void SmoothContact::add_contact(Tracked& tracked) {
   contact.weight = 0.5 * voronoi_[segment] * contact.weighting;
   contact.prediction = tracked.memory.pressure;
   contact.memory = tracked.memory.friction;
+  contact.z_old = tracked.memory.z;
   const SegmentParabola& c = search_.parabola(foot.segment);
   const Lanes db = c.t + u * c.k;
   contact.db = to_vec3(db);
@@ -310,6 +311,7 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     const ContactPoint* contact = tracked.contact == kNone ? nullptr : &contacts_[tracked.contact];
     if (!accepted) {
       if (contact) memory.pressure = contact->prediction;
+      memory.z = contact ? contact->z : Vec3::Zero();
       continue;
     }
     memory.inside = memory.inside && overlap(tracked) > 0.0;
@@ -317,6 +319,7 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     memory.weighting = std::min(memory.weighting, largest_weighting(memory));
     memory.offset += catch_up_ * (offset_at(foot, *accepted) - memory.offset);
     memory.pressure = contact ? contact->pressure : 0.0;
+    memory.z.setZero();
     memory.friction = contact ? remembered(*contact) : FrictionMemory();
   }
   while (done < list.begin.size()) list.begin[done++] = static_cast<int>(list.entries.size());

@@ -156,6 +156,16 @@ struct FourRolling {
   }
 };
 
+/// How far friction has turned from its direction in the last trial: 0 where it hardly has, 1 where it points
+/// elsewhere.
+Lanes turned_from(const FourVectors& old, const FourVectors& z) {
+  constexpr double kHardly = 0.2, kElsewhere = 0.7;
+  const FourVectors apart = z - old;
+  const Lanes part = (square_root(dot(apart, apart)) - kHardly) / (kElsewhere - kHardly);
+  const Lanes none = {};
+  return select(dot(old, old) > 0.0, smaller(larger(part, none), constant<Lanes>(1.0)), none);
+}
+
 /// Four contacts at the point at which they are linearised; symbols as in SurfacePoint and ContactPoint.
 template <typename Law, typename Feet>
 class FourSurfaces {
@@ -188,6 +198,8 @@ class FourSurfaces {
     away_ = dot(n_, r_);
     const FourVectors tangential = r_ - away_ * n_;
     friction_ = law.tangent(friction_input(contacts, pressures_.turning, tangential, dt), how.friction);
+    // Where the slip turns from one trial to the next, tangents may jump to and fro, and the secant stays on one side.
+    friction_.along = (1.0 - turned_from(of(&ContactPoint::z_old), friction_.z)) * friction_.along;
     const Lanes weight = of(&ContactPoint::weight);
     turning_ = weight * pressures_.turning;
     stiffness_ = turning_ * friction_.stiffness;

@@ -8,6 +8,7 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod_laws.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
+#include "knot_utm/sim/linear_system.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
@@ -74,9 +75,16 @@ void FrameBending::evaluate(const RodState& start, double dt, const std::vector<
     const Eigen::Vector2d bend = {node.s * (dot(node.v, k_1.p) - dot(node.u, k_1.q)),
                                   node.s * (dot(node.v, k_2.p) - dot(node.u, k_2.q))};
     const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
-    node.bend = {
-        whole * rod_.material.bending_stiffness,  rod_.voronoi_length[i], bend, start.natural_curvature.col(i - 1), dt,
-        start.bending_own.data() + own_ * (i - 1)};
+    const Eigen::Vector2d before =
+        first_trial_ ? Eigen::Vector2d::Zero() : Eigen::Vector2d(node.bend.bend - node.bend.natural);
+    node.bend = {whole * rod_.material.bending_stiffness,
+                 rod_.voronoi_length[i],
+                 bend,
+                 start.natural_curvature.col(i - 1),
+                 dt,
+                 start.bending_own.data() + own_ * (i - 1),
+                 0.0,
+                 before};
     node.law = law.respond(node.bend);
     node.slope[0] = slope(node, k_1);
     node.slope[1] = slope(node, k_2);
@@ -86,6 +94,7 @@ void FrameBending::evaluate(const RodState& start, double dt, const std::vector<
         for (int i = 1; i < edges; ++i) evaluate_node(law, i);
       },
       rod_.laws->bending);
+  first_trial_ = false;
 }
 
 void FrameBending::add_forces(std::vector<Lanes>& force, std::vector<double>& torque) const {
@@ -146,11 +155,16 @@ void FrameBending::add_curvature_terms(const Node& at, const Curvature& k, StepM
   b21.column[3] += f_theta_f;
 }
 
-void FrameBending::add_stiffness(StepMatrix<4>& matrix) const {
+void FrameBending::add_stiffness(LinearSystem<4>& system) const {
+  StepMatrix<4>& matrix = system.matrix;
   for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) {
     const Node& node = nodes_[at(i)];
     add_curvature_terms(node, both(i), matrix, i);
     const Eigen::Matrix2d& t = node.law.tangent;
+    const Eigen::Vector2d& beyond = node.law.beyond;
+    if (beyond[0] != 0.0 || beyond[1] != 0.0)
+      for (int k = 0; k < 3; ++k)
+        system.right[at(i - 1 + k)] -= beyond[0] * node.slope[0].node[k] + beyond[1] * node.slope[1].node[k];
     for (int column = 0; column < 3; ++column) {
       const Lanes on_1 = t(0, 0) * node.slope[0].node[column] + t(0, 1) * node.slope[1].node[column];
       const Lanes on_2 = t(1, 0) * node.slope[0].node[column] + t(1, 1) * node.slope[1].node[column];

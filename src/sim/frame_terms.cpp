@@ -115,6 +115,7 @@ void FrameTerms::begin(const StepStart& step) {
   const RodState& start = step.state;
   start_ = &start;
   curved_ = start.curved_at_rest();
+  bending_.begin();
   dt_ = step.dt;
   const int edges = static_cast<int>(rod_.edges());
   for (int j = 0; j < edges; ++j) {
@@ -306,7 +307,7 @@ void FrameTerms::add_stiffness(LinearSystem<4>& system) const {
     }
     second_back.column[3] -= after.by_f;
   }
-  if (curved_) bending_.add_stiffness(matrix);
+  if (curved_) bending_.add_stiffness(system);
 }
 
 double FrameTerms::angle_change(const std::vector<Lanes>& change, int j) const {

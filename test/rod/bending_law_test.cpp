@@ -74,6 +74,38 @@ TYPED_TEST(BendingLaw, MomentAndTangentAreDerivatives) {
   }
 }
 
+/// A second spring holds at the solution: k kappa + k_y xi = 0 at kappa = 0. Tangents jump from one side on which it
+/// slides to the other for ever, by k_y/k times its bend at yield. Newton's method with the linear model is there after
+/// the first jump.
+TEST(YieldingBend, HoldsAfterTrialsHaveJumpedOverIt) {
+  const YieldingBend law{1.0, 20.0, 0.01};
+  BendingNode node{1.0, 1.0, {0.05, 0.02}, {0.0, 0.0}};
+  for (int iteration = 0; iteration < 2; ++iteration) {
+    ASSERT_GT(node.bend.norm(), law.yield) << "slides";
+    const BendingResponse here = law.respond(node);
+    node.before = node.bend - node.natural;
+    node.bend -= here.tangent.ldlt().solve(here.moment + here.beyond);
+  }
+  EXPECT_LT(node.bend.norm(), 1e-12 * law.yield);
+}
+
+/// What the last trial was is no matter of the moment or of the energy, and none of the tangent where the direction has
+/// stayed.
+TEST(YieldingBend, RespondsTheSameWhateverTheLastTrialWas) {
+  const YieldingBend law{1.0, 20.0, 0.01};
+  BendingNode node{1.0, 1.0, {0.05, 0.02}, {0.0, 0.0}};
+  const BendingResponse first = law.respond(node);
+  node.before = 3.0 * node.bend;
+  const BendingResponse same = law.respond(node);
+  node.before = -node.bend;
+  const BendingResponse turned = law.respond(node);
+  EXPECT_EQ(same.tangent, first.tangent);
+  EXPECT_EQ(same.beyond, Eigen::Vector2d(0.0, 0.0));
+  EXPECT_EQ(turned.moment, first.moment);
+  EXPECT_EQ(turned.energy, first.energy);
+  EXPECT_LT((turned.moment + turned.beyond - 21.0 * node.bend).norm(), 1e-15) << "as if it held";
+}
+
 /// After the step the same bend, at once, needs the same moment and stores what was said of it. Of a law that does not
 /// depend on the rate, W was that and what was dissipated; of another one it has no less than half of the latter.
 TYPED_TEST(BendingLaw, RemembersWhatItsMomentIsOf) {

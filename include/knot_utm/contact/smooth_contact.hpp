@@ -93,8 +93,9 @@ class SmoothContact {
     double offset;     // o: the strand of the foot lies this far outwards of its spline, towards the point [m]
     double pressure;   // predicted; < 0: none
     FrictionMemory friction;
-    bool pressed = false;  // at the beginning of the step
-    bool inside = false;   // appeared deep inside and has not come out yet
+    Vec3 z = Vec3::Zero();  // of the last trial in this step; zero: there was none
+    bool pressed = false;   // at the beginning of the step
+    bool inside = false;    // appeared deep inside and has not come out yet
 
     void state(Archive& archive);
   };

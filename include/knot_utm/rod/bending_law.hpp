@@ -44,12 +44,17 @@ struct BendingNode {
   double dt = 0.0;              ///< length of this step, for laws that depend on the rate; 0: bent at once [s]
   const double* own = nullptr;  ///< the law's kOwn numbers, of the last accepted step
   double tension = 0.0;         ///< mean of the node's two edges once the step is accepted, for keep_own only [N]
+  /// kappa - kappabar_n of the trial before this one in the same step [-]; zero: there was none.
+  Eigen::Vector2d before = Eigen::Vector2d::Zero();
 };
 
+/// Newton's method solves with the linear model moment + beyond + tangent (kappa' - kappa). It is the law's tangent
+/// where `beyond` is zero. A law that yields may choose the model of a branch that its trials have jumped over.
 struct BendingResponse {
-  double energy;            ///< W [J]
-  Eigen::Vector2d moment;   ///< dW/dkappa [N m]
-  Eigen::Matrix2d tangent;  ///< d2W/dkappa2, symmetric [N m]
+  double energy;                                     ///< W [J]
+  Eigen::Vector2d moment;                            ///< dW/dkappa [N m]
+  Eigen::Matrix2d tangent;                           ///< d2W/dkappa2, symmetric; where `beyond` is zero [N m]
+  Eigen::Vector2d beyond = Eigen::Vector2d::Zero();  ///< moment of the linear model less `moment` [N m]
 };
 
 /// What a law keeps of an accepted step.

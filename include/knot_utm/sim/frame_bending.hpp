@@ -12,6 +12,8 @@ namespace knot_utm {
 
 template <int D>
 class StepMatrix;
+template <int D>
+struct LinearSystem;
 
 /// Bending by material curvatures (bending.hpp) at all inner nodes, by the rod's bending law: a part of FrameTerms.
 ///
@@ -31,6 +33,9 @@ class FrameBending {
   /// From now on the rod has parted at an edge: at its ends it does not bend.
   void part(int edge) { parted_ = edge; }
 
+  /// Begins a step: its next evaluation is its first.
+  void begin() { first_trial_ = true; }
+
   /// Evaluates all nodes for a step of length dt [s] from a state. `tangent` and `inverse_length` are those of the
   /// edges, `director` their d1, `angle` their theta.
   void evaluate(const RodState& start, double dt, const std::vector<Lanes>& tangent,
@@ -38,7 +43,9 @@ class FrameBending {
 
   /// Adds forces and torques as FrameTerms::add_forces, but the torques to `torque`, too, as dE/dtheta_j.
   void add_forces(std::vector<Lanes>& force, std::vector<double>& torque) const;
-  void add_stiffness(StepMatrix<4>& matrix) const;
+  /// Adds the linear model of what was evaluated last: its stiffness, and the difference of its forces from those of
+  /// the law to the right-hand side (BendingResponse).
+  void add_stiffness(LinearSystem<4>& system) const;
   /// What add_stiffness adds of an inner node, by the formulas of bending.hpp. Slow: the oracle of tests.
   StencilMatrix hessian(int i) const;
 
@@ -81,6 +88,7 @@ class FrameBending {
   const RodProperties& rod_;
   int own_;          // numbers that the law keeps of a node
   int parted_ = -2;  // edge; no node ends this one
+  bool first_trial_ = true;
   // Both are empty until the first evaluation: a rod that is straight at rest has no use for them.
   std::vector<Lanes> m1_, m2_;  // material directors of every edge
   std::vector<Node> nodes_;     // of every inner node, that of node i at i
