@@ -402,7 +402,7 @@ struct TestingMachine::Impl {
     }
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
-      gave_up = advance(command, {time, displacement}, recoil_end);
+      if (machine.after_break == AfterBreak::kFollow) gave_up = advance(command, {time, displacement}, recoil_end);
       if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
     } else if (!gave_up.empty() || status == BenchStatus::kFailed) {
       status = BenchStatus::kFailed;

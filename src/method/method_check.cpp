@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "knot_utm/machine/before_tying.hpp"
+#include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/method/method.hpp"
@@ -102,6 +103,9 @@ void check_effects(const Method& m) {
   const bool held = machine.far_side == FarSide::kHeld;
   has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
              "for knot: " + loops() + ", with grips: rollers");
+  const bool follows = machine.after_break == AfterBreak::kFollow;
+  has_effect(can_part(m.material), "machine.after_break", std::string(follows ? "follow" : "stop"), std::string("stop"),
+             "with material.breaking_force or material.breaking_strain");
 
   const Material& material = m.material;
   const bool rolls = friction_couple(material, m.physics) > 0.0;

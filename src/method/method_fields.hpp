@@ -109,6 +109,7 @@ inline void machine(Fields& f, MachineOptions& o) {
   f.choice("roller_rotation", o.roller_rotation, kRotations);
   f.number("roller_rate", o.roller_rate, Range{-100.0, 100.0, "rad/s"});
   f.choice("far_side", o.far_side, std::array{"held", "free"});
+  f.choice("after_break", o.after_break, std::array{"stop", "follow"});
   f.number("stiffness", o.stiffness, Range{1.0, kInfinity, "N/m"});
   f.scaled_number("travel", o.travel, Range{1e-3, 100.0, "m"});
 }

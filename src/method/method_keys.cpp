@@ -112,6 +112,7 @@ constexpr Label kLabels[] = {
     {"machine.roller_rotation", "Rollers"},
     {"machine.roller_rate", "Rate of the rollers"},
     {"machine.far_side", "Far side of the loop"},
+    {"machine.after_break", "After the break"},
     {"machine.stiffness", "Frame stiffness"},
     {"machine.load_cell.capacity", "Capacity of the cell"},
     {"machine.load_cell.sampling_rate", "Readings of the cell"},

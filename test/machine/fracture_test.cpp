@@ -35,9 +35,10 @@ struct Pulled {
 };
 
 Pulled run(const SpecimenOptions& specimen, const Material& material, const PhysicsOptions& physics,
-           const Program& steps) {
+           const Program& steps, AfterBreak after_break = AfterBreak::kFollow) {
   MachineOptions machine;
   machine.grips = GripKind::kClamps;
+  machine.after_break = after_break;
   TestingMachine bench(specimen, material, machine, physics);
   const double period = bench.longest_step();
   Pulled out{std::move(bench), ProgramRunner(steps, machine.load_cell.sampling_rate, period, {}), {}};
@@ -47,7 +48,7 @@ Pulled run(const SpecimenOptions& specimen, const Material& material, const Phys
   return out;
 }
 
-Pulled straight_run(Accuracy accuracy, double breaking_force) {
+Pulled straight_run(Accuracy accuracy, double breaking_force, AfterBreak after_break = AfterBreak::kFollow) {
   SpecimenOptions specimen;
   specimen.knot = knot_named("straight");
   specimen.length = kLength;
@@ -57,7 +58,7 @@ Pulled straight_run(Accuracy accuracy, double breaking_force) {
   PhysicsOptions physics;
   physics.accuracy = accuracy;
   physics.inertia = 1.0;  // its own mass: the recoil is that of the rod
-  return run(specimen, material, physics, {pull(0.02)});
+  return run(specimen, material, physics, {pull(0.02)}, after_break);
 }
 
 const Sample& at_break(const Pulled& run) {
@@ -109,6 +110,22 @@ TEST(Fracture, TheEndsOfAStraightRodRecoil) {
   EXPECT_EQ(results.break_place, BreakPlace::kGrip);  // where all edges bear the same, the first one does
   EXPECT_EQ(*results.break_arclength, at_break(test).break_arclength);
   EXPECT_LT(results.fastest_node, 0.1 * speed);  // the recoil is none of the test's
+}
+
+/// The readings are those of the same test whose ends are followed, and its last sample is the one in which it parts.
+TEST(Fracture, TheTestEndsThereUnlessTheEndsAreFollowed) {
+  constexpr double kBreaking = 500.0;  // [N]
+  const Pulled followed = straight_run(Accuracy::kNormal, kBreaking, AfterBreak::kFollow),
+               stopped = straight_run(Accuracy::kNormal, kBreaking, AfterBreak::kStop);
+  EXPECT_EQ(stopped.program.ended_by(), EndedBy::kBreak);
+  EXPECT_EQ(stopped.samples.back().time, at_break(followed).time);
+  EXPECT_EQ(stopped.samples.back().force_upper, at_break(followed).force_upper);
+  EXPECT_LT(stopped.samples.back().steps, followed.samples.back().steps);
+  const Results cut = analyse(stopped.samples, stopped.samples, stopped.program.ended_by(), false),
+                whole = analyse(followed.samples, followed.samples, followed.program.ended_by(), false);
+  EXPECT_EQ(cut.failure_mode, whole.failure_mode);
+  EXPECT_EQ(cut.break_extension, whole.break_extension);
+  EXPECT_EQ(cut.fastest_node, whole.fastest_node);
 }
 
 class FractureOfAnOverhand : public testing::TestWithParam<std::tuple<ContactLaw, TwistMode>> {};

@@ -15,6 +15,9 @@ enum class FarSide { kHeld, kFree };
 /// Rollers stand still, turn freely with the rod, or are driven from the first pull on.
 enum class RollerRotation { kFixed, kFree, kTurned };
 
+/// Whether the test ends as the rod parts, or its two ends are followed as they recoil, for one transit of a wave.
+enum class AfterBreak { kStop, kFollow };
+
 /// Properties of the load cell (load_cell.hpp).
 struct LoadCellOptions {
   std::string name;
@@ -39,6 +42,7 @@ struct MachineOptions {
   RollerRotation roller_rotation = RollerRotation::kFixed;
   double roller_rate = 0.0;           ///< of rollers that are turned, about +y [rad/s]
   FarSide far_side = FarSide::kHeld;  ///< of a loop on rollers
+  AfterBreak after_break = AfterBreak::kStop;
   LoadCellOptions load_cell;
   double stiffness = std::numeric_limits<double>::infinity();  ///< frame [N/m]
   double travel = 1.0;                                         ///< the crosshead's reach; a test ends there [m]
