@@ -15,6 +15,12 @@ struct Cubics {
   Lanes value(const Lanes& u) const { return c0 + u * (c1 + u * (c2 + u * c3)); }
   Lanes slope(const Lanes& u) const { return c1 + u * (2.0 * c2 + u * 3.0 * c3); }
 
+  /// One step of Halley's method.
+  Lanes halley_step(const Lanes& u) const {
+    const Lanes here = value(u), steepness = slope(u);
+    return -1.0 * here * steepness / (steepness * steepness - here * (c2 + u * 3.0 * c3));
+  }
+
   /// The roots in [low, high], where they rise from below zero to zero or above: Halley's method, kept inside. A step
   /// of less than the cube root of double precision is the last: the error after it is its cube. One that halves the
   /// bracket never is: a foot by a joint of two segments would turn the force as it changes over.
@@ -96,21 +102,29 @@ FootSearch::FootSearch(Eigen::Index nodes, double reach)
     : reach_(reach), sieve_(nodes), parabola_(static_cast<std::size_t>(nodes)) {}
 
 void FootSearch::begin(const Points& position, const std::vector<int>& segments) {
-  points_.clear();
   pairs_.clear();
   sieve_.set_centreline(position);
+  begin_to_follow(position, segments);
+}
+
+void FootSearch::begin_to_follow(const Points& position, const std::vector<int>& segments) {
+  points_.clear();
   for (const int i : segments) {
     const double* x = position.data() + 3 * (i - 1);
     parabola_[static_cast<std::size_t>(i)].set(to_lanes(x), to_lanes(x + 3), to_lanes(x + 6));
   }
 }
 
+void FootSearch::add(const Lanes& first, const Lanes& second) {
+  points_.push_back(first);
+  points_.push_back(second);
+}
+
 void FootSearch::look(const Lanes& first, const Lanes& second, const Candidates::Run* begin,
                       const Candidates::Run* end) {
   sieve_.sieve(first, second, begin, end);
   const int number = static_cast<int>(points_.size());
-  points_.push_back(first);
-  points_.push_back(second);
+  add(first, second);
   for (int p = 0; p < 2; ++p)
     for (const int* segment = sieve_.begin(p); segment != sieve_.end(p); ++segment)
       pairs_.push_back({number + p, *segment});
@@ -121,6 +135,37 @@ void FootSearch::find() {
   feet_.clear();
   for (std::size_t i = 0; i < pairs_.size(); i += kAbreast)
     find_feet(&pairs_[i], std::min(pairs_.size() - i, kAbreast));
+}
+
+bool FootSearch::follow() {
+  for (std::size_t i = 0; i < feet_.size(); i += kAbreast)
+    if (!follow_feet(&feet_[i], std::min(feet_.size() - i, kAbreast))) return false;
+  return true;
+}
+
+bool FootSearch::follow_feet(Foot* feet, std::size_t count) {
+  constexpr double kOutside = 0.25;
+  Pair pairs[kAbreast];
+  Lanes u = {};
+  for (std::size_t l = 0; l < kAbreast; ++l) {
+    const Foot& foot = feet[std::min(l, count - 1)];
+    pairs[l] = {foot.point, foot.segment};
+    u[static_cast<int>(l)] = foot.u;
+  }
+  const Four four = this->four(pairs, kAbreast);
+  const FourVectors r = four.gap(), t = four.vectors(&SegmentParabola::t), k = four.vectors(&SegmentParabola::k);
+  const Cubics slope({-dot(r, t), dot(t, t) - dot(r, k), 1.5 * dot(t, k), 0.5 * dot(k, k)});
+  for (int i = 0; i < 2; ++i) u += slope.halley_step(u);
+  const LanesMask lost = !((slope.slope(u) > 0.0) & (u > -kOutside) & (u < 1.0 + kOutside));
+  if (any(lost)) return false;
+  const FourVectors gap = r - u * (t + (0.5 * u) * k);
+  Lanes x[4] = {gap.x, gap.y, gap.z, square_root(dot(gap, gap))};
+  transpose(x[0], x[1], x[2], x[3]);
+  for (std::size_t l = 0; l < count; ++l) {
+    feet[l].x = x[l];
+    feet[l].u = u[static_cast<int>(l)];
+  }
+  return true;
 }
 
 void FootSearch::leave_near_ones() {

@@ -11,6 +11,10 @@ namespace knot_utm {
 
 namespace {
 
+// Motion of a node since the last search after which feet are searched again [h]. Two strands approach each other by
+// less than the reach of the search exceeds the distance of contact.
+constexpr double kFarSinceSearch = 0.1;
+static_assert(2.0 * kFarSinceSearch < kReachMargin);
 constexpr double kUnknown = -1.0;  // weighting factor of a foot that recalls none yet
 constexpr double kSharpest = 2.0;  // turn of the centreline at a node that is no longer resolved [rad]
 constexpr double kSameFoot = 1.0;  // arclength within which a foot is that of the last step [h]
@@ -64,6 +68,7 @@ void SmoothContact::begin(const Points& start) {
   iterate_ = accepted_;
   for (Memory& memory : iterate_.entries) memory.pressed = memory.pressure > 0.0;
   first_evaluation_ = true;
+  searched_.clear();
 }
 
 void SmoothContact::evaluate(const Points& position, const Points& start, double dt) {
@@ -82,15 +87,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
     moved_[i] = to_lanes(position.col(node).data()) - to_lanes(start.col(node).data());
   }
   if (fraction_.size() == 0) set_fractions(start);
-  search_.begin(position, segments);
-  for (const int segment : segments) {
-    const SegmentParabola& c = search_.parabola(segment);
-    const Lanes shift = fraction_[segment] * c.k;
-    const auto point = [&](double u) { return c.m + u * c.t + (0.5 * u * u) * c.k - shift; };
-    const Candidates::Run *begin = candidates_.begin(segment), *end = candidates_.end(segment);
-    search_.look(point(kIntegrationPoints[0]), point(kIntegrationPoints[1]), begin, end);
-  }
-  search_.find();
+  find_feet(position, segments);
   for (std::size_t i = 0; i < search_.feet().size();) i = follow(i);
   for (Tracked& foot : tracked_) {
     if (foot.memory.weighting < 0.0) {
@@ -104,6 +101,43 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(normal_, friction_, dt, contacts_);
   if (turns_) set_couples(rolling_, contacts_, surfaces_);
+}
+
+bool SmoothContact::near_last_search() const {
+  if (!turns_ || searched_.empty()) return false;
+  const double far2 = kFarSinceSearch * kFarSinceSearch * 0.25 * diameter_ * diameter_;
+  for (std::size_t i = 0; i < moved_.size(); ++i) {
+    const Lanes apart = moved_[i] - searched_[i];
+    if (dot(apart, apart) > far2) return false;
+  }
+  return true;
+}
+
+void SmoothContact::find_feet(const Points& position, const std::vector<int>& segments) {
+  if (near_last_search() && follow_feet(position, segments)) return;
+  searched_ = moved_;
+  search_.begin(position, segments);
+  for (const int segment : segments) {
+    const PointsOfSegment points = points_of(segment);
+    search_.look(points[0], points[1], candidates_.begin(segment), candidates_.end(segment));
+  }
+  search_.find();
+}
+
+bool SmoothContact::follow_feet(const Points& position, const std::vector<int>& segments) {
+  search_.begin_to_follow(position, segments);
+  for (const int segment : segments) {
+    const PointsOfSegment points = points_of(segment);
+    search_.add(points[0], points[1]);
+  }
+  return search_.follow();
+}
+
+SmoothContact::PointsOfSegment SmoothContact::points_of(int segment) const {
+  const SegmentParabola& c = search_.parabola(segment);
+  const Lanes shift = fraction_[segment] * c.k;
+  const auto point = [&](double u) { return c.m + u * c.t + (0.5 * u * u) * c.k - shift; };
+  return {point(kIntegrationPoints[0]), point(kIntegrationPoints[1])};
 }
 
 std::size_t SmoothContact::follow(std::size_t foot) {

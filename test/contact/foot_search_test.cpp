@@ -87,5 +87,85 @@ TEST(FootSearch, FindsTheFeetThatBisectionFindsWhateverTheShape) {
   EXPECT_GT(twice, 0);
 }
 
+/// A rod that is wound around another one, whose nodes are moved a little.
+class FollowedFeet : public testing::Test {
+ protected:
+  static constexpr double kReach = 1.5;
+
+  FollowedFeet() : segments_(kNodes - 2), search_(kNodes, kReach) {
+    std::iota(segments_.begin(), segments_.end(), 1);
+    for (int i = 0; i < kNodes; ++i) nodes_.col(i) = Vec3(std::cos(0.4 * i), std::sin(0.4 * i), 0.08 * i);
+  }
+
+  void find() {
+    search_.begin(nodes_, segments_);
+    for (const Vec3& point : points()) search_.look(to_lanes(point), to_lanes(point), std::begin(all_), std::end(all_));
+    search_.find();
+  }
+
+  bool follow() {
+    search_.begin_to_follow(nodes_, segments_);
+    for (const Vec3& point : points()) search_.add(to_lanes(point), to_lanes(point));
+    return search_.follow();
+  }
+
+  /// Everything moves by `most` times numbers between -1 and 1.
+  void move(double most) {
+    std::uniform_real_distribution<double> by(-most, most);
+    for (Eigen::Index i = 0; i < nodes_.size(); ++i) nodes_.data()[i] += by(random_);
+    axis_ += Vec3(by(random_), by(random_), by(random_));
+  }
+
+  /// Places of the strand that the rod is wound around.
+  std::vector<Vec3> points() const {
+    std::vector<Vec3> out;
+    for (double z = 0.1; z < 3.0; z += 0.05) out.push_back(axis_ + Vec3(0.3, 0.1, z));
+    return out;
+  }
+
+  std::mt19937 random_{5};
+  Points nodes_{3, kNodes};
+  Vec3 axis_ = Vec3::Zero();
+  std::vector<int> segments_;
+  const Candidates::Run all_[1] = {{1, kNodes - 2}};
+  FootSearch search_;
+};
+
+TEST_F(FollowedFeet, AreThoseOfASearchUnlessTheyLeaveTheirSegments) {
+  find();
+  const std::vector<FootSearch::Foot> before = search_.feet();
+  ASSERT_GT(before.size(), 50u);
+  move(0.01);
+  ASSERT_TRUE(follow());
+  const std::vector<Vec3> moved = points();
+  int stayed = 0, left = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const FootSearch::Foot& foot = search_.feet()[i];
+    EXPECT_EQ(foot.point, before[i].point);
+    EXPECT_EQ(foot.segment, before[i].segment);
+    const Vec3& point = moved[static_cast<std::size_t>(foot.point / 2)];
+    EXPECT_NEAR(slope(nodes_, foot.segment, point, foot.u), 0.0, 1e-12);
+    EXPECT_NEAR((to_vec3(foot.x) - (point - combine(SegmentWeights(foot.u).value, nodes_, foot.segment))).norm(), 0.0,
+                1e-14);
+    if (foot.u < 0.0 || foot.u >= 1.0) {
+      ++left;
+      continue;
+    }
+    ++stayed;
+    bool found = false;
+    for (const Place& place : feet_by_bisection(nodes_, point, 2.0 * kReach))
+      found |= place.segment == foot.segment && std::abs(place.u - foot.u) < 1e-9;
+    EXPECT_TRUE(found) << "point " << foot.point;
+  }
+  EXPECT_GT(stayed, 50);
+  EXPECT_GT(left, 0) << "none went on along the parabola";
+}
+
+TEST_F(FollowedFeet, AreLostWhereTheyLeaveTheirSegmentsByFar) {
+  find();
+  for (int i = 0; i < kNodes; ++i) nodes_.col(i) = Vec3(std::cos(0.4 * i + 0.3), std::sin(0.4 * i + 0.3), 0.08 * i);
+  EXPECT_FALSE(follow());
+}
+
 }  // namespace
 }  // namespace knot_utm

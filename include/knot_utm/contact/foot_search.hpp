@@ -25,10 +25,18 @@ class FootSearch {
 
   /// Begins a search without points on the present centreline; feet are searched on these segments only.
   void begin(const Points& position, const std::vector<int>& segments);
+  /// Begins to follow the feet of the last search to the present centreline. The same number of points is to be added.
+  void begin_to_follow(const Points& position, const std::vector<int>& segments);
+  /// Adds two points, whose feet are followed.
+  void add(const Lanes& first, const Lanes& second);
   /// Adds two points, whose candidates are the segments of these runs.
   void look(const Lanes& first, const Lanes& second, const Candidates::Run* begin, const Candidates::Run* end);
   /// Finds the feet of all points, in the order of the points' numbers, then along the rod.
   void find();
+  /// Follows the feet of the last search, each on its segment, which it may leave by a part of it: the parabola goes on
+  /// there. Two steps of Halley's method leave an error of the ninth order in the motion since the last search. False
+  /// where a foot leaves its segment by more, or is a minimum no longer; then the feet are of no use.
+  bool follow();
   const std::vector<Foot>& feet() const { return feet_; }
 
   const SegmentParabola& parabola(int segment) const { return parabola_[static_cast<std::size_t>(segment)]; }
@@ -44,6 +52,8 @@ class FootSearch {
   /// Keeps only the pairs that may be within reach.
   void leave_near_ones();
   void find_feet(const Pair* pairs, std::size_t count);
+  /// Follows up to four of the feet.
+  bool follow_feet(Foot* feet, std::size_t count);
 
   double reach_;
   FootSieve sieve_;

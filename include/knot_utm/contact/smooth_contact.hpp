@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "knot_utm/contact/candidates.hpp"
@@ -115,6 +116,17 @@ class SmoothContact {
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
+  /// Both integration points of a segment.
+  using PointsOfSegment = std::array<Lanes, 2>;
+  PointsOfSegment points_of(int segment) const;
+  /// Finds all feet at `position`. Where friction acts at the surfaces, the feet of the last search in this step are
+  /// followed instead if no node has moved far since.
+  void find_feet(const Points& position, const std::vector<int>& segments);
+  /// False where a foot is lost (FootSearch::follow).
+  bool follow_feet(const Points& position, const std::vector<int>& segments);
+  /// Whether no node has moved far since the last search.
+  bool near_last_search() const;
+
   /// The segment of an integration point, which goes by its number in search_.
   int segment_of(int point) const { return candidates_.segments()[static_cast<std::size_t>(point / 2)]; }
   std::size_t row_of(int point) const { return static_cast<std::size_t>(2 * segment_of(point) + point % 2); }
@@ -165,10 +177,11 @@ class SmoothContact {
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
   RollingResistance rolling_;
-  MemoryList accepted_;         // of the last accepted step
-  std::vector<char> recalled_;  // of each entry of iterate_: assigned to a foot
-  MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
-  std::vector<Lanes> moved_;    // increments of the nodes in this step [m]
+  MemoryList accepted_;          // of the last accepted step
+  std::vector<char> recalled_;   // of each entry of iterate_: assigned to a foot
+  MemoryList iterate_;           // of the last evaluation; before the first of a step, the accepted ones
+  std::vector<Lanes> moved_;     // increments of the nodes in this step [m]
+  std::vector<Lanes> searched_;  // the same at the last search; empty before the first one
   double catch_up_time_;
   double catch_up_ = 1.0;  // fraction by which omega and o relax in this step
   bool first_evaluation_ = true;
