@@ -4,6 +4,7 @@
 
 The page names TEXT as the command that made it, and VERSION of knot_utm.
 """
+import gc
 import importlib
 import os
 import shlex
@@ -18,6 +19,7 @@ PAGES = {"result.yaml": "page.report_on_run", "comparison.yaml": "comparison.rep
 
 
 def main():
+    gc.disable()  # what a page is made of is needed until it is written, and a search for garbage finds none
     parser = OneLineParser(prog="report", description="Writes report.html and report.pdf into the folder of "
                                      "a test, of a batch of specimens, of a comparison, or of a fit.")
     parser.add_argument("folder", help="that tensile_test, a recorder, compare --report or scripts/fit wrote")
@@ -29,6 +31,7 @@ def main():
     command = arguments.command or "scripts/report " + shlex.quote(arguments.folder)
     with in_one_line("report"):
         make(arguments.folder, command, arguments.version)
+    gc.freeze()  # nor does Python look for garbage as it ends
 
 
 def make(folder, command, version):

@@ -20,7 +20,7 @@ from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLin
 from knot_utm.report.curve_figures import small_loads
 from knot_utm.report.curves import few_points
 from knot_utm.report.method_facts import knot_of
-from knot_utm.report.rod_pictures import draw_bar, draw_rod, draw_rollers, view
+from knot_utm.report.rod_pictures import draw_bar, draw_rollers, tubes_of, view
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import pieces, series_of, Shape
 from knot_utm.report.style import BLUE, FAINT, INK, ORANGE, USUAL
@@ -134,7 +134,7 @@ class Stage:
         left, wide = column * width, width
         shape = test.at(time)
         rod = figure.add_axes([left + 0.01, 0.47, wide - 0.02, 0.42])
-        draw_rod(rod, shape, test.shapes[0], test.run.method["material"]["radius"], self.scale)
+        tubes_of(shape, test.shapes[0], test.run.method["material"]["radius"], self.scale).draw(rod)
         draw_rollers(rod, test.run, shape)
         rod.set_xlim(*test.box[:2])
         rod.set_ylim(*test.box[2:])

@@ -1,6 +1,7 @@
 """What goes into a page, and the page as HTML and PDF."""
 import logging
 import os
+import re
 from collections import namedtuple
 from html import escape
 
@@ -88,7 +89,7 @@ def figures_of(run, marks):
         shown_at = marks or [end_of(run.curve)]
         series, found["note"] = series_of(run)
         shapes = shapes_at(series, [mark.time for mark in shown_at], time_of_break(shown_at), final_shape(run))
-        found["pictures"] = [pictures(run, shown_at[-len(shapes):], shapes, look) for look in LOOKS]
+        found["pictures"] = pictures(run, shown_at[-len(shapes):], shapes, LOOKS)
         found["turnable"] = turnable(run, series, marks)
     return found
 
@@ -211,6 +212,9 @@ def write(folder, html):
                 os.remove(part)
 
 
+NOT_ON_PAPER = re.compile(r"<script.*?</script>|<source[^>]*>", re.DOTALL)  # which takes long to read past
+
+
 def as_pdf(html):
     # Fonts are cut to what is used; the time of the cut would stand in them.
     os.environ["SOURCE_DATE_EPOCH"] = "0"
@@ -218,7 +222,8 @@ def as_pdf(html):
 
     for name in ("weasyprint", "fontTools"):
         logging.getLogger(name).setLevel(logging.ERROR)
-    return weasyprint.HTML(string=html, url_fetcher=own_images_only).write_pdf()
+    on_paper = NOT_ON_PAPER.sub("", html)
+    return weasyprint.HTML(string=on_paper, url_fetcher=own_images_only).write_pdf()
 
 
 def own_images_only(url, *_, **__):

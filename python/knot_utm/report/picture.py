@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 
 from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, refuse, why_not
 from knot_utm.report.curve_figures import phases_of
-from knot_utm.report.rod_pictures import draw_rollers, draw_tubes
+from knot_utm.report.rod_pictures import draw_rollers, Tubes
 from knot_utm.report.run import read_yaml, Run
 from knot_utm.report.shapes import final_shape, pieces, series_of
 from knot_utm.report.style import BLUE, FAINT, GREEN, INK, ORANGE, PHASES, SMALL, USUAL, VIOLET
@@ -52,8 +52,8 @@ def draw_shape(axes, run, shape):
     """A rod that has parted in its pieces."""
     broke, series = run.time_of_break() is not None, series_of(run)[0]
     parts = pieces(shape, series.shape(0)) if broke else [slice(0, len(shape.points))]
-    draw_tubes(axes, shape.points, parts, run.method["material"]["radius"], lambda node: np.where(
-        (node < 0.5 * (len(shape.points) - 1))[:, None], FIRST_HALF, SECOND_HALF))
+    Tubes(shape.points, parts, run.method["material"]["radius"], lambda node: np.where(
+        (node < 0.5 * (len(shape.points) - 1))[:, None], FIRST_HALF, SECOND_HALF)).draw(axes)
     if run.method["specimen"]["knot"] == "fisherman":
         draw_rollers(axes, run, shape)
     axes.set_aspect("equal")

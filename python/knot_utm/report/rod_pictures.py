@@ -2,7 +2,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.colors import LogNorm, to_rgb
 
 from knot_utm.report.colours import colour_scales, node_values
@@ -21,25 +21,31 @@ HIGHEST = 0.8   # a picture, of its width
 NAME = 0.24     # of a name above its picture [in]
 
 
-def pictures(run, marks, shapes, look):
-    """All of them in one picture, one below the other, with one scale of colours."""
+def pictures(run, marks, shapes, looks):
+    """For each look all of them in one picture, one below the other, with one scale of colours."""
     radius = run.method["material"]["radius"]
     scale = next((one for one in colour_scales(shapes, radius, run.units) if one.name == "tension"), None)
+    rods = [tubes_of(shape, shapes[0], radius, scale) for shape in shapes]
     views = [view(run, shape, radius) for shape in shapes]
-    width = width_of(views)
-    heights = [look.width * (top - bottom) / width + NAME for _, _, bottom, top in views]
+    return [picture(run, list(zip(marks, shapes, rods, views)), scale, look) for look in looks]
+
+
+def picture(run, rows, scale, look):
+    """`rows`: mark, shape, tubes and view of each."""
+    width = width_of([box for *_, box in rows])
+    heights = [look.width * (top - bottom) / width + NAME for *_, (_, _, bottom, top) in rows]
     scale_height = 0.75 if scale else 0.1
     figure = plt.figure(figsize=(look.width, sum(heights) + scale_height))
-    grid = figure.add_gridspec(len(shapes) + 1, 1, height_ratios=[*heights, scale_height], left=0.0, right=1.0,
+    grid = figure.add_gridspec(len(rows) + 1, 1, height_ratios=[*heights, scale_height], left=0.0, right=1.0,
                                bottom=0.0, top=1.0, hspace=0.0)
-    for row, (mark, shape, box) in enumerate(zip(marks, shapes, views)):
+    for row, (mark, shape, tubes, box) in enumerate(rows):
         axes = figure.add_subplot(grid[row])
-        draw_rod(axes, shape, shapes[0], radius, scale)
+        tubes.draw(axes)
         draw_rollers(axes, run, shape)
         frame(axes, box, (width, width * heights[row] / look.width), 0.5 * NAME * width / look.width)
         label(axes, mark, shape, run)
     if scale:
-        draw_scale(figure.add_subplot(grid[len(shapes)]), scale)
+        draw_scale(figure.add_subplot(grid[len(rows)]), scale)
     return as_png(figure, PIXELS / look.width)
 
 
@@ -48,7 +54,7 @@ def width_of(views):
     return max(max(right - left, (top - bottom) / HIGHEST) for left, right, bottom, top in views)
 
 
-def draw_rod(axes, shape, whole, radius, scale):
+def tubes_of(shape, whole, radius, scale):
     values = node_values(shape).get(scale.name) if scale else None
 
     def colours(node):
@@ -56,21 +62,28 @@ def draw_rod(axes, shape, whole, radius, scale):
             return np.tile(UNKNOWN, (len(node), 1))
         return scale.of(np.interp(node, np.arange(len(values)), values))
 
-    draw_tubes(axes, shape.points, pieces(shape, whole), radius, colours)
+    return Tubes(shape.points, pieces(shape, whole), radius, colours)
 
 
-def draw_tubes(axes, points, parts, radius, colours_at):
-    """Tubes around parts of the rod. `colours_at`: of places along it, as numbers of nodes."""
-    tubes = [(part, SeenTube(smooth(to_picture(points[part])), radius)) for part in parts]
-    colours = np.concatenate([tube.shaded(colours_at(part.start + tube.along * (part.stop - 1 - part.start))) for part, tube in tubes])
-    depth = np.concatenate([tube.depth for _, tube in tubes])
-    # What is farther from the eye is paler.
-    away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * radius)
-    colours = colours + 0.35 * away[:, None] * (0.93 - colours)
-    order = np.argsort(depth, kind="stable")
-    outlines = np.concatenate([tube.outlines for _, tube in tubes])[order]
-    axes.add_collection(PolyCollection(1e3 * outlines, facecolors=colours[order], edgecolors=colours[order],
-                                       linewidths=0.25, zorder=2))
+class Tubes:
+    """Around parts of the rod, for as many pictures as there are. `colours_at`: of places along it, as numbers of nodes."""
+
+    def __init__(self, points, parts, radius, colours_at):
+        tubes = [(part, SeenTube(smooth(to_picture(points[part])), radius)) for part in parts]
+        colours = np.concatenate([tube.shaded(colours_at(part.start + tube.along * (part.stop - 1 - part.start)))
+                                  for part, tube in tubes])
+        depth = np.concatenate([tube.depth for _, tube in tubes])
+        # What is farther from the eye is paler.
+        away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * radius)
+        colours = colours + 0.35 * away[:, None] * (0.93 - colours)
+        order = np.argsort(depth, kind="stable")
+        outlines = np.concatenate([tube.outlines for _, tube in tubes])[order]
+        self.outlines, self.colours = PolyCollection(1e3 * outlines).get_paths(), colours[order]
+
+    def draw(self, axes):
+        """The limits of the axes are for others to set."""
+        axes.add_collection(PathCollection(self.outlines, facecolors=self.colours, edgecolors=self.colours, linewidths=0.25,
+                                           zorder=2), autolim=False)
 
 
 def rollers(run, shape):

@@ -1,4 +1,5 @@
 """A test as tensile_test or the recorder left it in a folder."""
+import contextlib
 import csv
 import os
 import re
@@ -189,6 +190,16 @@ def numbers(file, name, column):
         return np.array(column, dtype=float)
     except ValueError as why:
         raise CannotReport(f"{file}: {name}: {why}") from why
+
+
+def number_columns(file):
+    """The columns by name of a table of nothing but numbers, which may be long."""
+    lines = read_text(file).splitlines()
+    if len(lines) > 2:
+        with contextlib.suppress(ValueError):
+            return dict(zip(lines[0].split(","), np.loadtxt(lines[2:], delimiter=",", comments=None, ndmin=2).T, strict=True))
+    # Slower, this names the column that is not of numbers.
+    return {name: numbers(file, name, column) for name, column in read_columns(file).items()}
 
 
 def read_curve(file):

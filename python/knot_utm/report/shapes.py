@@ -5,7 +5,7 @@ from collections import namedtuple
 import numpy as np
 
 from knot_utm.report.commands import CannotReport
-from knot_utm.report.run import numbers, read_columns
+from knot_utm.report.run import number_columns, numbers, read_columns
 
 SHAPE, STATE = "knot/shape", "knot/state"
 
@@ -76,7 +76,7 @@ def only_the_final(run):
 
 
 def series_of_csv(file):
-    columns = {name: numbers(file, name, column) for name, column in read_columns(file).items()}
+    columns = number_columns(file)
     missing = {"time", "node", "x", "y", "z", "tension", "twist", "contact_force"} - set(columns)
     begins = np.flatnonzero(columns["node"] == 0) if not missing else []
     if not len(begins):

@@ -74,17 +74,31 @@ def smooth(points, pieces=4):
     return np.vstack([points[0], *segments, points[-1]])
 
 
+LENGTH, TURN = 1.0, np.radians(5.0)  # of a face: how long it is at most [radii], and by how much the line turns along it
+
+
+def enough_points(line, radius):
+    """Numbers of those points of a line, its ends among them, between which a tube of flat faces looks round."""
+    edges = np.diff(line, axis=0)
+    lengths = np.linalg.norm(edges, axis=1)
+    turns = np.linalg.norm(np.diff(edges / lengths[:, None], axis=0, prepend=edges[:1] / lengths[0]), axis=1)
+    faces = np.cumsum([0.0, *np.maximum(lengths / (LENGTH * radius), turns / TURN)])
+    return np.unique([*np.searchsorted(faces, np.arange(faces[-1])), len(line) - 1])
+
+
 class SeenTube:
     """The faces of a tube in a plane that face the eye, as polygons. `along`: where each lies along the line, 0 to 1."""
 
     def __init__(self, line, radius, sides=24):
-        mesh = tube(line, radius, sides)
+        kept = enough_points(line, radius)
+        mesh = tube(line[kept], radius, sides)
         normals = mesh.normals[mesh.quads].mean(axis=1)
         normals /= np.linalg.norm(normals, axis=1)[:, None]
         facing = normals[:, 2] > -0.05
         corners = mesh.points[mesh.quads[facing]]
         self.outlines, self.depth, self.normals = corners[:, :, :2], corners[:, :, 2].mean(axis=1), normals[facing]
-        self.along = mesh.along[mesh.quads[facing]].mean(axis=1) / (len(line) - 1)
+        places = kept[mesh.along.astype(int)]
+        self.along = places[mesh.quads[facing]].mean(axis=1) / (len(line) - 1)
 
     def shaded(self, base):
         """Colours under the light, of a colour each."""

@@ -39,12 +39,13 @@ def content(run, series, marks):
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     step = np.maximum(high - low, 1e-6) / FINEST
     scales = colour_scales(shapes, run.method["material"]["radius"], run.units)
+    values = [node_values(shape) for shape in shapes]
     wheels = [rollers(run, shape) for shape in shapes]
     return {"radius": 1e3 * run.method["material"]["radius"], "nodes": points.shape[1],
             "times": [shape.time for shape in shapes], "first": first_shown(shapes, marks),
             "low": low.tolist(), "step": step.tolist(), "points": encoded(np.rint((points - low) / step), "<u2"),
             "pieces": [pieces_where_parted(shape, shapes[0]) for shape in shapes], "unknown": list(UNKNOWN),
-            "quantities": [coloured(scale, shapes) for scale in scales],
+            "quantities": [coloured(scale, values, points.shape[1]) for scale in scales],
             "rollers": [[z for z, _ in one] for one in wheels], "roller_radius": wheels[0][0][1] if wheels[0] else 0.0,
             "curve": curve_of(run), "states": [state(run, shape) for shape in shapes]}
 
@@ -66,10 +67,11 @@ def pieces_where_parted(shape, whole):
     return None if found == [slice(0, len(shape.points))] else [[one.start, one.stop] for one in found]
 
 
-def coloured(scale, shapes):
-    values = [node_values(shape).get(scale.name) for shape in shapes]
-    places = [np.full(len(shape.points), KNOWN) if of_nodes is None else np.rint((KNOWN - 1) * scale.places(of_nodes))
-              for shape, of_nodes in zip(shapes, values)]
+def coloured(scale, values, nodes):
+    """`values`: of each shape by name."""
+    places = np.full((len(values), nodes), float(KNOWN))
+    known = [i for i, of_nodes in enumerate(values) if scale.name in of_nodes]
+    places[known] = np.rint((KNOWN - 1) * scale.places(np.array([values[i][scale.name] for i in known])))
     palette = np.rint(255.0 * scale.colours(np.linspace(0.0, 1.0, KNOWN))[:, :3])
     return {"label": scale.label(), "ticks": scale.ticks(), "palette": encoded(palette, "u1"),
             "places": encoded(places, "u1")}

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The figures of the report of a run: what is drawn, marked and named in them."""
 import base64
+import re
 import struct
 import unittest
 import warnings
@@ -9,10 +10,11 @@ from types import SimpleNamespace
 from runs import OfValues, a_pull, html_of, read, two_runs, write
 
 import matplotlib.figure
+import matplotlib.pyplot
 import matplotlib.text
 import numpy as np
 
-from knot_utm.report import curve_figures, curves, marks, page, rod_pictures, shapes, style, typefaces
+from knot_utm.report import curve_figures, curves, marks, page, rod_pictures, shapes, style, tube, typefaces
 from knot_utm.report.curves import few_points
 from knot_utm.report.run import Run
 
@@ -114,11 +116,39 @@ class Typefaces(unittest.TestCase):
         self.assertEqual([str(one.message) for one in missing], [])
 
 
+class AnSvg(unittest.TestCase):
+    def test_defines_everything_before_it_draws(self):
+        figure, axes = matplotlib.pyplot.subplots()
+        axes.plot([0.0, 1.0], label="line")
+        axes.legend()
+        svg = base64.b64decode(style.as_svg(figure).split(",")[1]).decode()
+        definitions, drawing = svg.split('<g id="figure_1">')
+        used = set(re.findall(r'(?:href="|url\()#([^")]+)', drawing))
+        self.assertGreater(len(used), 10)
+        self.assertLessEqual(used, set(re.findall(r' id="([^"]+)"', definitions)))
+        self.assertNotIn("<defs>", drawing)
+
+
+class ATube(unittest.TestCase):
+    def test_has_few_faces_where_it_is_straight_and_many_in_a_bend(self):
+        angle = np.linspace(0.0, np.pi, 101)
+        bend = np.column_stack([np.sin(angle), 1.0 - np.cos(angle), np.zeros(101)])
+        straight = np.column_stack([np.linspace(-5.0, 0.0, 101)[:-1], np.zeros((100, 2))])
+        for radius, faces in ((0.5, (10, 36)), (0.1, (50, 36))):
+            kept = tube.enough_points(np.concatenate([straight, bend]), radius)
+            self.assertEqual((kept[0], kept[-1]), (0, 200))
+            self.assertAlmostEqual(np.count_nonzero(kept < 100), faces[0], delta=2)
+            self.assertAlmostEqual(np.count_nonzero(kept >= 100), faces[1], delta=3)
+
+    def test_of_a_single_edge_has_both_ends(self):
+        self.assertEqual(tube.enough_points(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]), 0.1).tolist(), [0, 1])
+
+
 class APicture(unittest.TestCase):
     def test_is_never_much_higher_than_wide(self):
         run = Run(straight)
         across = np.column_stack([np.linspace(0.0, 1.2, 50), np.zeros(50), np.linspace(0.0, 0.008, 50)])
-        picture = rod_pictures.pictures(run, [marks.end_of(run.curve)], [shapes.Shape(0.0, across, None)], style.WIDE)
+        picture = rod_pictures.pictures(run, [marks.end_of(run.curve)], [shapes.Shape(0.0, across, None)], [style.WIDE])[0]
         width, height = struct.unpack(">II", base64.b64decode(picture.split(",")[1])[16:24])  # of a PNG's header
         self.assertLess(height, width)
 
@@ -239,7 +269,7 @@ class Figures(unittest.TestCase):
         for look in style.LOOKS:
             curve_figures.force_extension(run, found, look)
             curve_figures.course(run, look)
-            rod_pictures.pictures(run, found[-1:], shown, look)
+        rod_pictures.pictures(run, found[-1:], shown, style.LOOKS)
         self.assertEqual(len(drawn), 6)
         for figure in drawn:
             sizes = [text.get_fontsize() for text in figure.findobj(matplotlib.text.Text) if text.get_text().strip()]
