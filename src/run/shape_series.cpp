@@ -12,13 +12,13 @@ constexpr const char* kHead =
     "time,node,x,y,z,tension,twist,contact_force\n"
     "s,-,m,m,m,N,rad/m,N/m\n";
 
+/// A number behind a comma.
 void put(std::string& text, double value) {
-  std::array<char, 32> digits{};
+  std::array<char, 32> cell{','};
   // Adding zero turns -0 into 0.
   const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0, std::chars_format::general, kDigits);
-  text += ',';
-  text.append(digits.data(), end.ptr);
+      std::to_chars(cell.data() + 1, cell.data() + cell.size(), value + 0.0, std::chars_format::general, kDigits);
+  text.append(cell.data(), end.ptr);
 }
 
 /// NaN where there are too few.
@@ -52,10 +52,10 @@ std::string ShapeSeries::csv() const {
 }
 
 void ShapeSeries::write(const Shape& shape, std::string& text) {
+  std::string time;
+  put(time, shape.time);
   for (Eigen::Index i = 0; i < shape.points.cols(); ++i) {
-    std::string row;
-    put(row, shape.time);
-    text.append(row, 1);
+    text.append(time, 1);
     text += ',' + std::to_string(i);
     for (Eigen::Index k = 0; k < 3; ++k) put(text, shape.points(k, i));
     put(text, at(shape.tension, i));
