@@ -14,24 +14,48 @@ constexpr double kApart = 10.0;    // along the rod, before two nodes are of dif
 constexpr double kKnot = 11.0;     // half of the width of a knot with its surroundings [radius]
 constexpr int kRounds = 20;
 
-/// For each node, whether another strand lies against it. A node that is a gap away from touching lets those be left
-/// out that are less than the gap further along the rod.
+constexpr std::size_t kTogether = 8;  // nodes in a row that are kept apart from others by one comparison
+
+/// Nodes in a row, and a ball that holds them.
+struct Row {
+  std::size_t begin, end;
+  Vec3 middle;
+  double reach;
+};
+
+Vec3 node(const Points& points, std::size_t i) { return points.col(static_cast<Eigen::Index>(i)); }
+
+std::vector<Row> rows_of_nodes(const Points& points) {
+  const auto n = static_cast<std::size_t>(points.cols());
+  std::vector<Row> out;
+  for (std::size_t begin = 0; begin < n; begin += kTogether) {
+    Row row{begin, std::min(n, begin + kTogether), node(points, begin), 0.0};
+    row.middle = 0.5 * (row.middle + node(points, row.end - 1));
+    for (std::size_t i = begin; i < row.end; ++i)
+      row.reach = std::max(row.reach, (node(points, i) - row.middle).norm());
+    out.push_back(row);
+  }
+  return out;
+}
+
+/// For each node, whether another strand lies against it.
 std::vector<bool> touched(const Points& points, double radius) {
-  const Eigen::Index n = points.cols();
-  std::vector<double> along(static_cast<std::size_t>(n), 0.0);
-  for (Eigen::Index i = 1; i < n; ++i)
-    along[static_cast<std::size_t>(i)] =
-        along[static_cast<std::size_t>(i - 1)] + (points.col(i) - points.col(i - 1)).norm();
+  std::vector<double> along(static_cast<std::size_t>(points.cols()), 0.0);
+  for (std::size_t i = 1; i < along.size(); ++i)
+    along[i] = along[i - 1] + (node(points, i) - node(points, i - 1)).norm();
   std::vector<bool> out(along.size(), false);
-  for (std::size_t a = 0; a < along.size(); ++a) {
-    auto next = std::upper_bound(along.begin(), along.end(), along[a] + kApart * radius);
-    while (next != along.end()) {
-      const auto b = static_cast<std::size_t>(next - along.begin());
-      const double gap = (points.col(static_cast<Eigen::Index>(b)) - points.col(static_cast<Eigen::Index>(a))).norm() -
-                         kTouching * radius;
-      if (gap < 0.0) out[a] = out[b] = true;
-      ++next;
-      if (gap > 0.0) next = std::lower_bound(next, along.end(), along[b] + gap);
+  const double touching = kTouching * radius, apart = kApart * radius;
+  const std::vector<Row> rows = rows_of_nodes(points);
+  for (std::size_t first = 0; first < rows.size(); ++first) {
+    for (std::size_t second = first; second < rows.size(); ++second) {
+      const Row &a = rows[first], &b = rows[second];
+      if (along[b.end - 1] <= along[a.begin] + apart) continue;
+      const double near = touching * (1.0 + 1e-9) + a.reach + b.reach;
+      if ((b.middle - a.middle).squaredNorm() > near * near) continue;
+      for (std::size_t i = a.begin; i < a.end; ++i)
+        for (std::size_t j = b.begin; j < b.end; ++j)
+          if (along[j] > along[i] + apart && (node(points, j) - node(points, i)).norm() - touching < 0.0)
+            out[i] = out[j] = true;
     }
   }
   return out;
@@ -59,6 +83,7 @@ std::pair<Vec3, Vec3> two_middles(const Points& points, const Eigen::VectorXd& w
     }
     if (weight_lower > 0.0) lower = sum_lower / weight_lower;
     if (weight_upper > 0.0) upper = sum_upper / weight_upper;
+    if (0.5 * (lower.z() + upper.z()) == border) break;  // further rounds change nothing
   }
   return {lower, upper};
 }
