@@ -1,6 +1,7 @@
 """What the commands of reports have in common: how they begin, read their words, and end."""
 import argparse
 import contextlib
+import gc
 import importlib
 import os
 import stat
@@ -64,7 +65,11 @@ def why_not(file, inputs, overwrite):
 def start(program):
     """One of them, by the name of its module. What that needs may not be installed, which is told in a line, too."""
     with in_one_line(program):
-        importlib.import_module(f"knot_utm.report.{program}").main()
+        gc.disable()
+        module = importlib.import_module(f"knot_utm.report.{program}")
+        gc.freeze()  # all that is imported stays, and no search for garbage looks at it
+        gc.enable()
+        module.main()
 
 
 if __name__ == "__main__":  # scripts/PROGRAM WORD...
