@@ -43,8 +43,10 @@ std::string build_id_of(const dl_phdr_info& loaded) {
   for (std::size_t i = 0; i < loaded.dlpi_phnum; ++i) {
     const ElfW(Phdr)& segment = loaded.dlpi_phdr[i];
     if (segment.p_type != PT_NOTE) continue;
-    const auto* notes = reinterpret_cast<const char*>(loaded.dlpi_addr + segment.p_vaddr);
-    const std::string id = build_id_in(notes, segment.p_memsz, segment.p_align == 8 ? 8 : 4);
+    const ElfW(Addr) address = loaded.dlpi_addr + segment.p_vaddr;
+    const char* notes = nullptr;
+    std::memcpy(&notes, &address, sizeof(notes));
+    std::string id = build_id_in(notes, segment.p_memsz, segment.p_align == 8 ? 8 : 4);
     if (!id.empty()) return id;
   }
   return {};

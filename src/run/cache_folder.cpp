@@ -46,7 +46,7 @@ std::uint64_t limit_of_user() {
 
 /// Relative paths do not count there, says the specification of base directories.
 std::string folder_of_user() {
-  const std::string own = environment("KNOT_UTM_CACHE_DIR");
+  std::string own = environment("KNOT_UTM_CACHE_DIR");
   if (!own.empty()) return own;
   const fs::path caches = environment("XDG_CACHE_HOME"), home = environment("HOME");
   if (caches.is_absolute()) return (caches / "knot_utm").string();

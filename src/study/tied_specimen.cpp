@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/run/build_identity.hpp"

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/run/record.hpp"
