@@ -64,7 +64,8 @@ class Walk:
         self.port = launched.free_port()
         log = os.path.join(home, "ros")
         self.environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{self.port}", "ROS_HOME": log,
-                            "ROS_LOG_DIR": log, "KNOT_UTM_SKIP_BUILD": "1", "DISPLAY": "", "PWD": self.clone}
+                            "ROS_LOG_DIR": log, "KNOT_UTM_SKIP_BUILD": "1", "KNOT_UTM_CACHE_LIMIT": "0", "DISPLAY": "",
+                            "PWD": self.clone}
         self.before = files_below(ROOT)
 
     def start(self, *words):

@@ -51,7 +51,7 @@ class Runner:
         # Relative to the root, so that no message names a folder of this machine.
         command = [os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root), *words]
         self.say(f"{name}: {os.path.basename(self.tool)} {method} {shlex.join(words)}")
-        process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True,
+        process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True, env=without_cache(),
                                    preexec_fn=lambda: confine(self.core, cpu_limit))
         with process.stderr as stream:
             said = stream.read().replace(self.root + os.sep, "")
@@ -80,6 +80,11 @@ class Runner:
     def say(self, line):
         if self.verbose:
             print(line, file=sys.stderr, flush=True)
+
+
+def without_cache():
+    """The environment of runs that take up no tied specimen of earlier ones: each costs what it computes."""
+    return {**os.environ, "KNOT_UTM_CACHE_LIMIT": "0"}
 
 
 def confine(core, cpu_limit=None):

@@ -241,6 +241,14 @@ void RodReadings::state(Archive& archive) {
   archive.list(contact_load);
 }
 
+void Record::state(Archive& archive) {
+  archive(command, answer);
+  archive.list(steps);
+  archive.list(shape);
+  archive.list(tension);
+  archive(readings, wall_time);
+}
+
 const Sample* cell_reading(const Record& record) {
   const auto parted = [](const Sample& sample) { return sample.status == BenchStatus::kBroken; };
   const auto step = std::find_if(record.steps.begin(), record.steps.end(), parted);

@@ -100,12 +100,14 @@ class SideBySide {
     out.folder = specimen_folder(folder_, specimen.number);
     out.overwrite = true;  // what stands there was cut off, or is an earlier batch's, which the whole one writes over
     out.shapes = options_.shapes;
+    out.cache = options_.cache;
     out.interrupted = [this] { return stops(); };
     const int number = specimen.number;
     out.notice = [this, number](const std::string& line) {
       const std::lock_guard<std::mutex> lock(telling_);
       said_[without_numbers(line)].emplace(number, line);
     };
+    if (options_.remark) out.remark = out.notice;
     return out;
   }
 

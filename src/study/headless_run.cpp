@@ -1,125 +1,27 @@
 #include "knot_utm/study/headless_run.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <chrono>
 #include <filesystem>
-#include <set>
 #include <stdexcept>
 
+#include "earlier_run.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/run/checkpoint.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/samples.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/study/beginning.hpp"
 #include "knot_utm/study/find_margin.hpp"
+#include "knot_utm/study/tied_specimen.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
 
 namespace knot_utm {
 namespace {
-
-InvalidInput unsuited(const std::string& folder, const std::string& why) {
-  return InvalidInput::sentence("--begin-with", folder, "cannot begin with " + shown(folder) + ": " + why);
-}
-
-/// All but names and notes, which change nothing.
-YAML::Node values_of(const Method& method) {
-  YAML::Node values = YAML::Load(method_file_text(method));
-  for (const char* words : {"name", "notes"}) {
-    values["material"].remove(words);
-    values["machine"]["load_cell"].remove(words);
-  }
-  return values;
-}
-
-/// As a message shows it.
-std::string value_of(const YAML::Node& map, const std::string& key) {
-  const YAML::Node value = map[key];
-  return value.IsDefined() ? shown(YAML::Dump(value)) : "not set";
-}
-
-std::string bytes_of(Command command) {
-  Archive archive("command");
-  command.state(archive);
-  return archive.bytes();
-}
-
-/// A run that stopped before a step of its program, and from whose state runs of other methods begin. These must have
-/// the same specimen, material, machine and physics, and their programs must give the same commands up to that step. A
-/// run that begins here therefore has the same bytes as one from the beginning.
-class EarlierRun {
- public:
-  /// Brings machine and program, which have just been made from `method`, to the state in which the run in `folder`
-  /// stopped. Throws InvalidInput (key "--begin-with") where there is no such run, where it does not suit the method,
-  /// or where the new run would write over it in `out`.
-  EarlierRun(const std::string& folder, const std::string& out, const Method& method, TestingMachine& bench,
-             ProgramRunner& program)
-      : folder_(folder) {
-    std::error_code error;
-    if (std::filesystem::equivalent(folder, out, error))
-      throw unsuited(folder, "the run would write over it: choose another folder by --out");
-    const std::string file = (std::filesystem::path(folder) / "method.yaml").string();
-    if (!std::filesystem::exists(file)) throw unsuited(folder, "it holds no run");
-    method_ = load_method(file);
-    const Checkpoint checkpoint(folder, method_file_text(method_));
-    if (!checkpoint.is_there())
-      throw unsuited(folder,
-                     "it has no checkpoint; make one by tensile_test --stop-before, such as --stop-before pull");
-    check_method(method);
-    ProgramRunner its_own = make_program(method_, bench.longest_step());
-    checkpoint.load(bench, its_own);
-    follow(program, its_own.last().sequence);
-  }
-
-  /// Appends every record to the samples of the new run. Returns the wall time of the earlier run [s].
-  double replay(SamplesWriter& samples) const {
-    SamplesReader earlier(folder_);
-    Record record;
-    while (earlier.next(record)) samples.append(record);
-    return record.wall_time;
-  }
-
- private:
-  void check_method(const Method& method) const {
-    const YAML::Node there = values_of(method_), here = values_of(method);
-    for (const char* section : {"specimen", "material", "machine", "physics"}) {
-      std::set<std::string> keys;
-      for (const YAML::Node& map : {there[section], here[section]})
-        for (const auto& item : map) keys.insert(item.first.Scalar());
-      for (const std::string& key : keys) {
-        const std::string its = value_of(there[section], key), own = value_of(here[section], key);
-        if (its != own)
-          throw unsuited(folder_, std::string(section) + "." + key + " is " + its + " there, and " + own + " here");
-      }
-    }
-    if (knot_of(method.specimen).has("file") && read_whole(method_.specimen.file) != read_whole(method.specimen.file))
-      throw unsuited(folder_, "the shape of its specimen is another one");
-  }
-
-  /// The program sees all answers once more, without any physics, and must have asked the same.
-  void follow(ProgramRunner& program, std::uint64_t records) const {
-    SamplesReader samples(folder_);
-    Record record;
-    while (samples.next(record)) {
-      if (bytes_of(record.command) != bytes_of(program.last()))
-        throw unsuited(folder_, "the programs differ from " + format_number(record.command.time) +
-                                    " s on, before that run stopped");
-      program.next(record.answer);
-      if (program.ended()) throw unsuited(folder_, "this test ends before that run stopped");
-    }
-    if (samples.records() != records) throw unsuited(folder_, "its samples.csv is damaged");
-  }
-
-  std::string folder_;
-  Method method_;
-};
 
 class WallClock {
  public:
@@ -154,7 +56,8 @@ struct Test {
   std::string folder;
   TestingMachine& bench;
   ProgramRunner& program;
-  const std::optional<EarlierRun>& earlier;  ///< what comes before is that one's
+  const std::optional<Beginning>& beginning;  ///< what comes before is that one's
+  std::optional<TiedSpecimen>& ties;          ///< what it ties, where that is to be kept
 };
 
 /// Before this command the test is to stop.
@@ -188,14 +91,18 @@ void pull(const Test& test, SamplesWriter& samples, const WallClock& clock) {
       [&](const Command& command, const Sample& sample) {
         take(command, sample, test.bench, test.options.shapes, clock.seconds(), record);
         samples.append(record);
+        if (test.ties) test.ties->add(record);
         if (test.options.progress) test.options.progress(sample, test.program, clock.seconds());
       },
-      [&] { return stops_here(test) || test.options.interrupted(); });
+      [&] {
+        if (test.ties) test.ties->keep(test.bench, test.program);
+        return stops_here(test) || test.options.interrupted();
+      });
 }
 
 HeadlessOutcome run_to_end(const Test& test) {
   SamplesWriter samples(test.folder);
-  const WallClock clock(test.earlier ? test.earlier->replay(samples) : 0.0);
+  const WallClock clock(test.beginning ? test.beginning->replay(samples) : 0.0);
   pull(test, samples, clock);
   HeadlessOutcome out;
   out.folder = test.folder;
@@ -225,20 +132,41 @@ ClaimedFolder RunOptions::claim() const {
   return claimed;
 }
 
+namespace {
+
+/// The specimen that the test ties, where a cache may have it. None of a test that begins with another one, or stops
+/// before the specimen is tied.
+std::optional<TiedSpecimen> tied_by(const Method& method, const HeadlessOptions& options) {
+  if (!options.cache || !options.begin_with.empty()) return std::nullopt;
+  std::optional<TiedSpecimen> tied = TiedSpecimen::of(method, options.shapes, *options.cache);
+  if (tied && options.stop_before && *options.stop_before < tied->step()) return std::nullopt;
+  return tied;
+}
+
+}  // namespace
+
 HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options) {
   Method method = given;
   TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
   ProgramRunner program = make_program(method, bench.longest_step());
   require_no_record_in(options.folder, method);  // before anything is written
-  std::optional<EarlierRun> earlier;
-  if (!options.begin_with.empty()) earlier.emplace(options.begin_with, options.folder, method, bench, program);
+  std::optional<Beginning> beginning;
+  std::optional<TiedSpecimen> ties = tied_by(method, options);
+  if (!options.begin_with.empty())
+    beginning = begin_with_earlier(options.begin_with, options.folder, method, bench, program);
+  else if (ties)
+    beginning = ties->take_up(method, bench, program);
+  const bool taken_up = ties && beginning;
+  if (taken_up) ties.reset();
   const ClaimedFolder claimed = options.claim();
   begin_run_folder(claimed.path(), method);
   // The shape that the last run left in this folder is there no longer, but for its copy.
   if (knot_of(method.specimen).has("file") && !std::filesystem::exists(method.specimen.file))
     method.specimen.file = (std::filesystem::path(claimed.path()) / "specimen.csv").string();
-  const Test test{method, options, claimed.path(), bench, program, earlier};
+  const Test test{method, options, claimed.path(), bench, program, beginning, ties};
   for (const std::string& warning : foreseen_warnings(method)) options.tell(warning);
+  if (taken_up && options.remark)
+    options.remark("the tied specimen was taken from the cache (--no-cache ties it anew)");
   try {
     return run_to_end(test);
   } catch (const InvalidInput&) {

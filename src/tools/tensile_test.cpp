@@ -13,6 +13,7 @@
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/record/phase.hpp"
+#include "knot_utm/run/cache_folder.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/load_test.hpp"
@@ -65,10 +66,12 @@ struct Arguments {
   bool quiet = false;
   bool report = false;
   bool shapes = false;
-  bool check = false;      // no test
-  bool list_keys = false;  // no test
-  std::string program;     // as it was called
-  std::string command;     // the whole line
+  bool no_cache = false;
+  std::optional<CacheFolder> cache;  // of tied specimens; empty: none
+  bool check = false;                // no test
+  bool list_keys = false;            // no test
+  std::string program;               // as it was called
+  std::string command;               // the whole line
 };
 
 /// What makes the writer of the bag; nothing without ROS.
@@ -138,11 +141,13 @@ Options options_in(const std::string& folder, const Arguments& arguments, Progre
   options.folder = folder;
   options.overwrite = arguments.overwrite;
   options.shapes = arguments.shapes;
+  options.cache = arguments.cache;
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {
     progress.end();
     std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
   };
+  if (!arguments.quiet) options.remark = options.notice;
   return options;
 }
 
@@ -298,10 +303,11 @@ std::string phases_csv() {
   return text;
 }
 
-/// Where the method stands and where the results go, once all words are read.
+/// Where the method stands, where the results go and where tied specimens are kept, once all words are read.
 void settle(Arguments& arguments) {
   if (arguments.specimens > 0) arguments.overrides.push_back("specimens.count=" + std::to_string(arguments.specimens));
   if (!arguments.show.empty() || !arguments.from_samples.empty()) return;
+  if (!arguments.no_cache) arguments.cache = CacheFolder::of_user();
   if (arguments.resume.empty()) {
     arguments.method = find_method(arguments.method);
     return;
@@ -340,6 +346,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::Option* stop_before =
       app.add_option("--stop-before", arguments.stop_before,
                      "stop the test before this step of its program; --begin-with goes on from there");
+  app.add_flag("--no-cache", arguments.no_cache,
+               "tie the specimen even where an earlier test has tied the same one, and keep none for later tests");
   for (CLI::Option* one : {begin_with, stop_before}) one->excludes(specimens)->excludes(resume);
   resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite)->excludes(specimens);
   CLI::Option* from_samples = app.add_option(

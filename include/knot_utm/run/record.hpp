@@ -27,6 +27,8 @@ struct Record {
   Eigen::VectorXd tension;              ///< of each edge, tension positive [N]; empty where no shape is due
   std::optional<RodReadings> readings;  ///< where they are asked for and a shape is due
   double wall_time = 0.0;               ///< wall time since the beginning of the test [s]
+
+  void state(Archive& archive);
 };
 
 /// The row of curve.csv that belongs to a command; null: none does. It is the answer at a sampling instant of the load

@@ -7,6 +7,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/run/cache_folder.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
 
@@ -17,10 +18,14 @@ struct RunOptions {
   std::string folder;      ///< folder to write to
   bool overwrite = false;  ///< overwrites the contents of `folder`, instead of using the next free folder
   bool shapes = false;     ///< also writes shapes.csv
+  /// Where tied specimens are kept and taken up (tied_specimen.hpp); empty: each test ties its own.
+  std::optional<CacheFolder> cache;
 
   std::function<bool()> interrupted;  ///< whether to stop; called between commands, and of a batch by several threads
   /// Receives warnings: of a test when they arise, of a batch once all its tests have ended.
   std::function<void(const std::string& line)> notice;
+  /// Receives what is worth saying and no warning.
+  std::function<void(const std::string& line)> remark;
 
   void tell(const std::string& line) const {
     if (notice) notice(line);
