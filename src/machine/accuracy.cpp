@@ -35,21 +35,31 @@ double shorter_where_tied_hard(const SpecimenOptions& specimen, const Material& 
   return std::clamp(std::pow(preload_group(specimen, material) / kTiedHard, 0.25), 1.0, kShortestForHard);
 }
 
-/// How a loop takes a load, as far as its tolerances depend on it.
+/// A knot of a solid rod that is drawn open, between clamps.
+bool is_open(const SpecimenOptions& specimen, const Material& material) {
+  const KnotDescription& knot = knot_of(specimen).about();
+  return knot.knots > 0 && !knot.loop && is_solid(material);
+}
+
+/// How a specimen takes a load, as far as its tolerances depend on it.
 struct Answer {
   bool stretches = false;
   bool rolls = false;  ///< its strands roll on each other
+  bool open = false;
 };
 
 Answer answer(const PhysicsOptions& physics, const SpecimenOptions& specimen, const Material& material) {
-  return {stretches(specimen, material), friction_couple(material, physics) > 0.0};
+  const bool rolls = friction_couple(material, physics) > 0.0;
+  return {stretches(specimen, material), rolls, rolls && is_open(specimen, material)};
 }
 
 Tolerances of(Accuracy accuracy, const Answer& rod) {
   switch (accuracy) {
     case Accuracy::kDraft:
+      if (rod.open) return kOpenDraft;
       return rod.stretches ? kStretchingDraft : kDraft;
     case Accuracy::kNormal:
+      if (rod.open) return kOpenNormal;
       if (rod.stretches) return kStretchingNormal;
       return rod.rolls ? kRollingNormal : kNormal;
     case Accuracy::kFine:
