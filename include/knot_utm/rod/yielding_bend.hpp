@@ -17,8 +17,7 @@ namespace knot_utm {
 /// from one side on which it slides to the other. Once the direction n has turned away from that of the last trial, the
 /// linear model is that of a spring that holds, k_y xi, and the next trial lies where it does, or on the right side.
 ///
-/// Source: Prager 1956 (kinematic hardening); Simo, Hughes 1998, section 1.6; Hintermueller, Ito, Kunisch 2002 (active
-/// sets).
+/// Source: Prager 1956 (kinematic hardening); Simo, Hughes 1998, section 1.6.
 struct YieldingBend {
   double elastic;   ///< k [N m]
   double yielding;  ///< k_y [N m]
