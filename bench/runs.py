@@ -41,15 +41,16 @@ class Runner:
             return list(pool.map(lambda place, one: made_of(place, runner.run(*one, cpu_limit=cpu_limit)),
                                  range(len(todo)), todo))
 
-    def run(self, name, settings, method=METHOD, more=(), cpu_limit=None):
+    def run(self, name, settings, method=METHOD, more=(), cpu_limit=None, under=()):
         """`settings`: dotted key -> value, on top of which come those of the command line; `more`: further words of it.
+        `under`: a program that runs it, with its words.
         `cpu_limit` [s]: more, and the run is ended by SIGXCPU, however busy the machine."""
         words = words_of(settings, self.overrides) + list(more)
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
         # Relative to the root, so that no message names a folder of this machine.
-        command = [os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root), *words]
+        command = [*under, os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root), *words]
         self.say(f"{name}: {os.path.basename(self.tool)} {method} {shlex.join(words)}")
         process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True, env=without_cache(),
                                    preexec_fn=lambda: confine(self.core, cpu_limit))

@@ -13,6 +13,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 
 import front  # noqa: E402
 import lengths  # noqa: E402
+import profiles  # noqa: E402
 import readings  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
@@ -273,6 +274,35 @@ class Means(unittest.TestCase):
                                      ("contact tolerance x1/4", {"physics.contact.tolerance": contact_tolerance / 4}),
                                      ("presliding x1/2", {"physics.friction.presliding": presliding / 2})):
                 self.assertEqual(variants[variant], changed)
+
+
+class Profile(unittest.TestCase):
+    """What scripts/bench profile makes of what perf says."""
+    SAID = """ 60  |libknot_utm_core.so |[.] knot_utm::BlockMatrix<4>::eliminate<false>
+ 20  |libknot_utm_core.so |[.] knot_utm::(anonymous namespace)::FourSurfaces<knot_utm::MemoryFriction>::moved
+ 10  |libm.so.6           |[.] __sincos_fma
+ 6   |[kernel.kallsyms]   |[k] clear_page_erms
+ 4   |libknot_utm_core.so |[.] knot_utm::NobodyKnows::what
+
+"""
+
+    def test_shares_are_those_of_the_samples(self):
+        shares = profiles.shares_of(profiles.samples_of(self.SAID))
+        self.assertEqual({group: share for group, share in shares.items() if share},
+                         {"factorisation and back substitution": 60.0, "contact law and linearisation": 20.0, profiles.ELASTIC: 10.0,
+                          profiles.FILES: 6.0, profiles.OTHER: 4.0})
+
+    def test_a_class_has_more_groups_than_one(self):
+        for function, group in (("StepMatrix<4>::find_rooms", "matrix order and pattern"),
+                                ("StepMatrix<4>::add", "assembly and Newton's method"),
+                                ("SmoothContact::find_feet", "contact search and projection"),
+                                ("SmoothContact::remember", "contact bookkeeping")):
+            self.assertEqual(profiles.group_of("libknot_utm_core.so", "knot_utm::" + function), group)
+
+    def test_too_many_unknown_functions_fail(self):
+        for unknown, fails in ((4, False), (6, True)):
+            samples = {("libknot_utm_core.so", "NobodyKnows"): unknown, ("libc.so.6", "malloc"): 100 - unknown}
+            self.assertEqual(bool(profiles.table_of(["nylon"], [samples]).failed()), fails)
 
 
 class References(unittest.TestCase):
