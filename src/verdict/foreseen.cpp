@@ -1,9 +1,11 @@
 #include "knot_utm/verdict/foreseen.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "knot_utm/contact/friction.hpp"
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
@@ -65,6 +67,27 @@ std::string scatters(const Method& method) {
   return "specimen.handedness is opposite: whether such knots hold or jump open, and at which force they slide, is one "
          "of a distribution, and small changes of the specimen or its mesh decide it; judge by several specimens "
          "(specimens.count)";
+}
+
+/// A coefficient of friction that nobody measured between dry strands. With more, 4 of 13 loops with `power` friction
+/// were given up by the solver, with less none of 16 (ropes, exponents of 0.5 to 0.8, draft).
+constexpr double kMostFriction = 1.5;
+
+/// Warns of a law of friction that makes strands of a knot much rougher than the method says.
+std::string too_rough(const Method& method) {
+  const Material& rod = method.material;
+  if (!knot_of(method.specimen).about().may_hold_a_knot() || rod.friction_coefficient <= 0.0) return "";
+  const double pressure = rod.bending_stiffness / std::pow(rod.radius, 3);
+  const Friction friction = Friction::of(method.physics.friction, {rod.friction_coefficient, rod.radius, 1.0});
+  const double there = friction.visit([&](const auto& law) {
+    FrictionInput<Vec3> input{pressure, Vec3::UnitX(), Vec3::Zero(), Vec3::UnitX(), 0.0, 1.0};
+    return law.traction(input).coefficient;
+  });
+  if (there <= std::max(kMostFriction, rod.friction_coefficient)) return "";
+  return "physics.friction.law: " + std::string(FrictionRegistry::entry(method.physics.friction.law).name) +
+         " makes the friction coefficient " + short_number(there) + " at " + short_number(pressure) +
+         " N/m, which is how strands of a knot press on each other (k_b/h3); material.friction_coefficient, " +
+         short_number(rod.friction_coefficient) + ", holds at physics.friction.reference_pressure: is that in N/m?";
 }
 
 /// What steps of the program wait for, and what ends the test before.
@@ -198,8 +221,8 @@ std::string higher_preload(const Method& method) {
 std::vector<std::string> foreseen_warnings(const Method& method) {
   std::vector<std::string> all;
   if (method.specimen.to_be_tied) all = tying_warnings(method.specimen, method.material, method.physics);
-  for (const std::string& found :
-       {longer_than_usual(method), near_the_rollers(method), between_nodes(method), scatters(method)})
+  for (const std::string& found : {longer_than_usual(method), near_the_rollers(method), between_nodes(method),
+                                   scatters(method), too_rough(method)})
     if (!found.empty()) all.push_back(found);
   add_never_reached(method, all);
   ask_about(method.material, all);

@@ -68,6 +68,16 @@ TEST(Foreseen, KnotsOfOppositeHandedness) {
               ElementsAre(HasSubstr("is one of a distribution")));
 }
 
+/// A power of the pressure that holds at a pressure far beyond that of knots.
+TEST(Foreseen, FrictionThatIsMuchLargerInKnotsThanTheMethodSays) {
+  const std::string law = "physics.friction={law: power, exponent: 0.6, reference_pressure: ";
+  EXPECT_THAT(
+      warnings_of("tighten", {law + "67323}"}),
+      ElementsAre(AllOf(HasSubstr("law: power makes the friction coefficient 2.16"), HasSubstr("at 1350 N/m"))));
+  EXPECT_THAT(warnings_of("tighten", {law + "1000}"}), IsEmpty());
+  EXPECT_THAT(warnings_of("straight", {"physics.friction={law: memory}"}), IsEmpty());
+}
+
 TEST(Foreseen, AnExtensionBeyondTheTravelOfTheCrosshead) {
   EXPECT_THAT(warnings_of("straight", {"machine.travel=0.02", "program=[{pull: {until: {extension: 0.02}}}]"}),
               IsEmpty());
