@@ -79,10 +79,13 @@ class EarlierRun {
   }
 
   /// Appends every record to the samples of the new run. Returns the wall time of the earlier run [s].
-  double replay(SamplesWriter& samples) const {
+  double replay(SamplesWriter& samples, EarlyEnd& early) const {
     SamplesReader earlier(folder_);
     Record record;
-    while (earlier.next(record)) samples.append(record);
+    while (earlier.next(record)) {
+      samples.append(record);
+      early.add(record);
+    }
     return record.wall_time;
   }
 
@@ -166,7 +169,7 @@ bool stops_here(const Test& test) {
 MadeResults make_with_margin(const std::string& folder, const Method& method, const HeadlessOptions& options,
                              bool ran_here) {
   ResultsOptions more;
-  more.further = options.further;
+  if (options.readings == Readings::kAll) more.further = options.further;
   more.ran_here = ran_here;
   more.without_end.reason = "the test was cut off";
   if (method.analysis.margin)
@@ -181,13 +184,16 @@ MadeResults make_with_margin(const std::string& folder, const Method& method, co
   return made;
 }
 
-void pull(const Test& test, SamplesWriter& samples, const WallClock& clock) {
+void pull(const Test& test, SamplesWriter& samples, EarlyEnd& early, const WallClock& clock) {
   Record record;
+  const bool shapes = test.options.shapes && test.options.readings == Readings::kAll;
   run_test(
       test.bench, test.program,
       [&](const Command& command, const Sample& sample) {
-        take(command, sample, test.bench, test.options.shapes, clock.seconds(), record);
+        take(command, sample, test.bench, shapes, clock.seconds(), record);
         samples.append(record);
+        early.add(record);
+        early.end(test.program);
         if (test.options.progress) test.options.progress(sample, test.program, clock.seconds());
       },
       [&] { return stops_here(test) || test.options.interrupted(); });
@@ -195,8 +201,9 @@ void pull(const Test& test, SamplesWriter& samples, const WallClock& clock) {
 
 HeadlessOutcome run_to_end(const Test& test) {
   SamplesWriter samples(test.folder);
-  const WallClock clock(test.earlier ? test.earlier->replay(samples) : 0.0);
-  pull(test, samples, clock);
+  EarlyEnd early(test.method, test.options.readings);
+  const WallClock clock(test.earlier ? test.earlier->replay(samples, early) : 0.0);
+  pull(test, samples, early, clock);
   HeadlessOutcome out;
   out.folder = test.folder;
   if (test.program.ended()) out.ended = test.program.ended_by();
@@ -229,11 +236,12 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   Method method = given;
   TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
   ProgramRunner program = make_program(method, bench.longest_step());
+  require_readings(method, options.readings);
   require_no_record_in(options.folder, method);  // before anything is written
   std::optional<EarlierRun> earlier;
   if (!options.begin_with.empty()) earlier.emplace(options.begin_with, options.folder, method, bench, program);
   const ClaimedFolder claimed = options.claim();
-  begin_run_folder(claimed.path(), method);
+  begin_run_folder(claimed.path(), method, words_of(options.readings));
   // The shape that the last run left in this folder is there no longer, but for its copy.
   if (knot_of(method.specimen).has("file") && !std::filesystem::exists(method.specimen.file))
     method.specimen.file = (std::filesystem::path(claimed.path()) / "specimen.csv").string();

@@ -9,6 +9,7 @@
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
+#include "knot_utm/study/readings.hpp"
 
 namespace knot_utm {
 
@@ -17,6 +18,8 @@ struct RunOptions {
   std::string folder;      ///< folder to write to
   bool overwrite = false;  ///< overwrites the contents of `folder`, instead of using the next free folder
   bool shapes = false;     ///< also writes shapes.csv
+  /// Other readings than all end the test early, and leave neither shapes.csv nor a further file.
+  Readings readings = Readings::kAll;
 
   std::function<bool()> interrupted;  ///< whether to stop; called between commands, and of a batch by several threads
   /// Receives warnings: of a test when they arise, of a batch once all its tests have ended.
@@ -51,7 +54,8 @@ struct HeadlessOutcome {
 };
 
 /// Runs the test of a method and writes all files of its folder. A run that stops before a step also leaves a
-/// checkpoint. Throws InvalidInput, before anything is written, where method and folder do not go together. Throws
+/// checkpoint. Throws InvalidInput, before anything is written, where method and folder, or method and readings, do not
+/// go together. Throws
 /// std::runtime_error where a file cannot be written; the message says what stands.
 HeadlessOutcome run_headless(const Method& method, const HeadlessOptions& options);
 
