@@ -15,10 +15,11 @@ namespace {
 // doc/developers/measured.md says where these come from.
 constexpr int kBatches = 5;
 constexpr std::ptrdiff_t kFewestInPart = 2;  // in a part of the plateau, in the mean
-constexpr double kLeastSlid = 8.0;             // along the plateau [h]
-constexpr double kOfError = 0.5;               // of the relative error of a plateau force
-constexpr double kMostDoubt = 0.03;            // of the mean force
-constexpr double kOften = 0.25;                // extension between two looks [h]
+constexpr double kLeastSlid = 8.0;           // along the plateau [h] ...
+constexpr double kLeastShare = 0.5;          // ... and of it
+constexpr double kOfError = 0.5;             // of the relative error of a plateau force
+constexpr double kMostDoubt = 0.02;          // of the mean force
+constexpr double kOften = 0.25;              // extension between two looks [h]
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -56,9 +57,10 @@ double doubt_about_plateau(const Pull& pull) {
   if (pull.empty()) return kInfinity;
   const Range read = plateau_read(pull), whole = whole_plateau(pull);
   if (!(read.high > read.low) || readings_within(pull, read) < kBatches * kFewestInPart) return kInfinity;
-  const double left = (whole.high - read.high) / (whole.high - whole.low);
+  const double left = whole.high - read.high;
   const Statistics parts = statistics_of(means_of_parts(pull, read));
-  return parts.high ? 0.5 * (*parts.high - *parts.low) * std::sqrt(left) : 0.0;
+  const double of_mean = parts.high ? 0.5 * (*parts.high - *parts.low) : 0.0;
+  return of_mean * std::sqrt(left / (whole.high - whole.low)) + 0.5 * std::abs(slope_over(pull, read)) * left;
 }
 
 PlateauWatch::PlateauWatch(double radius, std::optional<double> error)
@@ -78,18 +80,23 @@ bool PlateauWatch::settled_by(const Sample& reading) {
   return looks_settled(pull) && has_plateau(analyse(samples_, readings_, EndedBy::kPlateau, true));
 }
 
-bool PlateauWatch::looks_settled(const Pull& pull) const {
-  const Range read = plateau_read(pull), whole = whole_plateau(pull);
-  if (read.high < whole.high && read.high - read.low < kLeastSlid * radius_) return false;
-  const std::optional<Plateau> level = plateau(borne_of(pull), meeting_extension(pull));
-  return level && doubt_about_plateau(pull) <= tolerance_ * level->force;
+/// The extension up to which the knots are to slide at least [m].
+double PlateauWatch::least_extension(const Pull& pull) const {
+  const Range whole = whole_plateau(pull);
+  const double length = whole.high - whole.low;
+  return whole.low + std::min(length, std::max(kLeastSlid * radius_, kLeastShare * length));
 }
 
 /// Where the knots have slid far enough; a little further on where they have; never once the whole plateau was read.
 double PlateauWatch::next_look_after(const Pull& pull) const {
-  const Range whole = whole_plateau(pull);
-  const double here = pull.back().extension, least = std::min(whole.low + kLeastSlid * radius_, whole.high);
-  return here < least ? least : here < whole.high ? here + kOften * radius_ : kInfinity;
+  const double here = pull.back().extension, least = least_extension(pull);
+  return here < least ? least : here < whole_plateau(pull).high ? here + kOften * radius_ : kInfinity;
+}
+
+bool PlateauWatch::looks_settled(const Pull& pull) const {
+  if (pull.back().extension < least_extension(pull)) return false;
+  const std::optional<Plateau> level = plateau(borne_of(pull), meeting_extension(pull));
+  return level && doubt_about_plateau(pull) <= tolerance_ * level->force;
 }
 
 }  // namespace knot_utm

@@ -37,11 +37,12 @@ std::optional<std::vector<Sample>> ended_early(const std::vector<Sample>& sample
 }
 
 /// The means of five parts of a line differ by the growth over a part each; the plateau lies from 0.0225 to 0.06 m.
-TEST(DoubtAboutAPlateau, OfALoadThatGrowsIsThatOfItsTrend) {
+TEST(DoubtAboutAPlateau, OfALoadThatGrowsIsThatOfItsTrendAndOfWhatIsLeft) {
   const double slope = 10.0, end = 0.05, width = end - 0.0225;
   const Pull pull = slid(end, 200, [&](double s) { return 3.0 + slope * s; });
-  const double sd = slope * width / 5.0 * std::sqrt(2.5), left = 0.01 / 0.0375;
-  EXPECT_NEAR(doubt_about_plateau(pull), student_95(4) * sd / std::sqrt(5.0) * std::sqrt(left), 1e-9);
+  const double sd = slope * width / 5.0 * std::sqrt(2.5), left = 0.06 - end;
+  EXPECT_NEAR(doubt_about_plateau(pull),
+              student_95(4) * sd / std::sqrt(5.0) * std::sqrt(left / 0.0375) + slope * left / 2.0, 1e-9);
 }
 
 TEST(DoubtAboutAPlateau, IsGoneOnceAllOfItHasBeenRead) {
@@ -55,13 +56,25 @@ TEST(DoubtAboutAPlateau, IsInfiniteWhereTooLittleWasRead) {
   EXPECT_TRUE(std::isinf(doubt_about_plateau({})));
   EXPECT_TRUE(std::isinf(doubt_about_plateau(slid(0.02, 200, level)))) << "the plateau has not begun";
   EXPECT_TRUE(std::isinf(doubt_about_plateau(slid(0.06, 10, level)))) << "fewer than two readings a part";
-  EXPECT_EQ(doubt_about_plateau(slid(0.05, 200, level)), 0.0);
+  EXPECT_NEAR(doubt_about_plateau(slid(0.05, 200, level)), 0.0, 1e-9);
 }
 
 TEST(PlateauWatch, EndsALevelPlateauAfterEightRadiiOfIt) {
   const auto left = ended_early(Curve().samples());
   ASSERT_TRUE(left);
   EXPECT_NEAR(left->back().extension, 0.0225 + 8.0 * kRadius, 2.0 * Curve().step);
+}
+
+TEST(PlateauWatch, ReadsAtLeastHalfOfALongPlateau) {
+  Curve curve;
+  curve.noise = curve.ripple = 0.0;
+  PlateauWatch watch(0.1 * kRadius, {});
+  double end = 0.0;
+  for (const Sample& sample : curve.samples()) {
+    watch.add(sample);
+    if (end == 0.0 && watch.settled_by(sample)) end = sample.extension;
+  }
+  EXPECT_NEAR(end, 0.0225 + 0.5 * 0.0375, 2.0 * curve.step);
 }
 
 TEST(PlateauWatch, LooksLongerAtAPlateauThatRisesAndAtOneThatIsToBeKnownBetter) {
