@@ -59,8 +59,10 @@ double doubt_about_plateau(const Pull& pull) {
   if (!(read.high > read.low) || readings_within(pull, read) < kBatches * kFewestInPart) return kInfinity;
   const double left = whole.high - read.high;
   const Statistics parts = statistics_of(means_of_parts(pull, read));
-  const double of_mean = parts.high ? 0.5 * (*parts.high - *parts.low) : 0.0;
-  return of_mean * std::sqrt(left / (whole.high - whole.low)) + 0.5 * std::abs(slope_over(pull, read)) * left;
+  const double of_mean = parts.high ? 0.5 * (*parts.high - *parts.low) : 0.0, share = left / (whole.high - whole.low);
+  const double by_trend = 0.5 * std::abs(slope_over(pull, read)) * left,
+               by_last = std::abs(pull.back().force - *parts.mean) * share;
+  return of_mean * std::sqrt(share) + std::max(by_trend, by_last);
 }
 
 PlateauWatch::PlateauWatch(double radius, std::optional<double> error)

@@ -45,6 +45,14 @@ TEST(DoubtAboutAPlateau, OfALoadThatGrowsIsThatOfItsTrendAndOfWhatIsLeft) {
               student_95(4) * sd / std::sqrt(5.0) * std::sqrt(left / 0.0375) + slope * left / 2.0, 1e-9);
 }
 
+/// A load that falls as the plateau is read may stay so low.
+TEST(DoubtAboutAPlateau, CountsALastLoadThatIsNotTheMean) {
+  const auto falls = [](double s) { return s < 0.0499 ? 3.0 : 3.0 - 1e4 * (s - 0.0499); };
+  const double doubt = doubt_about_plateau(slid(0.05, 500, falls));
+  EXPECT_GT(doubt, 0.99 * 0.01 / 0.0375);
+  EXPECT_LT(doubt, 1.1 * 0.01 / 0.0375);
+}
+
 TEST(DoubtAboutAPlateau, IsGoneOnceAllOfItHasBeenRead) {
   const auto waves = [](double s) { return 3.0 + std::sin(200.0 * s); };
   EXPECT_GT(doubt_about_plateau(slid(0.055, 200, waves)), 0.01);

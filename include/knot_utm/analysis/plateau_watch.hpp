@@ -14,14 +14,14 @@ namespace knot_utm {
 ///
 /// The whole plateau is that of knots that slide up to meeting_extension(). A fraction f of it has been read, and a
 /// length r of it is left [m]. The part that was read is divided into n parts of equal extension. Their means m_i
-/// scatter by a standard deviation sd(m), and they hold whatever F does over a longer way than a part. The
-/// least-squares slope of F over what was read is k [N/m]. Student's t has n - 1 degrees of freedom:
+/// scatter by a standard deviation sd(m), and they hold whatever F does over a longer way than a part. Of what was read
+/// the mean is M, the least-squares slope is k [N/m], and the last F is F_1. Student's t has n - 1 degrees of freedom:
 ///
-///     d = t sd(m) n^(-1/2) (1 - f)^(1/2) + |k| r/2
+///     d = t sd(m) n^(-1/2) (1 - f)^(1/2) + max(|k| r/2, |F_1 - M| (1 - f))
 ///
 /// The factor with f is that of a sample from a finite population: once the whole plateau has been read, its mean is
-/// known. The last term is the change of the mean by a trend that goes on. The result is infinite where nothing of the
-/// plateau was pulled, or where a part has fewer than two readings in the mean.
+/// known. The last term is the change of the mean by a trend that goes on, or by a load that stays as it is now. The
+/// result is infinite where nothing of the plateau was pulled, or where a part has fewer than two readings in the mean.
 double doubt_about_plateau(const Pull& pull);
 
 /// Follows a test of a loop on rollers and tells when its plateau is settled, so that the rest of the pull would hardly
