@@ -13,7 +13,7 @@ PROGRAM = tool.program("sweep")
 def main(words):
     asked = _arguments(words)
     try:
-        work = Sweep(asked.study, asked.out, asked.plot)
+        work = Sweep(asked.study, asked.out, asked.plot, asked.readings)
         if asked.only == "names":
             print("\n".join(work.runs))
         elif asked.only == "check":
@@ -46,6 +46,7 @@ def _arguments(words):
     parser = parser_of(PROGRAM, "study")
     parser.add_argument("--only")
     parser.add_argument("--plot", action="append", default=[])
+    parser.add_argument("--readings")
     return parsed(parser, words)
 
 

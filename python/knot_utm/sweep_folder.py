@@ -68,7 +68,7 @@ class SweepFolder:
         return os.path.join(self._tied, name)
 
     def record(self, run):
-        """{exit_code, error, set, version} of a run that has ended; None of any other."""
+        """{exit_code, error, set, version} of a run that has ended, and readings where they are not all; None of any other."""
         file = self._file(run, RECORD)
         return load(file) if os.path.exists(file) else None
 

@@ -15,23 +15,24 @@ from knot_utm.yaml_text import load
 SPECIMEN = "specimen"  # the column that tells repeats apart
 
 
-def sweep(study, out=None, jobs=None, plots=()):
+def sweep(study, out=None, jobs=None, plots=(), readings=None):
     """Runs a study's file and returns its table, a pandas.DataFrame with its units in `.attrs["units"]`.
 
     `out`: the folder, unless given out/ and the study's name; runs that are there are not run again. `jobs`: runs at a
-    time, unless given as many as there are cores. `plots`: keys of result.yaml, of each of which a picture is made. Raises
-    WrongInput where the study or one of its runs would be refused, before anything is written; Interrupted where it was cut
+    time, unless given as many as there are cores. `plots`: keys of result.yaml, of each of which a picture is made. `readings`:
+    "plateau" ends each test once its sliding force is known. Raises WrongInput where the study or one of its runs would be refused, before anything is written; Interrupted where it was cut
     short: the same call goes on."""
-    return Sweep(study, out, plots).all(jobs or len(os.sched_getaffinity(0)))
+    return Sweep(study, out, plots, readings).all(jobs or len(os.sched_getaffinity(0)))
 
 
 class Sweep:
     """A study in its folder. `runs`: {name: {key: value}}, each once."""
 
-    def __init__(self, study, out=None, plots=()):
+    def __init__(self, study, out=None, plots=(), readings=None):
         require_plottable(plots)
         self.study = load_study(os.fspath(study))
         self.plots = plots
+        self.readings = readings  # the word of tensile_test's --readings; None: all
         self.folder = SweepFolder(os.path.abspath(out or os.path.join("out", self.study.name)))
         addresses = Addresses(self.study.method)
         self.names = [addresses.of(settings) for settings in self.study.settings]
@@ -44,6 +45,7 @@ class Sweep:
 
     def all(self, jobs):
         """All parts: checks, runs what is open, writes the table and returns it."""
+        self._require_same_readings()
         with self._work() as work:
             work.check(self._open(), jobs)
             with self.folder.claimed():
@@ -54,6 +56,7 @@ class Sweep:
 
     def check(self, jobs):
         """Raises WrongInput where one of the runs that are open would be refused."""
+        self._require_same_readings()
         with self._work() as work:
             work.check(self._open(), jobs)
 
@@ -61,6 +64,7 @@ class Sweep:
         """That run alone, beside others of other processes."""
         if run not in self.runs:
             raise WrongInput(f"{run} is no run of {self.study.file}")
+        self._require_same_readings()
         with self._work() as work, self.folder.shared():
             work.run({run: self.runs[run]} if run in self._open() else {}, 1)
             work.require_all()
@@ -78,9 +82,17 @@ class Sweep:
                    for name in set(self.begun))
 
     def _work(self):
-        work = Work(self.study, self.folder, list(self.runs), self.beginnings)
+        work = Work(self.study, self.folder, list(self.runs), self.beginnings, self.readings)
         self.begun = work.begun
         return work
+
+    def _require_same_readings(self):
+        """Raises WrongInput where the runs that are there were made for other readings: one table has one kind."""
+        done = next((run for run in self.runs if self.folder.is_done(run)), None)
+        if done is None or (had := self.folder.record(done).get("readings")) == self.readings:
+            return
+        what = f"with --readings {had}: give it again" if had else "without --readings: leave it out"
+        raise WrongInput(f"the runs in {self.folder.path} were made {what}, or choose another folder")
 
     def _open(self):
         return {run: point for run, point in self.runs.items() if not self.folder.is_done(run)}

@@ -111,9 +111,9 @@ def start(method, settings, out, *more):
                             process_group=0, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
 
-def refusal(method, settings):
+def refusal(method, settings, *more):
     """Why tensile_test would refuse to run that, in a line; None where it would not."""
-    done = _checked(method, settings)
+    done = _checked(method, settings, *more)
     return said_by(done.stderr) if done.returncode == REFUSED else None
 
 
@@ -125,8 +125,8 @@ def resolved(method, settings):
     return done.stdout
 
 
-def _checked(method, settings):
-    return _succeeded(_asked(method, settings, "--check"), f"--check of {method}", (0, REFUSED))
+def _checked(method, settings, *more):
+    return _succeeded(_asked(method, settings, "--check", *more), f"--check of {method}", (0, REFUSED))
 
 
 def key_units(method, settings):
@@ -153,9 +153,9 @@ def _set(settings):
     return [word for key, value in settings.items() for word in ("--set", f"{key}={text_of(value)}")]
 
 
-def _asked(method, settings, option):
+def _asked(method, settings, *options):
     """What tensile_test says of a method without running it."""
-    return subprocess.run([tensile_test(), method, *_set(settings), option], check=False, text=True, errors="replace",
+    return subprocess.run([tensile_test(), method, *_set(settings), *options], check=False, text=True, errors="replace",
                           cwd=os.path.dirname(method), stdin=subprocess.DEVNULL, capture_output=True)
 
 

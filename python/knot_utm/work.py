@@ -17,10 +17,12 @@ INTERRUPTED = "interrupted"  # the reason of a run that may go on
 class Work(Runner):
     """What is done for a study, until it is done or stopped."""
 
-    def __init__(self, study, folder, runs, beginnings):
-        """`runs`: the names of all; `beginnings`: {run: (name, Beginning)} of those that share one."""
+    def __init__(self, study, folder, runs, beginnings, readings=None):
+        """`runs`: the names of all; `beginnings`: {run: (name, Beginning)} of those that share one; `readings`: the word of
+        tensile_test's option, or None."""
         super().__init__()
-        self.study, self.folder, self.runs, self.beginnings = study, folder, runs, beginnings
+        self.study, self.folder, self.runs, self.beginnings, self.readings = study, folder, runs, beginnings, readings
+        self._options = ("--readings", readings) if readings else ()
         self.begun = []  # names of the beginnings that runs began with
         self._handlers = {}
 
@@ -66,7 +68,7 @@ class Work(Runner):
         self.each(self._make, points.items(), jobs, "run")
 
     def _refusal(self, _run, point):
-        return None if self.stopped else tool.refusal(self.study.method, point)
+        return None if self.stopped else tool.refusal(self.study.method, point, *self._options)
 
     def _tie(self, name, beginning):
         """A beginning, up to the step before which it stops. Where it comes to nothing, the runs say why."""
@@ -85,7 +87,7 @@ class Work(Runner):
         if self.stopped:
             return
         with self.stopping(), self.folder.making(self.folder.of(run)) as part:
-            code, said = self._go_on(run, point, part) or self._wait(point, part)
+            code, said = self._go_on(run, point, part) or self._wait(point, part, *self._options)
             if not self.stopped:
                 self._keep(part, run, point, code, said.replace(part, self.folder.of(run)))
 
@@ -94,7 +96,7 @@ class Work(Runner):
         name = self.beginnings[run][0] if run in self.beginnings else ""
         if not name or not os.path.exists(self.folder.tied(name)):
             return None
-        code, said = self._wait(point, part, "--begin-with", self.folder.tied(name))
+        code, said = self._wait(point, part, "--begin-with", self.folder.tied(name), *self._options)
         if code == tool.REFUSED:
             return None
         self.begun.append(name)
@@ -113,7 +115,8 @@ class Work(Runner):
             self.folder.empty(part)  # there is nothing in it to rely on
         why = result.get("reason") if result else None
         error = None if code == 0 else f"killed by {signal.Signals(-code).name}" if code < 0 else why or said
-        record = {"exit_code": code if code >= 0 else 128 - code, "error": error, "set": point, "version": tool.version()}
+        record = {"exit_code": code if code >= 0 else 128 - code, "error": error, "set": point, "version": tool.version(),
+                  **({"readings": self.readings} if self.readings else {})}
         self.folder.finish(part, run, record)
 
 

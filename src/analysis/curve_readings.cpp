@@ -196,10 +196,16 @@ std::optional<double> lock_by_load(const Pull& pull) {
 
 }  // namespace
 
-Range plateau_range(const Pull& pull, double end) {
-  const double start = pull.front().extension;
+Range plateau_between(double start, double end) {
   return {start + kPlateauBegin * (end - start), start + kPlateauEnd * (end - start)};
 }
+
+Range plateau_range(const Pull& pull, double end) {
+  const Range whole = plateau_between(pull.front().extension, end);
+  return {whole.low, std::min(whole.high, pull.back().extension)};
+}
+
+double meeting_extension(const Pull& pull) { return pull.front().extension + 0.5 * pull.front().knot_distance; }
 
 bool has_few_for_drops(const Pull& pull, double end) {
   return std::count_if(pull.begin(), pull.end(), [&](const PullPoint& p) { return p.extension <= end; }) <
@@ -357,7 +363,7 @@ CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod&
   if (pull.empty()) return out;
   const Pull borne = borne_of(pull);
   out.rises_at = lock_by_load(borne);
-  out.slides_to = out.rises_at.value_or(pull.back().extension);
+  out.slides_to = out.rises_at.value_or(knots.ended_in_plateau ? meeting_extension(pull) : pull.back().extension);
   out.jumped = jump(borne, on_rollers, hidden);
   if (const double peak = peak_force(pull); peak > 0.0) out.peak_force = peak;
   const std::optional<Drop> fall = largest_drop(borne, out.slides_to);
@@ -369,7 +375,7 @@ CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod&
     out.force_after_jump = pull[out.jumped->to].force;
   }
   out.no_plateau = why_no_plateau(borne, on_rollers, out);
-  out.no_lock_by_load = why_no_lock(borne, out);
+  out.no_lock_by_load = knots.ended_in_plateau ? kEndedInPlateau : why_no_lock(borne, out);
   const bool level = out.no_plateau.empty();
   if (!knots.lost.empty())
     out.no_plateau = knots.lost;

@@ -153,6 +153,7 @@ Pull true_pull_of(std::vector<CurveRow> rows, const std::vector<Sample>& reading
 /// before, has none of the knot that was tied, and a level force is a sliding force only where knots slide.
 KnotsOfPull knots_of(const Results& results) {
   KnotsOfPull knots;
+  knots.ended_in_plateau = results.ended_by == EndedBy::kPlateau;
   switch (results.motion_pattern) {
     case MotionPattern::kSliding:
       knots.slid_to_end = !results.lock_extension;
@@ -403,6 +404,16 @@ void read_whole_pull(const Course& course, Results& results) {
   read_pull(with_ends(pull, origin, at_break), results);
 }
 
+/// Leaves out what only the rest of a pull would tell that ended within its plateau. The largest true force stays: it
+/// says that something was pulled.
+void forget_rest_of_pull(Results& results) {
+  CurveReadings& curve = results.curve;
+  for (std::optional<double>* reading :
+       {&curve.peak_force, &curve.largest_drop, &curve.largest_drop_at, &results.energy_to_peak,
+        &results.chord_stiffness, &results.secant_stiffness, &results.tangent_stiffness})
+    reading->reset();
+}
+
 }  // namespace
 
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
@@ -421,6 +432,7 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   read_gauge_length(course, results);
   read_holds_and_cycles(samples, results);
   read_whole_pull(course, results);
+  if (ended_by == EndedBy::kPlateau) forget_rest_of_pull(results);
   return results;
 }
 

@@ -65,6 +65,8 @@ void ProgramRunner::stop() { end(EndedBy::kOperator, "stopped by the operator");
 
 void ProgramRunner::balance() { course_.balance(); }
 
+void ProgramRunner::plateau_settled(std::string where) { end(EndedBy::kPlateau, std::move(where)); }
+
 void ProgramRunner::fail(std::string why) {
   ended_by_ = EndedBy::kSolver;
   reason_ = std::move(why);

@@ -4,8 +4,8 @@ namespace knot_utm {
 namespace {
 
 // In the order of the enumerations.
-constexpr const char* kEndNames[] = {"not yet", "break",   "extension", "load",      "travel",     "operator",
-                                     "solver",  "program", "time",      "untangled", "interrupted"};
+constexpr const char* kEndNames[] = {"not yet", "break",   "extension", "load",      "travel",      "operator",
+                                     "solver",  "program", "time",      "untangled", "interrupted", "plateau"};
 constexpr const char* kBreakPlaceNames[] = {"none", "strand", "knot", "grip"};
 
 }  // namespace
@@ -15,7 +15,7 @@ const char* break_place_name(BreakPlace place) { return kBreakPlaceNames[static_
 const char* ended_by_name(EndedBy end) { return kEndNames[static_cast<std::size_t>(end)]; }
 
 std::optional<EndedBy> ended_by_named(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(EndedBy::kInterrupted); ++i)
+  for (int i = 0; i <= static_cast<int>(EndedBy::kPlateau); ++i)
     if (name == ended_by_name(static_cast<EndedBy>(i))) return static_cast<EndedBy>(i);
   return std::nullopt;
 }

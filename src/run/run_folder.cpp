@@ -24,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kResolved = "# Everything resolved: runs again to the same curve.\n";
+const std::string kOptions = "# It was run with: ";  // below that
 constexpr const char* kFailedStep = "failed_step.bin";
 constexpr const char* kSpecimen = "specimen_";  // and a number, the folder of one
 
@@ -116,7 +117,7 @@ void require_no_method_in(const std::string& folder, const std::string& method_f
       "the run would write over its own method, " + shown(written.string()) + ": choose another folder to write to");
 }
 
-void begin_run_folder(const std::string& folder, const Method& method) {
+void begin_run_folder(const std::string& folder, const Method& method, const std::string& options) {
   std::error_code error;
   require_no_record_in(folder, method);
   if (knot_of(method.specimen).has("file")) put_copy(method.specimen.file, fs::path(folder) / "specimen.csv");
@@ -124,12 +125,21 @@ void begin_run_folder(const std::string& folder, const Method& method) {
   // Not before the specimen has been read: it may be the shape that the last run left here.
   for (const char* old : kOld) fs::remove(fs::path(folder) / old, error);
   remove_comparison(folder);
+  std::string text = method_file_text(method);
+  if (!options.empty()) text.insert(kResolved.size(), kOptions + options + "\n");
   try {
-    write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));
+    write_whole((fs::path(folder) / "method.yaml").string(), text);
   } catch (const CannotWrite& why) {
     if (why.out_of_room()) throw;
     throw InvalidInput::cannot_write("--out", folder, why.error);
   }
+}
+
+std::string options_of_run(const std::string& folder) {
+  std::ifstream method(fs::path(folder) / "method.yaml");
+  std::string line;
+  for (int row = 0; row < 2; ++row) std::getline(method, line);
+  return line.rfind(kOptions, 0) == 0 ? line.substr(kOptions.size()) : "";
 }
 
 std::string specimen_folder(const std::string& folder, int number) {

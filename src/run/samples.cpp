@@ -36,7 +36,7 @@ struct Row {
 };
 
 constexpr RowKind last_of(RowKind) { return RowKind::kEnd; }
-constexpr EndedBy last_of(EndedBy) { return EndedBy::kInterrupted; }
+constexpr EndedBy last_of(EndedBy) { return EndedBy::kPlateau; }
 
 const char* name_of(RowKind kind) { return std::array{"step", "answer", "end"}[static_cast<std::size_t>(kind)]; }
 const char* name_of(EndedBy end) { return ended_by_name(end); }

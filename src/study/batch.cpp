@@ -101,6 +101,7 @@ class SideBySide {
     out.overwrite = true;  // what stands there was cut off, or is an earlier batch's, which the whole one writes over
     out.shapes = options_.shapes;
     out.cache = options_.cache;
+    out.readings = options_.readings;
     out.interrupted = [this] { return stops(); };
     const int number = specimen.number;
     out.notice = [this, number](const std::string& line) {
@@ -146,10 +147,11 @@ BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
     throw InvalidInput::sentence("--resume", options.folder,
                                  "cannot resume " + shown(options.folder) + ": all of its specimens have been tested");
   const std::vector<DrawnSpecimen> specimens = draw_specimens(method);
+  require_readings(method, options.readings);
   require_no_record_in(options.folder, method);
   const ClaimedFolder claimed = options.resume ? ClaimedFolder(options.folder) : options.claim();
   if (options.overwrite && !options.resume) remove_specimens(claimed.path());
-  if (!options.resume) begin_run_folder(claimed.path(), method);
+  if (!options.resume) begin_run_folder(claimed.path(), method, words_of(options.readings));
   SideBySide tests(claimed.path(), specimens, options);
   tests.tell_of_all(foreseen_warnings(method));
   tests.run();

@@ -28,10 +28,11 @@ std::string Beginning::follow(ProgramRunner& program) const {
   return why;
 }
 
-double Beginning::replay(SamplesWriter& samples) const {
+double Beginning::replay(SamplesWriter& samples, const Visitor& also) const {
   double wall_time = 0.0;
   each_([&](const Record& record) {
     samples.append(record);
+    also(record);
     wall_time = record.wall_time;
   });
   return wall_time;

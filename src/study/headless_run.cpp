@@ -69,7 +69,7 @@ bool stops_here(const Test& test) {
 MadeResults make_with_margin(const std::string& folder, const Method& method, const HeadlessOptions& options,
                              bool ran_here) {
   ResultsOptions more;
-  more.further = options.further;
+  if (options.readings == Readings::kAll) more.further = options.further;
   more.ran_here = ran_here;
   more.without_end.reason = "the test was cut off";
   if (method.analysis.margin)
@@ -84,14 +84,17 @@ MadeResults make_with_margin(const std::string& folder, const Method& method, co
   return made;
 }
 
-void pull(const Test& test, SamplesWriter& samples, const WallClock& clock) {
+void pull(const Test& test, SamplesWriter& samples, EarlyEnd& early, const WallClock& clock) {
   Record record;
+  const bool shapes = test.options.writes_shapes();
   run_test(
       test.bench, test.program,
       [&](const Command& command, const Sample& sample) {
-        take(command, sample, test.bench, test.options.shapes, clock.seconds(), record);
+        take(command, sample, test.bench, shapes, clock.seconds(), record);
         samples.append(record);
         if (test.ties) test.ties->add(record);
+        early.add(record);
+        early.end(test.program);
         if (test.options.progress) test.options.progress(sample, test.program, clock.seconds());
       },
       [&] {
@@ -102,8 +105,10 @@ void pull(const Test& test, SamplesWriter& samples, const WallClock& clock) {
 
 HeadlessOutcome run_to_end(const Test& test) {
   SamplesWriter samples(test.folder);
-  const WallClock clock(test.beginning ? test.beginning->replay(samples) : 0.0);
-  pull(test, samples, clock);
+  EarlyEnd early(test.method, test.options.readings);
+  const auto also = [&](const Record& record) { early.add(record); };
+  const WallClock clock(test.beginning ? test.beginning->replay(samples, also) : 0.0);
+  pull(test, samples, early, clock);
   HeadlessOutcome out;
   out.folder = test.folder;
   if (test.program.ended()) out.ended = test.program.ended_by();
@@ -138,7 +143,7 @@ namespace {
 /// before the specimen is tied.
 std::optional<TiedSpecimen> tied_by(const Method& method, const HeadlessOptions& options) {
   if (!options.cache || !options.begin_with.empty()) return std::nullopt;
-  std::optional<TiedSpecimen> tied = TiedSpecimen::of(method, options.shapes, *options.cache);
+  std::optional<TiedSpecimen> tied = TiedSpecimen::of(method, options.writes_shapes(), *options.cache);
   if (tied && options.stop_before && *options.stop_before < tied->step()) return std::nullopt;
   return tied;
 }
@@ -149,6 +154,7 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   Method method = given;
   TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
   ProgramRunner program = make_program(method, bench.longest_step());
+  require_readings(method, options.readings);
   require_no_record_in(options.folder, method);  // before anything is written
   std::optional<Beginning> beginning;
   std::optional<TiedSpecimen> ties = tied_by(method, options);
@@ -159,7 +165,7 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   const bool taken_up = ties && beginning;
   if (taken_up) ties.reset();
   const ClaimedFolder claimed = options.claim();
-  begin_run_folder(claimed.path(), method);
+  begin_run_folder(claimed.path(), method, words_of(options.readings));
   // The shape that the last run left in this folder is there no longer, but for its copy.
   if (knot_of(method.specimen).has("file") && !std::filesystem::exists(method.specimen.file))
     method.specimen.file = (std::filesystem::path(claimed.path()) / "specimen.csv").string();

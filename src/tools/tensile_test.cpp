@@ -60,6 +60,7 @@ struct Arguments {
   std::string begin_with;    // the folder of a run that stopped; empty: from the start
   std::string stop_before;   // a step of the program; empty: none
   std::string show;          // a folder, of which the main readings are printed; no test
+  std::string readings;      // the word of --readings; empty: all
   int specimens = 0;         // 0: as many as the method says
   int jobs = 0;              // 0: as many as there are processors
   bool overwrite = false;
@@ -135,6 +136,13 @@ std::optional<int> step_to_stop_before(const Arguments& arguments, const Method&
                                    listed(steps, " and "));
 }
 
+/// A batch goes on with the readings that it began with.
+Readings readings_of(const Arguments& arguments) {
+  if (!arguments.readings.empty()) return readings_named(arguments.readings);
+  const bool began_so = !arguments.resume.empty() && options_of_run(arguments.resume) == words_of(Readings::kPlateau);
+  return began_so ? Readings::kPlateau : Readings::kAll;
+}
+
 template <class Options>
 Options options_in(const std::string& folder, const Arguments& arguments, ProgressLine& progress) {
   Options options;
@@ -142,6 +150,7 @@ Options options_in(const std::string& folder, const Arguments& arguments, Progre
   options.overwrite = arguments.overwrite;
   options.shapes = arguments.shapes;
   options.cache = arguments.cache;
+  options.readings = readings_of(arguments);
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {
     progress.end();
@@ -208,7 +217,8 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
 }
 
 /// All that a test is refused for, and the method with every value. One specimen alone does not scatter.
-int check(const Method& method) {
+int check(const Method& method, Readings readings) {
+  require_readings(method, readings);
   if (method.specimens.count == 1)
     check_fits(method);
   else
@@ -249,11 +259,12 @@ int run(const Arguments& arguments) {
     return kDone;
   }
   if (!arguments.from_samples.empty()) return make_anew(arguments);
+  readings_of(arguments);  // refuses a wrong word before it reads a method
   const Method method = load_test(arguments.method, arguments.overrides, [&](const std::string& line) {
     if (!arguments.quiet) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
   });
   require_batch(arguments, method);
-  if (arguments.check) return check(method);
+  if (arguments.check) return check(method, readings_of(arguments));
   if (arguments.list_keys) return list_keys(method);
   if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
@@ -348,16 +359,20 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
                      "stop the test before this step of its program; --begin-with goes on from there");
   app.add_flag("--no-cache", arguments.no_cache,
                "tie the specimen even where an earlier test has tied the same one, and keep none for later tests");
+  CLI::Option* readings = app.add_option(
+      "--readings", arguments.readings,
+      "plateau: end the test of a tied loop as soon as its sliding force is known, and write no test.bag");
   for (CLI::Option* one : {begin_with, stop_before}) one->excludes(specimens)->excludes(resume);
-  resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite)->excludes(specimens);
+  resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite)->excludes(specimens)->excludes(readings);
   CLI::Option* from_samples = app.add_option(
       "--from-samples", arguments.from_samples,
       "only make the results of the run in this folder anew from its samples.csv, also where it was cut off");
   app.add_flag("--quiet", arguments.quiet, "say only what went wrong");
   app.add_flag("--report", arguments.report, "also write report.html and report.pdf");
   app.add_flag(
-      "--shapes", arguments.shapes,
-      "also write shapes.csv, the rod at 60 to 120 readings of the load cell; a single test with --report does");
+         "--shapes", arguments.shapes,
+         "also write shapes.csv, the rod at 60 to 120 readings of the load cell; a single test with --report does")
+      ->excludes(readings);
   CLI::Option* check = app.add_flag("--check", arguments.check,
                                     "only say whether the test could be made, and print the method with every value");
   CLI::Option* list_keys = app.add_flag("--list-keys", arguments.list_keys,
@@ -365,7 +380,7 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::Option* show =
       app.add_option("--show", arguments.show, "only print the main readings of the test or batch in this folder");
   for (CLI::Option* one : {check, list_keys}) one->excludes(resume);
-  for (CLI::Option* one : {show, from_samples}) one->excludes(method)->excludes(resume);
+  for (CLI::Option* one : {show, from_samples}) one->excludes(method)->excludes(resume)->excludes(readings);
   from_samples->excludes(show)->excludes(out);
   add_list(app);
   add_listing(app, "--list-results", result_keys_csv, "say which keys result.yaml has, with unit, kind and meaning");

@@ -7,9 +7,11 @@
 namespace knot_utm {
 namespace {
 
-/// `reason` of a reading that any pull has.
+bool ended_in_plateau(const Results& results) { return results.ended_by == EndedBy::kPlateau; }
+
+/// `reason` of a reading that any whole pull has.
 std::string of_the_pull(const ResultSource& source, const std::string& reason) {
-  const std::string not_pulled = why_not_pulled(source);
+  const std::string not_pulled = why_no_whole_pull(source);
   return not_pulled.empty() ? reason : not_pulled;
 }
 
@@ -22,7 +24,7 @@ std::string why_they_did_not_lock(const Results& results) {
   if (results.opened_when_mounted) return "a knot opened as the loop was mounted";
   switch (results.motion_pattern) {
     case MotionPattern::kSliding:
-      return "the knots still slid at the end of the pull";
+      return ended_in_plateau(results) ? kEndedInPlateau : "the knots still slid at the end of the pull";
     case MotionPattern::kStretching:
       return "the motion pattern is stretching";
     case MotionPattern::kUntangling:
@@ -68,6 +70,11 @@ std::string NullReason::operator()(const ResultSource& source) const {
 std::string why_not_pulled(const ResultSource& source) {
   if (source.results.true_peak_force) return "";
   return source.results.never_in_tension ? "the specimen was never in tension" : "nothing was pulled";
+}
+
+std::string why_no_whole_pull(const ResultSource& source) {
+  const std::string not_pulled = why_not_pulled(source);
+  return not_pulled.empty() && ended_in_plateau(source.results) ? kEndedInPlateau : not_pulled;
 }
 
 std::string why_no_peak(const ResultSource& source) {
@@ -119,8 +126,9 @@ std::string why_no_stiffness_error(const ResultSource& source) {
 std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_no_peak(source), nullptr); }
 
 std::string why_no_snap(const ResultSource& source) {
-  return of_the_pull(source,
-                     source.results.tied_knot_distance ? "a loop of two knots has jump_force" : "nothing snapped");
+  const std::string not_pulled = why_not_pulled(source);
+  if (!not_pulled.empty()) return not_pulled;
+  return source.results.tied_knot_distance ? "a loop of two knots has jump_force" : "nothing snapped";
 }
 
 std::string why_no_break(const ResultSource& source) {

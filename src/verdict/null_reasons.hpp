@@ -12,7 +12,8 @@ namespace knot_utm {
 inline constexpr const char* kNoClass = "the load cell has neither accuracy nor floor";
 inline constexpr const char* kFewForDrops = "the load was read fewer than 20 times before the lock";
 
-std::string why_not_pulled(const ResultSource& source);  ///< empty: something was pulled
+std::string why_not_pulled(const ResultSource& source);     ///< empty: something was pulled
+std::string why_no_whole_pull(const ResultSource& source);  ///< empty: something was pulled, to the end of the pull
 std::string why_no_peak(const ResultSource& source);
 std::string why_no_margin(const ResultSource& source);
 std::string why_no_plateau(const ResultSource& source);

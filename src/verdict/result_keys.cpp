@@ -64,6 +64,14 @@ Number class_error_at(const Source& of) {
   return force ? class_error(of.facts.load_cell, *force) : std::nullopt;
 }
 
+/// Readings at the largest load. A pull that ended within its plateau does not have one.
+bool has_peak(const Source& of) { return of.results.ended_by != EndedBy::kPlateau; }
+Number true_peak_force(const Source& of) { return has_peak(of) ? of.results.true_peak_force : std::nullopt; }
+Number peak_force_error(const Source& of) { return has_peak(of) ? of.errors.peak_force : std::nullopt; }
+Number load_cell_error(const Source& of) {
+  return has_peak(of) ? class_error_at<&Results::true_peak_force>(of) : std::nullopt;
+}
+
 Number moment_balance_error(const Source& of) {
   const Number& arm = of.results.moment_arm;
   return arm ? Number(*arm / of.facts.material.radius) : std::nullopt;
@@ -227,14 +235,14 @@ constexpr ResultKey kKeys[] = {
     {"locked_stiffness_error", "N/m", kBeside, "Estimated numerical error of the locked stiffness",
      read<&ReadingErrors::locked_stiffness>, why_no_stiffness_error},
     {"peak_force", "N", kCurve, "Peak force", read<&C::peak_force>, why_no_peak},
-    {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", read<&ReadingErrors::peak_force>,
+    {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", peak_force_error,
      why_no_peak_error},
 
     // Without what the balance has set to zero.
     {"true_plateau_force", "N", kBeside, "Plateau force, the true one", read<&R::true_plateau_force>, why_no_plateau},
     {"true_breakaway_force", "N", kBeside, "Breakaway force, the true one", read<&R::true_breakaway_force>,
      why_no_plateau},
-    {"true_peak_force", "N", kBeside, "Peak force, the true one", read<&R::true_peak_force>, why_not_pulled},
+    {"true_peak_force", "N", kBeside, "Peak force, the true one", true_peak_force, why_no_whole_pull},
     {"true_jump_force", "N", kBeside, "True force at which a knot jumped open", read<&R::true_jump_force>, kNoJump},
     {"true_force_after_jump", "N", kBeside, "True force that was left when it had jumped",
      read<&R::true_force_after_jump>, kNoJump},
@@ -290,15 +298,15 @@ constexpr ResultKey kKeys[] = {
      read<&R::energy_balance_error>, why_not_pulled},
 
     // More of the curve, as standards ask for it.
-    {"load_cell_error", "N", kCurve, "Error of the load cell at the largest load, by its class",
-     class_error_at<&R::true_peak_force>, kNoCellError},
+    {"load_cell_error", "N", kCurve, "Error of the load cell at the largest load, by its class", load_cell_error,
+     kNoCellError},
     {"plateau_load_cell_error", "N", kCurve, "Error of the load cell within the plateau, by its class",
      class_error_at<&R::true_plateau_force>, why_no_cell_error_in_plateau},
-    {"energy_to_peak", "J", kCurve, "Energy up to the largest load", read<&R::energy_to_peak>, why_not_pulled},
+    {"energy_to_peak", "J", kCurve, "Energy up to the largest load", read<&R::energy_to_peak>, why_no_whole_pull},
     {"energy_to_break", "J", kCurve, "Energy up to the break", read<&R::energy_to_break>, why_no_break},
     {"chord_stiffness", "N/m", kCurve, "Chord stiffness", read<&R::chord_stiffness>, kNoChord},
-    {"secant_stiffness", "N/m", kCurve, "Secant stiffness", read<&R::secant_stiffness>, why_not_pulled},
-    {"tangent_stiffness", "N/m", kCurve, "Tangent stiffness", read<&R::tangent_stiffness>, why_not_pulled},
+    {"secant_stiffness", "N/m", kCurve, "Secant stiffness", read<&R::secant_stiffness>, why_no_whole_pull},
+    {"tangent_stiffness", "N/m", kCurve, "Tangent stiffness", read<&R::tangent_stiffness>, why_no_whole_pull},
     {"hold_force_begin", "N", kCurve, "Force at the beginning of the last hold", read<&Relaxation::from>, kNoHold},
     {"hold_force_end", "N", kCurve, "Force at the end of the last hold", read<&Relaxation::to>, kNoHold},
     {"relaxation", "-", kCurve, "Relaxation, the share of the force that the last hold lost", relaxation, kNoHold},

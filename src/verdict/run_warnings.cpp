@@ -52,7 +52,8 @@ class Warnings {
   void of_the_cell() {
     const LoadCellOptions& cell = facts_.load_cell;
     const std::string floor = "the load cell's floor of " + format_number(cell.floor * cell.capacity) + " N";
-    if (results_.true_peak_force && is_below_floor(cell, *results_.true_peak_force))
+    const bool has_peak = results_.true_peak_force && !ended_in_plateau();
+    if (has_peak && is_below_floor(cell, *results_.true_peak_force))
       say("the peak force lies below " + floor);
     else if (results_.true_plateau_force && is_below_floor(cell, *results_.true_plateau_force))
       say("the plateau force lies below " + floor);
@@ -87,7 +88,7 @@ class Warnings {
     if (results_.snap_extension)
       say("the specimen snapped into another shape at an extension of " + short_number(*results_.snap_extension) +
           " m, where the load fell by " + short_number(*results_.snap_drop) + " N at once");
-    if (slid_to_the_end(results_) && results_.true_plateau_force)
+    if (slid_to_the_end(results_) && results_.true_plateau_force && !ended_in_plateau())
       say("the pull ended while the knots still slid. The plateau force is the mean of what was pulled; a longer pull "
           "may give a larger one");
     if (results_.roller_touched_at)
@@ -199,6 +200,8 @@ class Warnings {
       say("the forces on the two grips differ by up to " + short_number(100.0 * *results_.force_balance_error) +
           " % of the largest one, more than at rest: pull more slowly");
   }
+
+  bool ended_in_plateau() const { return results_.ended_by == EndedBy::kPlateau; }
 
   void say(const std::string& line) {
     if (!line.empty()) all.push_back(line);

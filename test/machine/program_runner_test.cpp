@@ -248,5 +248,19 @@ TEST(ProgramRunner, OperatorStopsAndBalances) {
   EXPECT_EQ(after.velocity, 0.0);
 }
 
+TEST(ProgramRunner, APlateauThatIsSettledEndsTheTestAndFailsNone) {
+  ProgramRunner program({pull(0.1), step<HoldStep>(0.0033, 2.0)}, 3.0, 0.1, {});
+  Sample sample;
+  program.next(sample);
+  program.plateau_settled("at 0.05 m");
+  EXPECT_EQ(program.ended_by(), EndedBy::kPlateau);
+  EXPECT_STREQ(ended_by_name(program.ended_by()), "plateau");
+  EXPECT_EQ(ended_by_named("plateau"), EndedBy::kPlateau);
+  EXPECT_EQ(program.reason(), "at 0.05 m");
+  EXPECT_FALSE(program.failed());
+  program.stop();
+  EXPECT_EQ(program.ended_by(), EndedBy::kPlateau) << "it had ended";
+}
+
 }  // namespace
 }  // namespace knot_utm

@@ -354,6 +354,22 @@ TEST_F(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
                           "the load cell was overloaded: above 1500 N it reads the force at its mechanical stop"));
   results.true_peak_force = 9.0;
   EXPECT_THAT(warnings(), Contains(HasSubstr("the peak force lies below")));
+  results.ended_by = EndedBy::kPlateau;
+  EXPECT_THAT(warnings(), ElementsAre("the plateau force lies below the load cell's floor of 10 N"));
+}
+
+/// A pull that ended as its plateau was settled has no peak, and nobody expected a lock of it.
+TEST_F(ResultYaml, LeavesOutWhatTheRestOfAPullWouldTell) {
+  results.ended_by = EndedBy::kPlateau;
+  results.curve.plateau_force = results.true_plateau_force = 9.0;
+  facts.errors = {0.05, 0.01, 0.02};
+  EXPECT_TRUE(says("ended_by: plateau\n"));
+  EXPECT_TRUE(says("plateau_force_error: 0.45"));
+  for (const char* key :
+       {"lock_extension", "lock_extension_error", "locked_stiffness", "locked_stiffness_error", "peak_force",
+        "peak_force_error", "true_peak_force", "largest_drop", "energy_to_peak", "secant_stiffness", "load_cell_error"})
+    EXPECT_TRUE(says(key + std::string(": null  # the pull ended as soon as its plateau was settled\n")));
+  EXPECT_THAT(printed(), IsEmpty());
 }
 
 /// Deep contacts and rods that crossed come first: the rod is then not the one that was meant.

@@ -38,8 +38,12 @@ struct Range {
   double low, high;
 };
 
+/// The plateau of knots that slide from s = `start` to s = `end`: from 0.3 to 0.8 of that way.
+Range plateau_between(double start, double end);
+
 /// The interval over which the sliding force is averaged: from 0.3 to 0.8 of the extension between the first point and
-/// s = `end`, up to which the knots slide. The breakaway lies before it, and the onset of locking after it.
+/// s = `end`, up to which the knots slide. The breakaway lies before it, and the onset of locking after it. Of a pull
+/// that ended within that interval it is the part that was pulled.
 Range plateau_range(const Pull& pull, double end);
 
 /// The force over that interval. Integrals are taken by the trapezoidal rule.
@@ -55,6 +59,10 @@ struct Plateau {
 
 /// Empty where the pull has no point, or where the interval contains no part of it.
 std::optional<Plateau> plateau(const Pull& pull, double end);
+
+/// The extension at which knots that slide on rollers have met, which is about where they lock: e_0/2 beyond the first
+/// point, where e_0 is the first knot distance [m]. NaN where there are no two knots. The pull must have a point.
+double meeting_extension(const Pull& pull);
 
 /// Breakaway force: the largest F before the plateau_range of a pull that slides up to s = `end` [N]. At least 0.
 double breakaway_force(const Pull& pull, double end);
@@ -118,8 +126,10 @@ std::optional<LockedPart> locked_part(const Pull& pull, double from);
 struct CurveReadings {
   /// s from which F stays above twice the mean of its plateau range, whether or not that range is a plateau [m]
   std::optional<double> rises_at;
-  double slides_to = 0.0;      ///< s up to which the knots are taken to slide: `rises_at`, or the end of the pull [m]
-  std::optional<Drop> jumped;  ///< the fall of F where a knot jumped open, as indices of points of the pull
+  /// s up to which the knots are taken to slide: `rises_at`, or the end of the pull; of a pull that ended within its
+  /// plateau meeting_extension() [m]
+  double slides_to = 0.0;
+  std::optional<Drop> jumped;        ///< the fall of F where a knot jumped open, as indices of points of the pull
   std::optional<double> peak_force;  ///< largest tensile F [N]; empty: F was never above zero
   /// Mean F of the plateau, before the lock or, in a pull without a lock, before its end [N].
   std::optional<double> plateau_force;
@@ -146,10 +156,14 @@ struct KnotsOfPull {
   std::string not_sliding;   ///< why a level force is none of sliding; empty: it may be one
   bool untangled = false;    ///< then there is no stiffness either
   bool slid_to_end = false;  ///< then there is no stiffness, unless F rises for good
+  bool ended_in_plateau = false;  ///< the test ended as soon as its plateau was settled (PlateauWatch)
 };
 
 /// The pull with the force that the rod bears as F, where that is known.
 Pull borne_of(Pull pull);
+
+/// Why a pull that ended within its plateau has no reading that the rest of it would tell.
+inline constexpr const char* kEndedInPlateau = "the pull ended as soon as its plateau was settled";
 
 /// Reads a curve. `on_rollers`: if it is that of a loop, rollers hold it, not two of its nodes. `hidden` may be empty.
 ///

@@ -55,6 +55,8 @@ class ProgramRunner {
 
   void stop();     ///< operator: the test ends now
   void balance();  ///< operator: the next command balances
+  /// The plateau of the pull is settled: the test ends now, which is no failure. `where`: one line about it.
+  void plateau_settled(std::string where);
   /// The bench is lost: the test has ended by the solver, whatever command came before.
   void fail(std::string why);
 

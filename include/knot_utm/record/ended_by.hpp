@@ -8,16 +8,17 @@ namespace knot_utm {
 /// How a test ended. The names written to result.yaml are those of `ended_by_name`.
 enum class EndedBy {
   kNotYet,
-  kBreak,       ///< the rod parted, or the load fell as it does in a break
-  kExtension,   ///< the last step, a pull or a return, reached its extension
-  kLoad,        ///< the last step reached its load, or the load its limit
-  kTravel,      ///< the crosshead reached the end of its travel
-  kOperator,    ///< stopped
-  kSolver,      ///< the simulation gave up, or did not come to rest where it had to
-  kProgram,     ///< the last step's time, cycles or record were over
-  kTime,        ///< the time limit of the test
-  kUntangled,   ///< the knot came undone before it was pulled
-  kInterrupted  ///< a node or the master died, or ROS was shut down
+  kBreak,        ///< the rod parted, or the load fell as it does in a break
+  kExtension,    ///< the last step, a pull or a return, reached its extension
+  kLoad,         ///< the last step reached its load, or the load its limit
+  kTravel,       ///< the crosshead reached the end of its travel
+  kOperator,     ///< stopped
+  kSolver,       ///< the simulation gave up, or did not come to rest where it had to
+  kProgram,      ///< the last step's time, cycles or record were over
+  kTime,         ///< the time limit of the test
+  kUntangled,    ///< the knot came undone before it was pulled
+  kInterrupted,  ///< a node or the master died, or ROS was shut down
+  kPlateau       ///< its plateau was settled, and nothing else was asked for
 };
 
 const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "load", "travel", ...

@@ -36,8 +36,12 @@ void require_no_method_in(const std::string& folder, const std::string& method_f
 
 /// Writes method.yaml and copies of the files that it names, specimen.csv and the logo, and removes the results of an
 /// earlier run or comparison. Throws InvalidInput (key "--out") where the folder cannot be written to or holds a record
-/// that is followed. Throws std::runtime_error where a copy cannot be written.
-void begin_run_folder(const std::string& folder, const Method& method);
+/// that is followed. Throws std::runtime_error where a copy cannot be written. `options`: those of the command line
+/// that decide what the run measures; method.yaml has them as a comment.
+void begin_run_folder(const std::string& folder, const Method& method, const std::string& options = "");
+
+/// The options that a run or batch in a folder began with; empty where there are none.
+std::string options_of_run(const std::string& folder);
 
 /// The folder of a specimen within that of its batch: FOLDER/specimen_001 for number 1.
 std::string specimen_folder(const std::string& folder, int number);

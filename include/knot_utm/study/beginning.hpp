@@ -23,9 +23,10 @@ class Beginning {
   /// them; the program is then unusable.
   std::string follow(ProgramRunner& program) const;
 
-  /// Appends every record to the samples of the new run. Returns the wall time of the other run up to there [s]. The
-  /// wall time of the new run begins with it, so that it is that of the whole test wherever the beginning comes from.
-  double replay(SamplesWriter& samples) const;
+  /// Appends every record to the samples of the new run, and shows it to `also`. Returns the wall time of the other run
+  /// up to there [s]. The wall time of the new run begins with it, so that it is that of the whole test wherever the
+  /// beginning comes from.
+  double replay(SamplesWriter& samples, const Visitor& also) const;
 
  private:
   std::function<void(const Visitor&)> each_;

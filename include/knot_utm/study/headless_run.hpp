@@ -10,6 +10,7 @@
 #include "knot_utm/run/cache_folder.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
+#include "knot_utm/study/readings.hpp"
 
 namespace knot_utm {
 
@@ -20,6 +21,8 @@ struct RunOptions {
   bool shapes = false;     ///< also writes shapes.csv
   /// Where tied specimens are kept and taken up (tied_specimen.hpp); empty: each test ties its own.
   std::optional<CacheFolder> cache;
+  /// Other readings than all end the test early, and leave neither shapes.csv nor a further file.
+  Readings readings = Readings::kAll;
 
   std::function<bool()> interrupted;  ///< whether to stop; called between commands, and of a batch by several threads
   /// Receives warnings: of a test when they arise, of a batch once all its tests have ended.
@@ -30,6 +33,7 @@ struct RunOptions {
   void tell(const std::string& line) const {
     if (notice) notice(line);
   }
+  bool writes_shapes() const { return shapes && readings == Readings::kAll; }
   /// Claims the folder, and says where the run goes to where it goes elsewhere.
   ClaimedFolder claim() const;
 };
@@ -56,7 +60,8 @@ struct HeadlessOutcome {
 };
 
 /// Runs the test of a method and writes all files of its folder. A run that stops before a step also leaves a
-/// checkpoint. Throws InvalidInput, before anything is written, where method and folder do not go together. Throws
+/// checkpoint. Throws InvalidInput, before anything is written, where method and folder, or method and readings, do not
+/// go together. Throws
 /// std::runtime_error where a file cannot be written; the message says what stands.
 HeadlessOutcome run_headless(const Method& method, const HeadlessOptions& options);
 

@@ -11,7 +11,7 @@ import signal
 import subprocess
 import unittest
 
-from sweeps import CONFIG, LENGTHS, REAL, ROOT, Sweeps, content, rows, write  # first: it finds the packages
+from sweeps import CONFIG, LENGTHS, REAL, ROOT, STRAIGHT, Sweeps, content, rows, write  # first: it finds the packages
 
 import numpy as np
 import pandas as pd
@@ -92,6 +92,50 @@ class TheTable(Sweeps):
         _, _, one, other = rows(self.table("out"))
         self.assertEqual(one, other)
         self.assertEqual(self.started(), [0.2])
+
+
+class OfThePlateauAlone(Sweeps):
+    STUDY = f"""
+        method: {CONFIG}/tighten.yaml
+        vary:
+          physics.accuracy: [draft]
+          material: [polypropylene]
+          program.pull.speed: [3.3e-3, 4e-3]"""
+
+    def setUp(self):
+        super().setUp()
+        write(self.study, self.STUDY)
+
+    def words(self):
+        return [line for line in content(self.log).decode().splitlines() if "--readings plateau" in line]
+
+    def test_every_run_ends_with_it_and_the_table_goes_on_so(self):
+        self.sweep("out", "--readings", "plateau")
+        names, _, *runs = rows(self.table("out"))
+        for run in (dict(zip(names, run)) for run in runs):
+            self.assertEqual((run["exit_code"], run["ended_by"], run["peak_force"]), ("0", "plateau", ""))
+            self.assertTrue(run["plateau_force"])
+            self.assertEqual(load(self.path("out/runs", run["run"], "run.yaml"))["readings"], "plateau")
+        self.assertEqual(len(self.words()), 2, "both, and not what is tied for them")
+        before = self.table("out")
+        self.sweep("out", "--readings", "plateau")
+        self.assertEqual((self.table("out"), len(self.words())), (before, 2))
+        said = self.sweep("out", code=2)
+        self.assertIn("were made with --readings plateau: give it again, or choose another folder", said)
+        self.assertEqual(said.count("\n"), 1)
+        self.assertEqual(self.table("out"), before)
+
+    def test_runs_that_have_all_readings_are_no_part_of_it(self):
+        write(self.study, STRAIGHT)
+        self.sweep("out")
+        self.assertIn("were made without --readings: leave it out", self.sweep("out", "--readings", "plateau", code=2))
+
+    def test_others_are_refused_before_anything_is_written(self):
+        for word, why in (("locks", "--readings is locks, but must be plateau"), ("plateau", "this test has no plateau")):
+            if word == "plateau":
+                write(self.study, STRAIGHT)
+            self.assertIn(why, self.sweep("out", "--readings", word, code=2))
+            self.assertFalse(os.path.exists(self.path("out")))
 
 
 class Plots(Sweeps):

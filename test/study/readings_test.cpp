@@ -1,0 +1,142 @@
+#include "knot_utm/study/readings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/study/batch.hpp"
+#include "run/own_folder.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+Method shipped(const std::string& name, std::vector<std::string> overrides = {}) {
+  overrides.emplace_back("physics.accuracy=draft");
+  return load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/" + name + ".yaml", overrides);
+}
+
+class OfThePlateau : public OwnFolder {
+ protected:
+  OfThePlateau() {
+    options.interrupted = [] { return false; };
+    options.further = [this](const std::string&, const Method&) {
+      ++further;
+      return FurtherWriter{[](const Record&) {}, [] {}};
+    };
+  }
+
+  /// Runs a test in a folder of this name.
+  HeadlessOutcome run(const Method& method, const std::string& name, Readings readings) {
+    options.folder = in(name);
+    options.readings = readings;
+    return run_headless(method, options);
+  }
+  std::string in(const std::string& name) const { return folder() + "/" + name; }
+  std::string file(const std::string& name) const { return read_whole(in(name)); }
+
+  HeadlessOptions options;
+  int further = 0;
+};
+
+TEST_F(OfThePlateau, ATestEndsWithItAndHasTheBytesOfTheWholeTestUpToThere) {
+  const Method method = shipped("tighten", {"material=polypropylene"});
+  const HeadlessOutcome whole = run(method, "whole", Readings::kAll);
+  options.shapes = true;
+  const HeadlessOutcome early = run(method, "early", Readings::kPlateau);
+  EXPECT_EQ(early.ended, EndedBy::kPlateau);
+  EXPECT_FALSE(early.failed);
+  EXPECT_EQ(file("whole/curve.csv").find(file("early/curve.csv")), 0u);
+  EXPECT_LT(file("early/curve.csv").size(), file("whole/curve.csv").size());
+
+  const YAML::Node found = YAML::Load(file("early/result.yaml")), all = YAML::Load(file("whole/result.yaml"));
+  EXPECT_NEAR(found["plateau_force"].as<double>(), all["plateau_force"].as<double>(),
+              0.5 * all["plateau_force_error"].as<double>());
+  EXPECT_EQ(found["motion_pattern"].as<std::string>(), "sliding");
+  for (const char* key : {"lock_extension", "locked_stiffness", "peak_force", "true_peak_force", "peak_force_error",
+                          "largest_drop", "energy_to_peak", "chord_stiffness", "load_cell_error"})
+    EXPECT_THAT(file("early/result.yaml"),
+                HasSubstr(std::string("\n") + key + ": null  # the pull ended as soon as its plateau was settled\n"));
+  EXPECT_THAT(file("early/result.yaml"), Not(HasSubstr("the knots still slid")));
+  EXPECT_EQ(further, 1) << "of the whole test alone";
+  EXPECT_FALSE(fs::exists(in("early/shapes.csv")));
+  EXPECT_TRUE(fs::exists(in("early/final_shape.csv")));
+  EXPECT_EQ(options_of_run(in("early")), "--readings plateau");
+  EXPECT_EQ(options_of_run(in("whole")), "");
+}
+
+TEST_F(OfThePlateau, ItsSamplesMakeTheSameResultAgainAndWhatElseIsAskedFor) {
+  run(shipped("tighten", {"material=polypropylene"}), "early", Readings::kPlateau);
+  YAML::Node before = YAML::Load(file("early/result.yaml"));
+  options.readings = Readings::kAll;
+  results_from_samples(options);
+  YAML::Node after = YAML::Load(file("early/result.yaml"));
+  for (YAML::Node* result : {&before, &after}) result->remove("peak_memory");
+  EXPECT_EQ(YAML::Dump(after), YAML::Dump(before));
+  EXPECT_EQ(further, 1);
+}
+
+TEST_F(OfThePlateau, BegunWithAnEarlierRunItHasTheBytesOfTheTestFromTheStart) {
+  const Method method = shipped("tighten", {"material=polypropylene"});
+  run(method, "early", Readings::kPlateau);
+  options.stop_before = step_called(method.program, "pull");
+  run(method, "tied", Readings::kAll);
+  options.stop_before.reset();
+  options.begin_with = in("tied");
+  run(method, "later", Readings::kPlateau);
+  EXPECT_EQ(file("later/curve_full.csv"), file("early/curve_full.csv"));
+}
+
+TEST_F(OfThePlateau, ATestThatHasNoneGoesOnToItsOwnEnd) {
+  const Method method = shipped("tighten", {"material=pink_vps"});
+  run(method, "whole", Readings::kAll);
+  EXPECT_EQ(run(method, "early", Readings::kPlateau).ended, EndedBy::kExtension);
+  EXPECT_EQ(file("early/curve_full.csv"), file("whole/curve_full.csv"));
+}
+
+TEST_F(OfThePlateau, ASpecimenOfABatchEndsWithIt) {
+  BatchOptions batch;
+  batch.folder = in("batch");
+  batch.interrupted = options.interrupted;
+  batch.readings = Readings::kPlateau;
+  batch.jobs = 2;
+  run_batch(shipped("tighten", {"material=polypropylene", "specimens={count: 2}"}), batch);
+  for (const int number : {1, 2})
+    EXPECT_THAT(read_whole(specimen_folder(batch.folder, number) + "/result.yaml"), HasSubstr("\nended_by: plateau\n"));
+  EXPECT_EQ(YAML::Load(file("batch/statistics.yaml"))["plateau_force"]["n"].as<int>(), 2);
+  EXPECT_EQ(options_of_run(batch.folder), "--readings plateau");
+}
+
+TEST_F(OfThePlateau, ATestThatCanHaveNoneIsRefusedAndNothingIsWritten) {
+  const std::string untied = "program=[{mount: {}}, {pull: {until: {extension: 0.1}}}]";
+  for (const Method& method :
+       {shipped("overhand"), shipped("straight"), shipped("capstan"), shipped("tighten", {untied}),
+        shipped("tighten", {"machine.grips=nodes"}), shipped("tighten", {"program=[{tie: {}}, {release: {}}]"})}) {
+    try {
+      run(method, "refused", Readings::kPlateau);
+      ADD_FAILURE() << "not refused";
+    } catch (const InvalidInput& invalid) {
+      EXPECT_THAT(invalid.what(), HasSubstr("--readings plateau: this test has no plateau"));
+    }
+    EXPECT_FALSE(fs::exists(in("refused")));
+  }
+}
+
+TEST(Readings, OfAnotherWordAreRefused) {
+  EXPECT_EQ(readings_named("plateau"), Readings::kPlateau);
+  try {
+    readings_named("locks");
+    FAIL();
+  } catch (const InvalidInput& invalid) {
+    EXPECT_STREQ(invalid.what(), "--readings is locks, but must be plateau");
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm
