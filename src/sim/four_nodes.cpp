@@ -12,31 +12,22 @@ struct FourBlocks {
 };
 
 /// Adds the first columns of blocks (row, column) of the stencils of `count` nodes.
-template <int kColumns>
+template <int kColumns, bool kTransposed = false>
 void add_block(const FourBlocks& blocks, int row, int column, int first, int count, StepMatrix<4>& matrix) {
   Block<4> nowhere;
   Block<4>* to[4] = {&nowhere, &nowhere, &nowhere, &nowhere};
   for (int k = 0; k < count; ++k) to[k] = &matrix.band(first - 1 + k, row, column);
   for (int c = 0; c < kColumns; ++c) {
-    Lanes a = blocks.of[0][c], b = blocks.of[1][c], d = blocks.of[2][c], e = blocks.of[3][c];
-    transpose(a, b, d, e);
-    to[0]->column[c] += a;
-    to[1]->column[c] += b;
-    to[2]->column[c] += d;
-    to[3]->column[c] += e;
+    Lanes of_node[4];
+    for (int r = 0; r < 4; ++r) of_node[r] = kTransposed ? blocks.of[c][r] : blocks.of[r][c];
+    transpose(of_node[0], of_node[1], of_node[2], of_node[3]);
+    for (int k = 0; k < 4; ++k) to[k]->column[c] += of_node[k];
   }
-}
-
-FourBlocks transposed(const FourBlocks& blocks) {
-  FourBlocks out;
-  for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 4; ++c) out.of[r][c] = blocks.of[c][r];
-  return out;
 }
 
 }  // namespace
 
-void subtract(const FourSlopes& slopes, int first, int count, std::vector<Lanes>& force) {
+void subtract_slopes(const FourSlopes& slopes, int first, int count, std::vector<Lanes>& force) {
   const Lanes* e = slopes.of + kOfE;
   const Lanes* f = slopes.of + kOfF;
   Lanes before[4] = {e[0], e[1], e[2], -e[3]}, here[4] = {f[0] - e[0], f[1] - e[1], f[2] - e[2], -f[3]},
@@ -51,7 +42,7 @@ void subtract(const FourSlopes& slopes, int first, int count, std::vector<Lanes>
 }
 
 /// Blocks of the nodes before, at and behind each inner node, with the signs of e and f in their positions.
-void add(const FourCurves& k, const FourEdges& edges, int first, int count, StepMatrix<4>& matrix) {
+void add_curves(const FourCurves& k, const FourEdges& edges, int first, int count, StepMatrix<4>& matrix) {
   const Lanes none = {};
   const FourVectors& w = edges.sweep;
   const Lanes sweep[3][3] = {{none, -w[2], w[1]}, {w[2], none, -w[0]}, {-w[1], w[0], none}};
@@ -90,10 +81,10 @@ void add(const FourCurves& k, const FourEdges& edges, int first, int count, Step
   add_block<4>(own_before, 0, 0, first, count, matrix);
   add_block<4>(before_here, 0, 1, first, count, matrix);
   add_block<3>(before_behind, 0, 2, first, count, matrix);
-  add_block<4>(transposed(before_here), 1, 0, first, count, matrix);
+  add_block<4, true>(before_here, 1, 0, first, count, matrix);
   add_block<4>(own, 1, 1, first, count, matrix);
   add_block<3>(here_behind, 1, 2, first, count, matrix);
-  add_block<4>(transposed(before_behind), 2, 0, first, count, matrix);
+  add_block<4, true>(before_behind, 2, 0, first, count, matrix);
   add_block<4>(behind_here, 2, 1, first, count, matrix);
   add_block<3>(own_behind, 2, 2, first, count, matrix);
 }

@@ -82,9 +82,9 @@ void FrameBending::set_curvatures(const FourPairs& pair, FourNodes& four, Lanes 
 
 template <typename Law>
 void FrameBending::respond(const Law& law, const Lanes bend[2], std::size_t group) {
-  FourNodes& four = fours_[group];
+  // Gathered as numbers: a register that is written lane by lane in memory would be slow to read.
+  double moment[2][4] = {}, beyond[2][4] = {}, tangent[3][4] = {};
   const std::size_t first = 4 * group + 1;
-  four.jumps = false;
   for (std::size_t i = first; i < std::min(first + 4, nodes_.size()); ++i) {
     const std::size_t k = i - first;
     BendingNode& node = nodes_[i];
@@ -92,14 +92,22 @@ void FrameBending::respond(const Law& law, const Lanes bend[2], std::size_t grou
     node.bend = {bend[0][k], bend[1][k]};
     const BendingResponse response = law.respond(node);
     for (int m = 0; m < 2; ++m) {
-      four.moment[m][k] = response.moment[m];
-      four.beyond[m][k] = response.beyond[m];
-      four.jumps = four.jumps || response.beyond[m] != 0.0;
+      moment[m][k] = response.moment[m];
+      beyond[m][k] = response.beyond[m];
     }
-    four.tangent[0][k] = response.tangent(0, 0);
-    four.tangent[1][k] = response.tangent(0, 1);
-    four.tangent[2][k] = response.tangent(1, 1);
+    tangent[0][k] = response.tangent(0, 0);
+    tangent[1][k] = response.tangent(0, 1);
+    tangent[2][k] = response.tangent(1, 1);
   }
+  FourNodes& four = fours_[group];
+  const auto lanes = [](const double* of) { return Lanes{of[0], of[1], of[2], of[3]}; };
+  four.jumps = false;
+  for (int m = 0; m < 2; ++m) {
+    four.moment[m] = lanes(moment[m]);
+    four.beyond[m] = lanes(beyond[m]);
+    four.jumps = four.jumps || any(four.beyond[m] < 0.0) || any(four.beyond[m] > 0.0);
+  }
+  for (int m = 0; m < 3; ++m) four.tangent[m] = lanes(tangent[m]);
 }
 
 void FrameBending::evaluate(const std::vector<FourPairs>& pairs, const std::vector<FourVectors>& director,
@@ -189,7 +197,8 @@ void FrameBending::add_beyond(std::vector<Lanes>& right) const {
     FourSlopes slopes = four.beyond[0] * four.slope[0];
     slopes += four.beyond[1] * four.slope[1];
     const std::size_t first = 4 * g + 1;
-    subtract(slopes, static_cast<int>(first), static_cast<int>(std::min<std::size_t>(4, nodes_.size() - first)), right);
+    subtract_slopes(slopes, static_cast<int>(first), static_cast<int>(std::min<std::size_t>(4, nodes_.size() - first)),
+                    right);
   }
 }
 

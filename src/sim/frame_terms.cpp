@@ -40,6 +40,7 @@ Lanes angle_about(const FourVectors& axis, const Turns& turn) {
   Lanes series = constant<Lanes>(1.0 / 15.0);
   for (const double term : {13.0, 11.0, 9.0, 7.0, 5.0, 3.0, 1.0}) series = 1.0 / term - y * series;
   Lanes out = 2.0 * x * series;
+  if (!any(~small)) return out;
   for (int k = 0; k < 4; ++k)
     if (!(size[k] < 0.1 * turn.w[k])) out[k] = std::remainder(2.0 * std::atan2(sine[k], turn.w[k]), 2.0 * M_PI);
   return out;
@@ -90,6 +91,7 @@ FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
       stiffness_(start_tangent_.size(), 0.0),
       angle_(start_tangent_.size(), 0.0),
       spin_(start_tangent_.size(), 0.0),
+      kept_spin_(start_tangent_.size(), 0.0),
       start_twist_(start_tangent_.size(), 0.0),
       reference_twist_(start_tangent_.size(), 0.0),
       torque_(start_tangent_.size(), 0.0),
@@ -126,6 +128,7 @@ void FrameTerms::begin(const StepStart& step) {
   for (int j = 0; j < edges; ++j) {
     start_tangent_[at(j)] = to_lanes(Vec3((start.position.col(j + 1) - start.position.col(j)).normalized()));
     angle_[at(j)] = start.twist[j] + dt_ * start.twist_rate[j];
+    kept_spin_[at(j)] = inertia_[j] * start.twist_rate[j] / dt_;
     spin_[at(j)] = inertia_[j] / (dt_ * dt_) + drag_[j] / dt_ + rest_[j];
   }
   for (int j = 0; j < edges; ++j) {
@@ -161,11 +164,12 @@ void FrameTerms::set_tangents(const Points& position) {
   }
   for (std::size_t g = 0; 4 * g < edges; ++g) {
     const FourVectors e = four(edge_, 4 * g), &before = start_fours_[g];
-    const Lanes over_e = 1.0 / square_root(dot(e, e));
+    const Lanes length = square_root(dot(e, e)), over_e = 1.0 / length;
     const FourVectors now = over_e * e;
     tangent_fours_[g] = now;
     put(over_e, inverse_length_, 4 * g);
     put(now, tangent_, 4 * g);
+    if (rolls_) put(length, turns_.length, 4 * g);
     put(over_e / (1.0 + dot(before, now)) * cross(now, before), lean_, 4 * g);
   }
   set_tangents_of(pairs_, tangent_fours_);
@@ -218,7 +222,7 @@ void FrameTerms::add_elastic_forces(std::vector<Lanes>& force) {
     FourSlopes& slopes = slopes_[g];
     slopes = twist_slopes(g);
     if (curved_) slopes += bending_.slopes(g);
-    subtract(slopes, static_cast<int>(4 * g + 1), nodes_of(g), force);
+    subtract_slopes(slopes, static_cast<int>(4 * g + 1), nodes_of(g), force);
     for (int k = 0; k < nodes_of(g); ++k) {
       torque_[4 * g + at(k)] += slopes.of[kThetaE][k];
       torque_[4 * g + at(k) + 1] += slopes.of[kThetaF][k];
@@ -236,15 +240,14 @@ void FrameTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes
   }
   add_elastic_forces(force);
   for (int j = 0; j < edges; ++j) {
-    const double turned = angle_[at(j)] - start_->twist[j], rate = turned / dt_;
+    const double turned = angle_[at(j)] - start_->twist[j];
     if (rolls_) set_turn(at(j), turned);
-    force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate + rest_[j] * turned;
+    force[at(j)][3] -= spin_[at(j)] * turned - kept_spin_[at(j)];
   }
 }
 
 void FrameTerms::set_turn(std::size_t j, double turned) {
   turns_.turn[j] = turned;
-  turns_.length[j] = 1.0 / inverse_length_[j];
   turns_.tangent[j] = tangent_[j];
   turns_.pull[j] = lean_[j] - (turned * inverse_length_[j]) * tangent_[j];
 }
@@ -330,7 +333,7 @@ void FrameTerms::add_stiffness(LinearSystem<4>& system) const {
   for (std::size_t g = 0; g < pairs_.size() && nodes_of(g) > 0; ++g) {
     FourCurves curves = twist_curves(g);
     if (curved_) bending_.add_stiffness(pairs_[g], g, curves);
-    add(curves, edges_behind(g), static_cast<int>(4 * g + 1), nodes_of(g), system.matrix);
+    add_curves(curves, edges_behind(g), static_cast<int>(4 * g + 1), nodes_of(g), system.matrix);
   }
   if (curved_) bending_.add_beyond(system.right);
 }

@@ -47,9 +47,9 @@ struct FourEdges {
 
 /// Subtracts slopes of `count` nodes, of which the first has number `first`, from forces of nodes and torques on their
 /// spins. By e = x_i - x_{i-1} and f = x_{i+1} - x_i, the node before bears -dE/de, the one behind dE/df.
-void subtract(const FourSlopes& slopes, int first, int count, std::vector<Lanes>& force);
+void subtract_slopes(const FourSlopes& slopes, int first, int count, std::vector<Lanes>& force);
 
 /// Adds second derivatives of `count` nodes to the matrix, and those of their edges f.
-void add(const FourCurves& curves, const FourEdges& edges, int first, int count, StepMatrix<4>& matrix);
+void add_curves(const FourCurves& curves, const FourEdges& edges, int first, int count, StepMatrix<4>& matrix);
 
 }  // namespace knot_utm

@@ -172,6 +172,7 @@ class FrameTerms {
   std::vector<double> stiffness_;        // k_t/lbar of every node, 0 at a parted edge [N m]
   std::vector<double> angle_;            // theta_j
   std::vector<double> spin_;             // d(torque)/dtheta_j of inertia, drag and r_j in this step [N m]
+  std::vector<double> kept_spin_;        // I_j omega_j^n/dt [N m]
   std::vector<double> start_twist_;      // m_ref - mbar of every node as the step began
   std::vector<double> reference_twist_;  // m_ref of every node
   std::vector<double> torque_;           // dE/dtheta_j [N m]
