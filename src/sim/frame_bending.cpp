@@ -41,8 +41,13 @@ void FrameBending::set_directors(const std::vector<FourPairs>& pairs, const std:
   }
 }
 
+FrameBending::FourDirectors FrameBending::directors(std::size_t group) const {
+  return {{m1_[group], m2_[group]}, {one_earlier(m1_[group], m1_[group + 1]), one_earlier(m2_[group], m2_[group + 1])}};
+}
+
 /// kappa = s N and its slopes, N = v . p - u . q.
-void FrameBending::set_curvatures(const FourPairs& pair, FourNodes& four, Lanes bend[2]) {
+void FrameBending::set_curvatures(const FourPairs& pair, const FourDirectors& directors, FourNodes& four,
+                                  Lanes bend[2]) {
   const FourVectors &u = pair.u, &v = pair.v, apart = v - u;
   four.c = dot(u, v);
   const Lanes w = 0.25 * dot(apart, apart), pole = 1.0 / (1.0 - w);
@@ -59,7 +64,7 @@ void FrameBending::set_curvatures(const FourPairs& pair, FourNodes& four, Lanes 
   four.u_v = u - four.c * v;
   Lanes v_p[2], u_q[2];
   for (int k = 0; k < 2; ++k) {
-    const FourVectors &p = four.p[k], &q = four.q[k];
+    const FourVectors &p = directors.p[k], &q = directors.q[k];
     v_p[k] = dot(v, p);
     u_q[k] = dot(u, q);
     const Lanes n = v_p[k] - u_q[k], turning = four.s_c * n;
@@ -111,17 +116,14 @@ void FrameBending::respond(const Law& law, const Lanes bend[2], std::size_t grou
 }
 
 void FrameBending::evaluate(const std::vector<FourPairs>& pairs, const std::vector<FourVectors>& director,
-                            const std::vector<double>& angle) {
+                            const std::vector<double>& angle, std::vector<FourSlopes>& slopes) {
   set_directors(pairs, director, angle);
   fours_.resize((nodes_.size() + 2) / 4);
   const auto evaluate_four = [&](const auto& law, std::size_t g) {
-    fours_[g].p[0] = m1_[g];
-    fours_[g].p[1] = m2_[g];
-    fours_[g].q[0] = one_earlier(m1_[g], m1_[g + 1]);
-    fours_[g].q[1] = one_earlier(m2_[g], m2_[g + 1]);
     Lanes bend[2];
-    set_curvatures(pairs[g], fours_[g], bend);
+    set_curvatures(pairs[g], directors(g), fours_[g], bend);
     respond(law, bend, g);
+    for (int k = 0; k < 2; ++k) slopes[g] += fours_[g].moment[k] * fours_[g].slope[k];
   };
   std::visit(
       [&](const auto& law) {
@@ -130,21 +132,15 @@ void FrameBending::evaluate(const std::vector<FourPairs>& pairs, const std::vect
       rod_.laws->bending);
 }
 
-FourSlopes FrameBending::slopes(std::size_t group) const {
-  const FourNodes& four = fours_[group];
-  FourSlopes out = four.moment[0] * four.slope[0];
-  out += four.moment[1] * four.slope[1];
-  return out;
-}
-
 /// The Hessian of one curvature by the formulas of bending.hpp, then the terms of the law's tangent. Vectors across
 /// their edge, as the curvature of the unit sphere asks, end in _u or _v.
 void FrameBending::add_stiffness(const FourPairs& pair, std::size_t group, FourCurves& curves) const {
   const FourNodes& four = fours_[group];
   const FourVectors &u = pair.u, &v = pair.v, &v_u = four.v_u, &u_v = four.u_v;
   const Lanes &c = four.c, &s = four.s, &s_c = four.s_c, &m_1 = four.moment[0], &m_2 = four.moment[1];
-  const FourVectors p = m_1 * four.p[0] + m_2 * four.p[1], dp = m_1 * four.p[1] - m_2 * four.p[0];
-  const FourVectors q = m_1 * four.q[0] + m_2 * four.q[1], dq = m_1 * four.q[1] - m_2 * four.q[0];
+  const FourDirectors of = directors(group);
+  const FourVectors p = m_1 * of.p[0] + m_2 * of.p[1], dp = m_1 * of.p[1] - m_2 * of.p[0];
+  const FourVectors q = m_1 * of.q[0] + m_2 * of.q[1], dq = m_1 * of.q[1] - m_2 * of.q[0];
   const Lanes v_p = dot(v, p), u_q = dot(u, q), v_dp = dot(v, dp), u_dq = dot(u, dq);
   const Lanes n = v_p - u_q, round = s_c * n, half_curve = 0.5 * four.s_cc * n;
   const FourVectors n_u = u_q * u - c * p - q, n_v = p + c * q - v_p * v;
@@ -204,10 +200,11 @@ void FrameBending::add_beyond(std::vector<Lanes>& right) const {
 
 StencilMatrix FrameBending::hessian(const FourPairs& pair, int i) const {
   const FourNodes& four = fours_[at(i - 1) / 4];
+  const FourDirectors of = directors(at(i - 1) / 4);
   const int k = (i - 1) % 4;
-  const auto one = [&](const FourVectors& of) { return Vec3(of.x[k], of.y[k], of.z[k]); };
+  const auto one = [&](const FourVectors& four_of) { return Vec3(four_of.x[k], four_of.y[k], four_of.z[k]); };
   const CurvatureLocal bend = curvature_local(one(pair.u) / pair.over_e[k], one(pair.v) / pair.over_f[k],
-                                              {one(four.p[0]), one(four.p[1])}, {one(four.q[0]), one(four.q[1])});
+                                              {one(of.p[0]), one(of.p[1])}, {one(of.q[0]), one(of.q[1])});
   BendingResponse law;
   law.energy = 0.0;
   law.moment = {four.moment[0][k], four.moment[1][k]};

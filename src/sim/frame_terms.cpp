@@ -217,15 +217,18 @@ void FrameTerms::carry_directors() {
 }
 
 void FrameTerms::add_elastic_forces(std::vector<Lanes>& force) {
+  for (std::size_t g = 0; g < pairs_.size(); ++g) slopes_[g] = twist_slopes(g);
+  if (curved_) {
+    carry_directors();
+    bending_.evaluate(pairs_, director_, angle_, slopes_);
+  }
   std::fill(torque_.begin(), torque_.end(), 0.0);
-  for (std::size_t g = 0; g < pairs_.size() && nodes_of(g) > 0; ++g) {
-    FourSlopes& slopes = slopes_[g];
-    slopes = twist_slopes(g);
-    if (curved_) slopes += bending_.slopes(g);
-    subtract_slopes(slopes, static_cast<int>(4 * g + 1), nodes_of(g), force);
-    for (int k = 0; k < nodes_of(g); ++k) {
-      torque_[4 * g + at(k)] += slopes.of[kThetaE][k];
-      torque_[4 * g + at(k) + 1] += slopes.of[kThetaF][k];
+  for (std::size_t g = 0; g < pairs_.size(); ++g) {
+    const int count = nodes_of(g);
+    subtract_slopes(slopes_[g], static_cast<int>(4 * g + 1), count, force);
+    for (int k = 0; k < count; ++k) {
+      torque_[4 * g + at(k)] += slopes_[g].of[kThetaE][k];
+      torque_[4 * g + at(k) + 1] += slopes_[g].of[kThetaF][k];
     }
   }
 }
@@ -234,10 +237,6 @@ void FrameTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes
   const int edges = static_cast<int>(rod_.edges());
   set_tangents(x);
   set_twist();
-  if (curved_) {
-    carry_directors();
-    bending_.evaluate(pairs_, director_, angle_);
-  }
   add_elastic_forces(force);
   for (int j = 0; j < edges; ++j) {
     const double turned = angle_[at(j)] - start_->twist[j];
@@ -330,7 +329,7 @@ void FrameTerms::add_first_edge(StepMatrix<4>& matrix) const {
 
 void FrameTerms::add_stiffness(LinearSystem<4>& system) const {
   add_first_edge(system.matrix);
-  for (std::size_t g = 0; g < pairs_.size() && nodes_of(g) > 0; ++g) {
+  for (std::size_t g = 0; g < pairs_.size(); ++g) {
     FourCurves curves = twist_curves(g);
     if (curved_) bending_.add_stiffness(pairs_[g], g, curves);
     add_curves(curves, edges_behind(g), static_cast<int>(4 * g + 1), nodes_of(g), system.matrix);

@@ -33,13 +33,12 @@ class FrameBending {
   /// Begins a step of length dt [s] from a state, which must outlive it.
   void begin(const RodState& start, double dt);
 
-  /// Evaluates all nodes. `pairs` are their edges, and `director` holds the d1 of edges in fours, `angle` their theta.
-  /// These lists have room for four more edges behind the last group.
+  /// Evaluates all nodes, and adds dW/d(e, theta_e, f, theta_f) to their slopes. `pairs` are their edges, and
+  /// `director` holds the d1 of edges in fours, `angle` their theta. These two lists have room for four more edges
+  /// behind the last group.
   void evaluate(const std::vector<FourPairs>& pairs, const std::vector<FourVectors>& director,
-                const std::vector<double>& angle);
+                const std::vector<double>& angle, std::vector<FourSlopes>& slopes);
 
-  /// dW/d(e, theta_e, f, theta_f) of four nodes.
-  FourSlopes slopes(std::size_t group) const;
   /// Adds the linear model of what was evaluated last: its stiffness.
   void add_stiffness(const FourPairs& pair, std::size_t group, FourCurves& curves) const;
   /// Adds to the right-hand side the difference of the model's forces from those of the law (BendingResponse).
@@ -57,20 +56,24 @@ class FrameBending {
   void commit(const std::vector<double>& tension, RodState& state) const;
 
  private:
+  /// m1 and m2 of both edges of four nodes.
+  struct FourDirectors {
+    FourVectors p[2], q[2];
+  };
   struct FourNodes {
-    Lanes c, s, s_c, s_cc;   // cosine of the turning angle; s(c) and its derivatives
-    FourVectors v_u, u_v;    // v - c u, u - c v
-    FourVectors p[2], q[2];  // m1 and m2 of both edges
-    FourSlopes slope[2];     // of both curvatures
-    Lanes moment[2];         // M
-    Lanes tangent[3];        // T_11, T_12, T_22
-    Lanes beyond[2];         // BendingResponse::beyond
-    bool jumps;              // one of them has a `beyond`
+    Lanes c, s, s_c, s_cc;  // cosine of the turning angle; s(c) and its derivatives
+    FourVectors v_u, u_v;   // v - c u, u - c v
+    FourSlopes slope[2];    // of both curvatures
+    Lanes moment[2];        // M
+    Lanes tangent[3];       // T_11, T_12, T_22
+    Lanes beyond[2];        // BendingResponse::beyond
+    bool jumps;             // one of them has a `beyond`
   };
 
   void set_directors(const std::vector<FourPairs>& pairs, const std::vector<FourVectors>& director,
                      const std::vector<double>& angle);
-  static void set_curvatures(const FourPairs& pair, FourNodes& four, Lanes bend[2]);
+  FourDirectors directors(std::size_t group) const;
+  static void set_curvatures(const FourPairs& pair, const FourDirectors& directors, FourNodes& four, Lanes bend[2]);
   template <typename Law>
   void respond(const Law& law, const Lanes bend[2], std::size_t group);
 
