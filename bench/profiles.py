@@ -34,7 +34,7 @@ FUNCTIONS = [
     ("contact bookkeeping",
      r"\w+Contact::|least_curvature_factor|std::vector<(SmoothContact|EdgeContact|ContactPoint|SurfacePoint)"),
     (ELASTIC, r"Frame(Bending|Terms)::|CentrelineTerms::|MotionTerm::|\w+Bend(ing)?::|\w+Stretching|transported_director|"
-              r"material_directors|parallel_transport"),
+              r"material_directors|parallel_transport|subtract_slopes|add_curves|add_block<"),
     ("knot type, checks and readings",
      r"modular::|alexander|crossings|meet|cross\b|View\b|determinant|TunnellingSearch|TyingRig|KnotWatch|OverhandStrand|LoopTopology|"
      r"TestingMachine|TiedLoop|StepControl|StepReadings|Grips|ImplicitStep<|TimeStep|examine|smoothed\b|most_exposed|fastest_node|"

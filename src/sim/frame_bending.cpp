@@ -1,208 +1,226 @@
 #include "knot_utm/sim/frame_bending.hpp"
 
-#include <cmath>
+#include <algorithm>
 
-#include "axes.hpp"
+#include "knot_utm/numeric/fours.hpp"
 #include "knot_utm/numeric/index.hpp"
+#include "knot_utm/numeric/sine_cosine.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod_laws.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
-#include "knot_utm/sim/linear_system.hpp"
-#include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
 
-namespace {
-
-Lanes across(const Lanes& w, const Lanes& t) { return w - dot(w, t) * t; }
-
-}  // namespace
-
 FrameBending::FrameBending(const RodProperties& rod) : rod_(rod), own_(own_numbers(rod.laws->bending)) {}
 
-FrameBending::Curvature FrameBending::first(int i) const {
-  return {m1_[at(i - 1)], m1_[at(i)], m2_[at(i - 1)], m2_[at(i)]};
-}
-FrameBending::Curvature FrameBending::second(int i) const {
-  return {m2_[at(i - 1)], m2_[at(i)], -1.0 * m1_[at(i - 1)], -1.0 * m1_[at(i)]};
-}
-FrameBending::Curvature FrameBending::both(int i) const {
-  const Eigen::Vector2d& m = nodes_[at(i)].law.moment;
-  const Curvature a = first(i), b = second(i);
-  return {m[0] * a.p + m[1] * b.p, m[0] * a.q + m[1] * b.q, m[0] * a.dp + m[1] * b.dp, m[0] * a.dq + m[1] * b.dq};
-}
-
-/// dkappa of kappa = s (v . p - u . q).
-FrameBending::Slope FrameBending::slope(const Node& at, const Curvature& k) {
-  const double n = dot(at.v, k.p) - dot(at.u, k.q);
-  const Lanes in_u = (at.s_c * n) * at.v - at.s * (at.c * k.p + k.q);
-  const Lanes in_v = (at.s_c * n) * at.u + at.s * (k.p + at.c * k.q);
-  const Lanes e = at.over_e * across(in_u, at.u), f = at.over_f * across(in_v, at.v);
-  return {{(at.s * dot(at.v, k.dp)) * kSpin - e, e - f - (at.s * dot(at.u, k.dq)) * kSpin, f}};
-}
-
-void FrameBending::evaluate(const RodState& start, double dt, const std::vector<Lanes>& tangent,
-                            const std::vector<double>& inverse_length, const Points& director,
-                            const std::vector<double>& angle) {
-  const int edges = static_cast<int>(rod_.edges());
-  m1_.resize(at(edges));
-  m2_.resize(at(edges));
-  nodes_.resize(at(edges));
-  for (int j = 0; j < edges; ++j) {
-    const Directors of = material_directors(to_vec3(tangent[at(j)]), director.col(j), angle[at(j)]);
-    m1_[at(j)] = to_lanes(of.m1);
-    m2_[at(j)] = to_lanes(of.m2);
-  }
-  const auto evaluate_node = [&](const auto& law, int i) {
-    Node& node = nodes_[at(i)];
-    node.u = tangent[at(i - 1)];
-    node.v = tangent[at(i)];
-    node.over_e = inverse_length[at(i - 1)];
-    node.over_f = inverse_length[at(i)];
-    node.c = dot(node.u, node.v);
-    const Lanes apart = node.v - node.u;
-    const double w = 0.25 * dot(apart, apart), pole = 1.0 / (1.0 - w);
-    const SquaredAngleOverW<double> over = squared_angle_over(w);
-    // 16 s^2 = G/(1 - w), and its derivatives in w; dw/dc = -1/2.
-    const double square = over.value * pole, square_w = (over.first + square) * pole;
-    const double square_ww = (over.second + 2.0 * square_w) * pole;
-    node.s = 0.25 * std::sqrt(square);
-    const double s_w = square_w / (32.0 * node.s), s_ww = (square_ww / 32.0 - s_w * s_w) / node.s;
-    node.s_c = -0.5 * s_w;
-    node.s_cc = 0.25 * s_ww;
-    const Curvature k_1 = first(i), k_2 = second(i);
-    const Eigen::Vector2d bend = {node.s * (dot(node.v, k_1.p) - dot(node.u, k_1.q)),
-                                  node.s * (dot(node.v, k_2.p) - dot(node.u, k_2.q))};
+void FrameBending::begin(const RodState& start, double dt) {
+  nodes_.resize(at(static_cast<int>(rod_.edges())));
+  for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) {
     const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
-    const Eigen::Vector2d before =
-        first_trial_ ? Eigen::Vector2d::Zero() : Eigen::Vector2d(node.bend.bend - node.bend.natural);
-    node.bend = {whole * rod_.material.bending_stiffness,
-                 rod_.voronoi_length[i],
-                 bend,
-                 start.natural_curvature.col(i - 1),
-                 dt,
-                 start.bending_own.data() + own_ * (i - 1),
-                 0.0,
-                 before};
-    node.law = law.respond(node.bend);
-    node.slope[0] = slope(node, k_1);
-    node.slope[1] = slope(node, k_2);
+    BendingNode& node = nodes_[at(i)];
+    node.k_b = whole * rod_.material.bending_stiffness;
+    node.voronoi_length = rod_.voronoi_length[i];
+    node.natural = start.natural_curvature.col(i - 1);
+    node.dt = dt;
+    node.own = start.bending_own.data() + own_ * (i - 1);
+    node.bend = node.natural;  // no trial before the first one
+  }
+}
+
+/// m1 and m2 of every edge, as material_directors gives them.
+void FrameBending::set_directors(const std::vector<FourPairs>& pairs, const std::vector<FourVectors>& director,
+                                 const std::vector<double>& angle) {
+  m1_.resize(director.size());
+  m2_.resize(director.size());
+  for (std::size_t g = 0; g < pairs.size(); ++g) {
+    const auto [sine, cosine] = sine_cosine(four(angle, 4 * g));
+    const FourVectors &d1 = director[g], d2 = cross(pairs[g].u, d1);
+    m1_[g] = cosine * d1 + sine * d2;
+    m2_[g] = cosine * d2 - sine * d1;
+  }
+}
+
+FrameBending::FourDirectors FrameBending::directors(std::size_t group) const {
+  return {{m1_[group], m2_[group]}, {one_earlier(m1_[group], m1_[group + 1]), one_earlier(m2_[group], m2_[group + 1])}};
+}
+
+/// kappa = s N and its slopes, N = v . p - u . q.
+void FrameBending::set_curvatures(const FourPairs& pair, const FourDirectors& directors, FourNodes& four,
+                                  Lanes bend[2]) {
+  const FourVectors &u = pair.u, &v = pair.v, apart = v - u;
+  four.c = dot(u, v);
+  const Lanes w = 0.25 * dot(apart, apart), pole = 1.0 / (1.0 - w);
+  const SquaredAngleOverW<Lanes> over = squared_angle_over(w);
+  // 16 s^2 = G/(1 - w), and its derivatives in w; dw/dc = -1/2.
+  const Lanes square = over.value * pole, square_w = (over.first + square) * pole;
+  const Lanes square_ww = (over.second + 2.0 * square_w) * pole;
+  const Lanes s = 0.25 * square_root(square), over_s = 1.0 / s;
+  const Lanes s_w = (1.0 / 32.0) * square_w * over_s, s_ww = ((1.0 / 32.0) * square_ww - s_w * s_w) * over_s;
+  four.s = s;
+  four.s_c = -0.5 * s_w;
+  four.s_cc = 0.25 * s_ww;
+  four.v_u = v - four.c * u;
+  four.u_v = u - four.c * v;
+  Lanes v_p[2], u_q[2];
+  for (int k = 0; k < 2; ++k) {
+    const FourVectors &p = directors.p[k], &q = directors.q[k];
+    v_p[k] = dot(v, p);
+    u_q[k] = dot(u, q);
+    const Lanes n = v_p[k] - u_q[k], turning = four.s_c * n;
+    bend[k] = s * n;
+    // The parts of N_u and N_v across their edges: p is normal to u, and q to v.
+    const FourVectors n_u = u_q[k] * u - four.c * p - q, n_v = p + four.c * q - v_p[k] * v;
+    const FourVectors e = pair.over_e * (s * n_u + turning * four.v_u),
+                      f = pair.over_f * (s * n_v + turning * four.u_v);
+    for (int r = 0; r < 3; ++r) {
+      four.slope[k].of[kOfE + r] = e[r];
+      four.slope[k].of[kOfF + r] = f[r];
+    }
+  }
+  // m1' = m2, m2' = -m1
+  four.slope[0].of[kThetaE] = s * v_p[1];
+  four.slope[0].of[kThetaF] = -s * u_q[1];
+  four.slope[1].of[kThetaE] = -s * v_p[0];
+  four.slope[1].of[kThetaF] = s * u_q[0];
+}
+
+template <typename Law>
+void FrameBending::respond(const Law& law, const Lanes bend[2], std::size_t group) {
+  // Gathered as numbers: a register that is written lane by lane in memory would be slow to read.
+  double moment[2][4] = {}, beyond[2][4] = {}, tangent[3][4] = {};
+  const std::size_t first = 4 * group + 1;
+  for (std::size_t i = first; i < std::min(first + 4, nodes_.size()); ++i) {
+    const std::size_t k = i - first;
+    BendingNode& node = nodes_[i];
+    node.before = node.bend - node.natural;
+    node.bend = {bend[0][k], bend[1][k]};
+    const BendingResponse response = law.respond(node);
+    for (int m = 0; m < 2; ++m) {
+      moment[m][k] = response.moment[m];
+      beyond[m][k] = response.beyond[m];
+    }
+    tangent[0][k] = response.tangent(0, 0);
+    tangent[1][k] = response.tangent(0, 1);
+    tangent[2][k] = response.tangent(1, 1);
+  }
+  FourNodes& four = fours_[group];
+  const auto lanes = [](const double* of) { return Lanes{of[0], of[1], of[2], of[3]}; };
+  four.jumps = false;
+  for (int m = 0; m < 2; ++m) {
+    four.moment[m] = lanes(moment[m]);
+    four.beyond[m] = lanes(beyond[m]);
+    four.jumps = four.jumps || any(four.beyond[m] < 0.0) || any(four.beyond[m] > 0.0);
+  }
+  for (int m = 0; m < 3; ++m) four.tangent[m] = lanes(tangent[m]);
+}
+
+void FrameBending::evaluate(const std::vector<FourPairs>& pairs, const std::vector<FourVectors>& director,
+                            const std::vector<double>& angle, std::vector<FourSlopes>& slopes) {
+  set_directors(pairs, director, angle);
+  fours_.resize((nodes_.size() + 2) / 4);
+  const auto evaluate_four = [&](const auto& law, std::size_t g) {
+    Lanes bend[2];
+    set_curvatures(pairs[g], directors(g), fours_[g], bend);
+    respond(law, bend, g);
+    for (int k = 0; k < 2; ++k) slopes[g] += fours_[g].moment[k] * fours_[g].slope[k];
   };
   std::visit(
       [&](const auto& law) {
-        for (int i = 1; i < edges; ++i) evaluate_node(law, i);
+        for (std::size_t g = 0; g < fours_.size(); ++g) evaluate_four(law, g);
       },
       rod_.laws->bending);
-  first_trial_ = false;
 }
 
-void FrameBending::add_forces(std::vector<Lanes>& force, std::vector<double>& torque) const {
-  for (std::size_t i = 1; i < nodes_.size(); ++i) {
-    const Node& node = nodes_[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Lanes gradient = node.law.moment[0] * node.slope[0].node[k] + node.law.moment[1] * node.slope[1].node[k];
-      force[i - 1 + k] -= gradient;
-      if (k < 2) torque[i - 1 + k] += gradient[3];
+/// The Hessian of one curvature by the formulas of bending.hpp, then the terms of the law's tangent. Vectors across
+/// their edge, as the curvature of the unit sphere asks, end in _u or _v.
+void FrameBending::add_stiffness(const FourPairs& pair, std::size_t group, FourCurves& curves) const {
+  const FourNodes& four = fours_[group];
+  const FourVectors &u = pair.u, &v = pair.v, &v_u = four.v_u, &u_v = four.u_v;
+  const Lanes &c = four.c, &s = four.s, &s_c = four.s_c, &m_1 = four.moment[0], &m_2 = four.moment[1];
+  const FourDirectors of = directors(group);
+  const FourVectors p = m_1 * of.p[0] + m_2 * of.p[1], dp = m_1 * of.p[1] - m_2 * of.p[0];
+  const FourVectors q = m_1 * of.q[0] + m_2 * of.q[1], dq = m_1 * of.q[1] - m_2 * of.q[0];
+  const Lanes v_p = dot(v, p), u_q = dot(u, q), v_dp = dot(v, dp), u_dq = dot(u, dq);
+  const Lanes n = v_p - u_q, round = s_c * n, half_curve = 0.5 * four.s_cc * n;
+  const FourVectors n_u = u_q * u - c * p - q, n_v = p + c * q - v_p * v;
+  // Beside v_u and u_v, and beside u and v. With u . p = v . q = 0, along_e = u . dkappa/du.
+  const FourVectors a = s_c * n_u - (0.5 * s) * p + half_curve * v_u, b = s_c * n_v + (0.5 * s) * q + half_curve * u_v;
+  const Lanes along_e = round * c - s * u_q, along_f = round * c + s * v_p;
+  const FourVectors on_u = (0.5 * along_e) * u - s * n_u - round * v_u,
+                    on_v = (0.5 * along_f) * v - s * n_v - round * u_v;
+  const FourVectors right = s * q + s_c * n_v + (2.0 * half_curve) * u_v - round * v, left = s_c * n_u - s * p;
+  const FourVectors round_u = round * u;
+  const Lanes ee = pair.over_e * pair.over_e, ff = pair.over_f * pair.over_f, ef = pair.over_e * pair.over_f;
+  // By theta: p turns to dp, and what is along an edge is left out.
+  const FourVectors e_e = pair.over_e * ((s_c * v_dp) * v_u - (s * c) * dp);
+  const FourVectors e_f = pair.over_e * ((s * u_dq) * u - (s_c * u_dq) * v_u - s * dq);
+  const FourVectors f_e = pair.over_f * ((s_c * v_dp) * u_v + s * dp - (s * v_dp) * v);
+  const FourVectors f_f = pair.over_f * ((s * c) * dq - (s_c * u_dq) * u_v);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const bool diagonal = i == j;
+      Lanes across = v_u[i] * right[j] + left[i] * u_v[j] - round_u[i] * u[j];
+      if (diagonal) across += round;
+      curves.of[kOfE + i][kOfF + j] += ef * across;
+      if (j < i) continue;
+      Lanes of_e = a[i] * v_u[j] + v_u[i] * a[j] + on_u[i] * u[j] + u[i] * on_u[j];
+      Lanes of_f = b[i] * u_v[j] + u_v[i] * b[j] + on_v[i] * v[j] + v[i] * on_v[j];
+      if (diagonal) of_e -= along_e;
+      if (diagonal) of_f -= along_f;
+      curves.of[kOfE + i][kOfE + j] += ee * of_e;
+      curves.of[kOfF + i][kOfF + j] += ff * of_f;
     }
+    curves.of[kOfE + i][kThetaE] += e_e[i];
+    curves.of[kOfE + i][kThetaF] += e_f[i];
+    curves.of[kThetaE][kOfF + i] += f_e[i];
+    curves.of[kOfF + i][kThetaF] += f_f[i];
+  }
+  curves.of[kThetaE][kThetaE] -= s * v_p;
+  curves.of[kThetaF][kThetaF] += s * u_q;
+  const Lanes *slope_1 = four.slope[0].of, *slope_2 = four.slope[1].of;
+  for (int j = 0; j < 8; ++j) {
+    const Lanes on_1 = four.tangent[0] * slope_1[j] + four.tangent[1] * slope_2[j];
+    const Lanes on_2 = four.tangent[1] * slope_1[j] + four.tangent[2] * slope_2[j];
+    for (int i = 0; i <= j; ++i) curves.of[i][j] += slope_1[i] * on_1 + slope_2[i] * on_2;
   }
 }
 
-/// The Hessian of one curvature, by the formulas of bending.hpp in lanes. Of two vectors that are projected along the
-/// tangent of their edge, as the curvature of the unit sphere asks, the names end in _u or _v.
-void FrameBending::add_curvature_terms(const Node& at, const Curvature& k, StepMatrix<4>& matrix, int i) {
-  const Lanes &u = at.u, &v = at.v;
-  const double c = at.c, s = at.s, s_c = at.s_c, over_e = at.over_e, over_f = at.over_f;
-  const double n = dot(v, k.p) - dot(u, k.q);
-  const Lanes n_u = -1.0 * (c * k.p + k.q), n_v = k.p + c * k.q;  // dN/du, dN/dv
-  const Lanes in_u = s * n_u + (s_c * n) * v, in_v = s * n_v + (s_c * n) * u;
-  const Lanes v_u = v - c * u, u_v = u - c * v;
-  const double in_u_along = dot(in_u, u), in_v_along = dot(in_v, v);
-  const Lanes in_u_u = in_u - in_u_along * u, in_v_v = in_v - in_v_along * v;
-  const Lanes a = across(s_c * n_u - (0.5 * s) * k.p, u), a_v = a + (at.s_cc * n) * v_u;
-  const Lanes b = across(s_c * n_v + (0.5 * s) * k.q, v), b_u = b + (at.s_cc * n) * u_v;
-  const Lanes right = s * k.q + s_c * across(n_v, v) + (at.s_cc * n) * u_v;  // beside v_u
-  const Lanes left = s_c * across(n_u, u) - s * k.p;                         // beside u_v
-  const Lanes on_u = in_u_along * u - in_u_u, on_v = in_v_along * v - in_v_v;
-  const double ee = over_e * over_e, ff = over_f * over_f, ef = over_e * over_f, round = s_c * n;
-  const Lanes e_theta_e = over_e * (s_c * dot(v, k.dp) * v_u - (s * c) * k.dp);
-  const Lanes e_theta_f = over_e * across(-s_c * dot(u, k.dq) * v - s * k.dq, u);
-  const Lanes f_theta_e = over_f * across(s_c * dot(v, k.dp) * u + s * k.dp, v);
-  const Lanes f_theta_f = over_f * ((s * c) * k.dq - s_c * dot(u, k.dq) * u_v);
-  const auto block = [&](int row, int column) -> Block<4>& { return matrix.band(i - 1, row, column); };
-  Block<4>&b00 = block(0, 0), &b01 = block(0, 1), &b02 = block(0, 2), &b10 = block(1, 0), &b11 = block(1, 1),
-  &b12 = block(1, 2), &b20 = block(2, 0), &b21 = block(2, 1), &b22 = block(2, 2);
-  for (int j = 0; j < 3; ++j) {
-    const Lanes h_ee = ee * (a * v_u[j] + v_u * a_v[j] + on_u * u[j] - u * in_u_u[j] - in_u_along * kAxis[j]);
-    const Lanes h_ff = ff * (b * u_v[j] + u_v * b_u[j] + on_v * v[j] - v * in_v_v[j] - in_v_along * kAxis[j]);
-    const Lanes h_ef = ef * (v_u * right[j] + left * u_v[j] + round * (kAxis[j] - u * u[j] + (c * u - v) * v[j]));
-    const Lanes h_fe = ef * (right * v_u[j] + u_v * left[j] + round * (kAxis[j] - v * v[j] + (c * v - u) * u[j]));
-    b00.column[j] += h_ee - e_theta_e[j] * kSpin;
-    b01.column[j] += h_ef - h_ee + (e_theta_e[j] - f_theta_e[j]) * kSpin;
-    b02.column[j] += f_theta_e[j] * kSpin - h_ef;
-    b10.column[j] += h_fe - h_ee - e_theta_f[j] * kSpin;
-    b11.column[j] += h_ee - h_ef - h_fe + h_ff + (e_theta_f[j] - f_theta_f[j]) * kSpin;
-    b12.column[j] += h_ef - h_ff + f_theta_f[j] * kSpin;
-    b20.column[j] -= h_fe;
-    b21.column[j] += h_fe - h_ff;
-    b22.column[j] += h_ff;
-  }
-  b00.column[3] += (-s * dot(v, k.p)) * kSpin - e_theta_e;
-  b01.column[3] -= e_theta_f;
-  b10.column[3] += e_theta_e - f_theta_e;
-  b11.column[3] += (s * dot(u, k.q)) * kSpin + e_theta_f - f_theta_f;
-  b20.column[3] += f_theta_e;
-  b21.column[3] += f_theta_f;
-}
-
-void FrameBending::add_stiffness(LinearSystem<4>& system) const {
-  StepMatrix<4>& matrix = system.matrix;
-  for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) {
-    const Node& node = nodes_[at(i)];
-    add_curvature_terms(node, both(i), matrix, i);
-    const Eigen::Matrix2d& t = node.law.tangent;
-    const Eigen::Vector2d& beyond = node.law.beyond;
-    if (beyond[0] != 0.0 || beyond[1] != 0.0)
-      for (int k = 0; k < 3; ++k)
-        system.right[at(i - 1 + k)] -= beyond[0] * node.slope[0].node[k] + beyond[1] * node.slope[1].node[k];
-    for (int column = 0; column < 3; ++column) {
-      const Lanes on_1 = t(0, 0) * node.slope[0].node[column] + t(0, 1) * node.slope[1].node[column];
-      const Lanes on_2 = t(1, 0) * node.slope[0].node[column] + t(1, 1) * node.slope[1].node[column];
-      for (int row = 0; row < 3; ++row) {
-        Block<4>& block = matrix.band(i - 1, row, column);
-        for (int j = 0; j < 4; ++j)
-          block.column[j] += node.slope[0].node[row] * on_1[j] + node.slope[1].node[row] * on_2[j];
-      }
-    }
+void FrameBending::add_beyond(std::vector<Lanes>& right) const {
+  for (std::size_t g = 0; g < fours_.size(); ++g) {
+    const FourNodes& four = fours_[g];
+    if (!four.jumps) continue;
+    FourSlopes slopes = four.beyond[0] * four.slope[0];
+    slopes += four.beyond[1] * four.slope[1];
+    const std::size_t first = 4 * g + 1;
+    subtract_slopes(slopes, static_cast<int>(first), static_cast<int>(std::min<std::size_t>(4, nodes_.size() - first)),
+                    right);
   }
 }
 
-StencilMatrix FrameBending::hessian(int i) const {
-  const Node& node = nodes_[at(i)];
-  const auto directors = [&](int j) { return Directors{to_vec3(m1_[at(j)]), to_vec3(m2_[at(j)])}; };
-  const CurvatureLocal bend =
-      curvature_local(to_vec3(node.u) / node.over_e, to_vec3(node.v) / node.over_f, directors(i - 1), directors(i));
-  return on_nodes(node.law, bend).hessian;
+StencilMatrix FrameBending::hessian(const FourPairs& pair, int i) const {
+  const FourNodes& four = fours_[at(i - 1) / 4];
+  const FourDirectors of = directors(at(i - 1) / 4);
+  const int k = (i - 1) % 4;
+  const auto one = [&](const FourVectors& four_of) { return Vec3(four_of.x[k], four_of.y[k], four_of.z[k]); };
+  const CurvatureLocal bend = curvature_local(one(pair.u) / pair.over_e[k], one(pair.v) / pair.over_f[k],
+                                              {one(of.p[0]), one(of.p[1])}, {one(of.q[0]), one(of.q[1])});
+  BendingResponse law;
+  law.energy = 0.0;
+  law.moment = {four.moment[0][k], four.moment[1][k]};
+  law.tangent << four.tangent[0][k], four.tangent[1][k], four.tangent[1][k], four.tangent[2][k];
+  return on_nodes(law, bend).hessian;
 }
 
-FrameBending::Energy FrameBending::energy(const Points& increment, const std::vector<double>& angle,
-                                          const Eigen::VectorXd& start) const {
+FrameBending::Energy FrameBending::energy() const {
   Energy out;
-  const auto turn = [&](int j) { return angle[at(j)] - start[j]; };
-  const auto add_node = [&](const auto& law, int i) {
-    const Node& node = nodes_[at(i)];
-    const BendingMemory memory = law.remember(node.bend);
-    out.stored += memory.stored;
-    out.dissipated += memory.dissipated;
-    for (int k = 0; k < 3; ++k) {
-      const Lanes gradient = node.law.moment[0] * node.slope[0].node[k] + node.law.moment[1] * node.slope[1].node[k];
-      out.along +=
-          dot(gradient, to_lanes(Vec3(increment.col(i - 1 + k)))) + (k < 2 ? gradient[3] * turn(i - 1 + k) : 0.0);
-    }
-  };
   std::visit(
       [&](const auto& law) {
-        for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) add_node(law, i);
+        for (std::size_t i = 1; i < nodes_.size(); ++i) {
+          const BendingMemory memory = law.remember(nodes_[i]);
+          out.stored += memory.stored;
+          out.dissipated += memory.dissipated;
+        }
       },
       rod_.laws->bending);
   return out;
@@ -210,7 +228,7 @@ FrameBending::Energy FrameBending::energy(const Points& increment, const std::ve
 
 void FrameBending::commit(const std::vector<double>& tension, RodState& state) const {
   const auto keep = [&](const auto& law, int i) {
-    BendingNode node = nodes_[at(i)].bend;
+    BendingNode node = nodes_[at(i)];
     node.tension = 0.5 * (tension[at(i - 1)] + tension[at(i)]);
     const BendingMemory memory = law.remember(node);
     if constexpr (std::decay_t<decltype(law)>::kOwn > 0) law.keep_own(node, state.bending_own.data() + own_ * (i - 1));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "axes.hpp"
+#include "knot_utm/numeric/fours.hpp"
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -17,26 +18,6 @@ namespace {
 // the stiffness of one.
 constexpr double kRest = 1e-9;        // r_j [k_t/l_j]
 constexpr double kLongestTurn = 0.5;  // of an edge in one iteration [rad]
-
-FourVectors four(const std::vector<Lanes>& vectors, std::size_t first) {
-  return FourVectors::of(vectors[first], vectors[first + 1], vectors[first + 2], vectors[first + 3]);
-}
-Lanes four(const std::vector<double>& numbers, std::size_t first) {
-  return Lanes{numbers[first], numbers[first + 1], numbers[first + 2], numbers[first + 3]};
-}
-
-/// Four vectors, or four numbers, to where they belong.
-void put(const FourVectors& vectors, std::vector<Lanes>& to, std::size_t first) {
-  Lanes a = vectors.x, b = vectors.y, c = vectors.z, d = {};
-  transpose(a, b, c, d);
-  to[first] = a;
-  to[first + 1] = b;
-  to[first + 2] = c;
-  to[first + 3] = d;
-}
-void put(const Lanes& numbers, std::vector<double>& to, std::size_t first) {
-  for (int k = 0; k < 4; ++k) to[first + static_cast<std::size_t>(k)] = numbers[k];
-}
 
 /// Four rotations as quaternions of any length.
 struct Turns {
@@ -59,17 +40,39 @@ Lanes angle_about(const FourVectors& axis, const Turns& turn) {
   Lanes series = constant<Lanes>(1.0 / 15.0);
   for (const double term : {13.0, 11.0, 9.0, 7.0, 5.0, 3.0, 1.0}) series = 1.0 / term - y * series;
   Lanes out = 2.0 * x * series;
+  if (!any(~small)) return out;
   for (int k = 0; k < 4; ++k)
     if (!(size[k] < 0.1 * turn.w[k])) out[k] = std::remainder(2.0 * std::atan2(sine[k], turn.w[k]), 2.0 * M_PI);
   return out;
 }
 
-/// w x
-struct Cross {
-  explicit Cross(const Lanes& w)
-      : column{Lanes{0.0, w[2], -w[1], 0.0}, Lanes{-w[2], 0.0, w[0], 0.0}, Lanes{w[1], -w[0], 0.0, 0.0}} {}
-  Lanes column[3];
-};
+/// Directors d1 of the tangents `from`, transported to `to` as transported_director does.
+FourVectors transported(const FourVectors& d1, const FourVectors& from, const FourVectors& to) {
+  const FourVectors sum = from + to;
+  const Lanes half_squared = 0.5 * dot(sum, sum);
+  const FourVectors carried = d1 - (dot(sum, d1) / half_squared) * sum + (2.0 * dot(from, d1)) * to;
+  const FourVectors across = carried - dot(carried, to) * to;
+  FourVectors out = (1.0 / square_root(dot(across, across))) * across;
+  constexpr double kNearlyOpposite = 1e-12;
+  if (any(half_squared < kNearlyOpposite)) {
+    for (int k = 0; k < 4; ++k) {
+      const auto one = [&](const FourVectors& of) { return Vec3(of.x[k], of.y[k], of.z[k]); };
+      const Vec3 exact = transported_director(one(d1), one(from), one(to));
+      out.x[k] = exact[0];
+      out.y[k] = exact[1];
+      out.z[k] = exact[2];
+    }
+  }
+  return out;
+}
+
+/// Their tangents, of edges in fours.
+void set_tangents_of(std::vector<FourPairs>& pairs, const std::vector<FourVectors>& tangent) {
+  for (std::size_t g = 0; g < pairs.size(); ++g) {
+    pairs[g].u = tangent[g];
+    pairs[g].v = one_earlier(tangent[g], tangent[g + 1]);
+  }
+}
 
 }  // namespace
 
@@ -86,16 +89,20 @@ FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
       turns_{std::vector<double>(start_tangent_.size()), std::vector<double>(start_tangent_.size()),
              std::vector<Lanes>(start_tangent_.size()), std::vector<Lanes>(start_tangent_.size())},
       stiffness_(start_tangent_.size(), 0.0),
-      binormal_(start_tangent_.size()),
-      over_chi_(start_tangent_.size(), 0.0),
-      twist_(start_tangent_.size(), 0.0),
-      moment_(start_tangent_.size(), 0.0),
-      tangent_stiffness_(start_tangent_.size(), 0.0),
-      director_(3, rod.edges()),
       angle_(start_tangent_.size(), 0.0),
+      spin_(start_tangent_.size(), 0.0),
+      kept_spin_(start_tangent_.size(), 0.0),
       start_twist_(start_tangent_.size(), 0.0),
       reference_twist_(start_tangent_.size(), 0.0),
-      torque_(start_tangent_.size(), 0.0) {
+      torque_(start_tangent_.size(), 0.0),
+      start_fours_((held_.size() + 2) / 4 + 1, four(start_tangent_, 0)),
+      tangent_fours_(start_fours_),
+      start_director_(start_fours_.size(), FourVectors{Lanes{}, constant<Lanes>(1.0), Lanes{}}),
+      director_(start_director_),
+      start_pairs_(start_fours_.size() - 1),
+      pairs_(start_pairs_),
+      twists_(start_pairs_.size()),
+      slopes_(start_pairs_.size()) {
   const double h2 = rod.material.radius * rod.material.radius;
   const double counts = settings.spin_inertia ? 1.0 : 0.0;
   inertia_ = (counts * 0.5 * rod.material.density * M_PI * h2 * h2) * rod.rest_length;
@@ -115,13 +122,23 @@ void FrameTerms::begin(const StepStart& step) {
   const RodState& start = step.state;
   start_ = &start;
   curved_ = start.curved_at_rest();
-  bending_.begin();
   dt_ = step.dt;
+  if (curved_) bending_.begin(start, dt_);
   const int edges = static_cast<int>(rod_.edges());
   for (int j = 0; j < edges; ++j) {
     start_tangent_[at(j)] = to_lanes(Vec3((start.position.col(j + 1) - start.position.col(j)).normalized()));
     angle_[at(j)] = start.twist[j] + dt_ * start.twist_rate[j];
+    kept_spin_[at(j)] = inertia_[j] * start.twist_rate[j] / dt_;
+    spin_[at(j)] = inertia_[j] / (dt_ * dt_) + drag_[j] / dt_ + rest_[j];
   }
+  for (int j = 0; j < edges; ++j) {
+    FourVectors& directors = start_director_[at(j / 4)];
+    directors.x[j % 4] = start.reference_director(0, j);
+    directors.y[j % 4] = start.reference_director(1, j);
+    directors.z[j % 4] = start.reference_director(2, j);
+  }
+  for (std::size_t g = 0; g + 1 < start_fours_.size(); ++g) start_fours_[g] = four(start_tangent_, 4 * g);
+  set_tangents_of(start_pairs_, start_fours_);
   for (int i = 1; i < edges; ++i) {
     reference_twist_[at(i)] = start.reference_twist[i - 1];
     start_twist_[at(i)] =
@@ -135,80 +152,101 @@ void FrameTerms::begin(const StepStart& step) {
   }
 }
 
+int FrameTerms::nodes_of(std::size_t group) const {
+  return static_cast<int>(std::min<std::size_t>(4, held_.size() - 2 - 4 * group));
+}
+
 void FrameTerms::set_tangents(const Points& position) {
   const std::size_t edges = static_cast<std::size_t>(rod_.edges());
   for (std::size_t j = 0; j < edges; ++j) {
     const double* x = position.data() + 3 * j;
     edge_[j] = Lanes{x[3] - x[0], x[4] - x[1], x[5] - x[2], 0.0};
-    inverse_length_[j] = 1.0 / std::sqrt(dot(edge_[j], edge_[j]));
-    tangent_[j] = inverse_length_[j] * edge_[j];
   }
-  for (std::size_t j = 0; j < edges; j += 4) {
-    const FourVectors before = four(start_tangent_, j), now = four(tangent_, j);
-    put(four(inverse_length_, j) / (1.0 + dot(before, now)) * cross(now, before), lean_, j);
+  for (std::size_t g = 0; 4 * g < edges; ++g) {
+    const FourVectors e = four(edge_, 4 * g), &before = start_fours_[g];
+    const Lanes length = square_root(dot(e, e)), over_e = 1.0 / length;
+    const FourVectors now = over_e * e;
+    tangent_fours_[g] = now;
+    put(over_e, inverse_length_, 4 * g);
+    put(now, tangent_, 4 * g);
+    if (rolls_) put(length, turns_.length, 4 * g);
+    put(over_e / (1.0 + dot(before, now)) * cross(now, before), lean_, 4 * g);
+  }
+  set_tangents_of(pairs_, tangent_fours_);
+  for (std::size_t g = 0; g < pairs_.size(); ++g) {
+    pairs_[g].over_e = four(inverse_length_, 4 * g);
+    pairs_[g].over_f = four(inverse_length_, 4 * g + 1);
   }
 }
 
 /// m_ref, b, chi and the moment of every inner node.
 void FrameTerms::set_twist() {
-  const std::size_t edges = static_cast<std::size_t>(rod_.edges());
-  for (std::size_t i = 1; i < edges; i += 4) {
-    const FourVectors e = four(tangent_, i - 1), f = four(tangent_, i);
-    const FourVectors e_n = four(start_tangent_, i - 1), f_n = four(start_tangent_, i);
+  for (std::size_t g = 0; g < pairs_.size(); ++g) {
+    const std::size_t i = 4 * g + 1;
+    const FourVectors &e = pairs_[g].u, &f = pairs_[g].v, &e_n = start_pairs_[g].u, &f_n = start_pairs_[g].v;
     const Turns e_to_f = transport(e, f);
     // Back from f to e as the conjugate; behind the last node there are no edges, and nothing is read.
     const Turns around = transport(e_n, f_n) * transport(e, e_n) * Turns{e_to_f.w, -1.0 * e_to_f.v} * transport(f_n, f);
     const Lanes turned = angle_about(f_n, around), over_chi = 1.0 / e_to_f.w;
     const Lanes twist = four(angle_, i) - four(angle_, i - 1) + four(start_twist_, i) + turned;
     const Lanes stiffness = four(stiffness_, i);
-    put(2.0 * over_chi * e_to_f.v, binormal_, i);
-    put(over_chi, over_chi_, i);
-    put(twist, twist_, i);
-    put(stiffness * twist, moment_, i);
-    put(stiffness, tangent_stiffness_, i);
+    twists_[g] = {2.0 * over_chi * e_to_f.v, over_chi, stiffness, stiffness * twist};
     put(turned, reference_twist_, i);
   }
-  for (std::size_t i = 1; i < edges; ++i)
+  for (std::size_t i = 1; i + 1 < held_.size(); ++i)
     reference_twist_[i] += start_->reference_twist[static_cast<Eigen::Index>(i) - 1];
 }
 
+/// m_e = b/(2 |e|), m_f = b/(2 |f|).
+FourSlopes FrameTerms::twist_slopes(std::size_t group) const {
+  const FourTwists& twist = twists_[group];
+  const Lanes half = 0.5 * twist.moment, by_e = half * pairs_[group].over_e, by_f = half * pairs_[group].over_f;
+  FourSlopes out;
+  for (int r = 0; r < 3; ++r) {
+    out.of[kOfE + r] = by_e * twist.binormal[r];
+    out.of[kOfF + r] = by_f * twist.binormal[r];
+  }
+  out.of[kThetaE] = -twist.moment;
+  out.of[kThetaF] = twist.moment;
+  return out;
+}
+
 void FrameTerms::carry_directors() {
-  for (int j = 0; j < static_cast<int>(rod_.edges()); ++j)
-    director_.col(j) = transported_director(start_->reference_director.col(j), to_vec3(start_tangent_[at(j)]),
-                                            to_vec3(tangent_[at(j)]));
+  for (std::size_t g = 0; g + 1 < director_.size(); ++g)
+    director_[g] = transported(start_director_[g], start_fours_[g], tangent_fours_[g]);
+}
+
+void FrameTerms::add_elastic_forces(std::vector<Lanes>& force) {
+  for (std::size_t g = 0; g < pairs_.size(); ++g) slopes_[g] = twist_slopes(g);
+  if (curved_) {
+    carry_directors();
+    bending_.evaluate(pairs_, director_, angle_, slopes_);
+  }
+  std::fill(torque_.begin(), torque_.end(), 0.0);
+  for (std::size_t g = 0; g < pairs_.size(); ++g) {
+    const int count = nodes_of(g);
+    subtract_slopes(slopes_[g], static_cast<int>(4 * g + 1), count, force);
+    for (int k = 0; k < count; ++k) {
+      torque_[4 * g + at(k)] += slopes_[g].of[kThetaE][k];
+      torque_[4 * g + at(k) + 1] += slopes_[g].of[kThetaF][k];
+    }
+  }
 }
 
 void FrameTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes>& force) {
   const int edges = static_cast<int>(rod_.edges());
   set_tangents(x);
   set_twist();
-  std::fill(torque_.begin(), torque_.end(), 0.0);
-  for (std::size_t i = 1; i < static_cast<std::size_t>(edges); ++i) {
-    const double half = 0.5 * moment_[i];
-    const Lanes on_e = (half * inverse_length_[i - 1]) * binormal_[i],
-                on_f = (half * inverse_length_[i]) * binormal_[i];
-    const Lanes torque = moment_[i] * kSpin;
-    force[i - 1] += on_e + torque;
-    force[i] -= on_e - on_f + torque;
-    force[i + 1] -= on_f;
-    torque_[i - 1] -= moment_[i];
-    torque_[i] += moment_[i];
-  }
-  if (curved_) {
-    carry_directors();
-    bending_.evaluate(*start_, dt_, tangent_, inverse_length_, director_, angle_);
-    bending_.add_forces(force, torque_);
-  }
+  add_elastic_forces(force);
   for (int j = 0; j < edges; ++j) {
-    const double turned = angle_[at(j)] - start_->twist[j], rate = turned / dt_;
+    const double turned = angle_[at(j)] - start_->twist[j];
     if (rolls_) set_turn(at(j), turned);
-    force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate + rest_[j] * turned;
+    force[at(j)][3] -= spin_[at(j)] * turned - kept_spin_[at(j)];
   }
 }
 
 void FrameTerms::set_turn(std::size_t j, double turned) {
   turns_.turn[j] = turned;
-  turns_.length[j] = 1.0 / inverse_length_[j];
   turns_.tangent[j] = tangent_[j];
   turns_.pull[j] = lean_[j] - (turned * inverse_length_[j]) * tangent_[j];
 }
@@ -225,7 +263,7 @@ FrameTerms::NodeStiffness FrameTerms::node_stiffness(int i) const {
   NodeStiffness out = NodeStiffness::Zero();
   auto elastic = out.topLeftCorner<kStencilSize, kStencilSize>();
   elastic = twisting(twisting_input(i), to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), twist(i)).hessian;
-  if (curved_) elastic += bending_.hessian(i);
+  if (curved_) elastic += bending_.hessian(pairs_[at(i - 1) / 4], i);
   return out;
 }
 
@@ -233,81 +271,70 @@ FrameTerms::EdgeStiffness FrameTerms::edge_stiffness(int j) const {
   EdgeStiffness out;
   const Lanes w = (0.5 * torque_[at(j)] * inverse_length_[at(j)] * inverse_length_[at(j)]) * tangent_[at(j)];
   out.sweep << 0.0, -w[2], w[1], w[2], 0.0, -w[0], -w[1], w[0], 0.0;
-  out.spin = inertia_[j] / (dt_ * dt_) + drag_[j] / dt_ + rest_[j];
+  out.spin = spin_[at(j)];
   out.lean = lean(j);
   return out;
 }
 
 /// With t = mean and s_e = u + t, the Hessian of twisting.hpp by its right factors b and s.
-FrameTerms::TwistStiffness FrameTerms::twist_stiffness(std::size_t node) const {
-  const double k = tangent_stiffness_[node], moment = moment_[node], over_chi = over_chi_[node];
-  const double over_e = inverse_length_[node - 1], over_f = inverse_length_[node];
-  const Lanes &b = binormal_[node], &u = tangent_[node - 1], &v = tangent_[node];
-  const Lanes mean = over_chi * (u + v), s_e = u + mean, s_f = v + mean;
-  const double turn_e = 0.25 * moment * over_e * over_e, turn_f = 0.25 * moment * over_f * over_f;
-  const double turn_ef = 0.5 * moment * over_e * over_f, twice = 2.0 * over_chi * turn_ef;
-  TwistStiffness out;
-  out.stiffness = k;
-  out.by_e = (0.5 * k * over_e) * b;
-  out.by_f = (0.5 * k * over_f) * b;
-  const Lanes ee_b = (0.5 * over_e) * out.by_e - turn_e * s_e, ff_b = (0.5 * over_f) * out.by_f - turn_f * s_f;
-  const Lanes on_s_e = turn_e * b, on_s_f = turn_f * b, both = (0.5 * over_f) * out.by_e, ef_mean = turn_ef * b;
-  const Lanes fe_b = both - turn_ef * mean;
-  const Cross across(twice * u);
-  for (int c = 0; c < 3; ++c) {
-    out.ee[c] = ee_b * b[c] - on_s_e * s_e[c];
-    out.ff[c] = ff_b * b[c] - on_s_f * s_f[c];
-    out.ef[c] = both * b[c] - ef_mean * mean[c] + across.column[c];
-    out.fe[c] = fe_b * b[c] - across.column[c];
+FourCurves FrameTerms::twist_curves(std::size_t group) const {
+  const FourTwists& twist = twists_[group];
+  const FourPairs& pair = pairs_[group];
+  const FourVectors &b = twist.binormal, &u = pair.u, &v = pair.v;
+  const Lanes &k = twist.stiffness, half_e = 0.5 * pair.over_e, half_f = 0.5 * pair.over_f;
+  const FourVectors mean = twist.over_chi * (u + v), by_e = (k * half_e) * b, by_f = (k * half_f) * b;
+  const Lanes turn_e = twist.moment * half_e * half_e, turn_f = twist.moment * half_f * half_f;
+  const Lanes turn_ef = 2.0 * twist.moment * half_e * half_f;
+  const FourVectors on_s_e = turn_e * (u + mean), on_s_f = turn_f * (v + mean), ef_mean = turn_ef * b;
+  const FourVectors ee_b = half_e * by_e - on_s_e, ff_b = half_f * by_f - on_s_f, both = half_f * by_e;
+  const FourVectors w = (2.0 * twist.over_chi * turn_ef) * u;
+  const Lanes none = {};
+  const Lanes across[3][3] = {{none, -w.z, w.y}, {w.z, none, -w.x}, {-w.y, w.x, none}};
+  FourCurves out;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      out.of[kOfE + i][kOfF + j] = both[i] * b[j] - ef_mean[i] * mean[j] + across[i][j];
+      if (j < i) continue;
+      out.of[kOfE + i][kOfE + j] = ee_b[i] * b[j] - b[i] * on_s_e[j];
+      out.of[kOfF + i][kOfF + j] = ff_b[i] * b[j] - b[i] * on_s_f[j];
+    }
+    out.of[kOfE + i][kThetaE] = -by_e[i];
+    out.of[kOfE + i][kThetaF] = by_e[i];
+    out.of[kThetaE][kOfF + i] = -by_f[i];
+    out.of[kOfF + i][kThetaF] = by_f[i];
   }
+  out.of[kThetaE][kThetaE] = out.of[kThetaF][kThetaF] = k;
+  out.of[kThetaE][kThetaF] = -k;
   return out;
 }
 
-void FrameTerms::add_stiffness(LinearSystem<4>& system) const {
-  StepMatrix<4>& matrix = system.matrix;
-  const std::size_t nodes = held_.size(), edges = nodes - 1;
-  // As CentrelineTerms::add_stiffness: by A_j of every edge, here with its sweep, and B_i of the two edges of a node.
-  // With g = d2E/dm2 (-m_e, m_e - m_f, m_f) of nodes i-1 to i+1, the spins before and behind node i add -g and g.
-  TwistStiffness here{}, after{};
-  Lanes edge_before[3] = {}, edge[3] = {};
-  for (std::size_t i = 0; i < nodes; ++i, here = after) {
-    const auto& stencil = matrix.stencil(static_cast<int>(i));
-    const bool last = i == edges;
-    after = i + 1 < edges ? twist_stiffness(i + 1) : TwistStiffness{};
-    const Lanes middle = here.by_e - here.by_f;
-    Block<4>& own = matrix.block(stencil[0]);
-    if (!last) {
-      const Cross sweep((0.5 * torque_[i] * inverse_length_[i] * inverse_length_[i]) * tangent_[i]);
-      for (int c = 0; c < 3; ++c) edge[c] = here.ff[c] + after.ee[c] + sweep.column[c];
-    } else {
-      std::fill_n(edge, 3, Lanes{});
-    }
-    const Lanes own_spin = last ? Lanes{} : middle + after.by_e;
-    for (int c = 0; c < 3; ++c)
-      own.column[c] += edge_before[c] + edge[c] - here.ef[c] - here.fe[c] + own_spin[c] * kSpin;
-    if (last) break;
-    const auto j = static_cast<Eigen::Index>(i);
-    const double spin = inertia_[j] / (dt_ * dt_) + drag_[j] / dt_ + rest_[j];
-    own.column[3] += own_spin + (here.stiffness + after.stiffness + spin) * kSpin;
-    const Lanes leans = spin * lean_[i], row = here.by_f - after.by_e + after.by_f;
-    Block<4>&next = matrix.block(stencil[1]), &next_back = matrix.block(stencil[3]);
-    for (int c = 0; c < 3; ++c) {
-      own.column[c] += leans[c] * kSpin;
-      next.column[c] += here.ef[c] + after.ef[c] - edge[c] + (row[c] - leans[c]) * kSpin;
-      next_back.column[c] += here.fe[c] + after.fe[c] - edge[c] - after.by_e[c] * kSpin;
-      edge_before[c] = edge[c];
-    }
-    next.column[3] -= after.by_e + after.stiffness * kSpin;
-    next_back.column[3] += row - after.stiffness * kSpin;
-    if (i + 1 == edges) continue;
-    Block<4>&second = matrix.block(stencil[2]), &second_back = matrix.block(stencil[6]);
-    for (int c = 0; c < 3; ++c) {
-      second.column[c] -= after.ef[c] + after.by_f[c] * kSpin;
-      second_back.column[c] -= after.fe[c];
-    }
-    second_back.column[3] -= after.by_f;
+/// As edge_stiffness, of the edges behind four nodes.
+FourEdges FrameTerms::edges_behind(std::size_t group) const {
+  const std::size_t j = 4 * group + 1;
+  const Lanes& over_f = pairs_[group].over_f;
+  return {(0.5 * four(torque_, j) * over_f * over_f) * pairs_[group].v, four(spin_, j), four(lean_, j)};
+}
+
+void FrameTerms::add_first_edge(StepMatrix<4>& matrix) const {
+  const EdgeStiffness edge = edge_stiffness(0);
+  for (int c = 0; c < 3; ++c) {
+    const Lanes sweep = to_lanes(Vec3(edge.sweep.col(c))), leans = (edge.spin * edge.lean[c]) * kSpin;
+    matrix.band(0, 0, 0).column[c] += sweep + leans;
+    matrix.band(0, 0, 1).column[c] -= sweep + leans;
+    matrix.band(0, 1, 0).column[c] -= sweep;
+    matrix.band(0, 1, 1).column[c] += sweep;
   }
-  if (curved_) bending_.add_stiffness(system);
+  matrix.band(0, 0, 0).column[3] += edge.spin * kSpin;
+}
+
+void FrameTerms::add_stiffness(LinearSystem<4>& system) const {
+  add_first_edge(system.matrix);
+  for (std::size_t g = 0; g < pairs_.size(); ++g) {
+    FourCurves curves = twist_curves(g);
+    if (curved_) bending_.add_stiffness(pairs_[g], g, curves);
+    add_curves(curves, edges_behind(g), static_cast<int>(4 * g + 1), nodes_of(g), system.matrix);
+  }
+  if (curved_) bending_.add_beyond(system.right);
 }
 
 double FrameTerms::angle_change(const std::vector<Lanes>& change, int j) const {
@@ -327,13 +354,16 @@ void FrameTerms::move(const std::vector<Lanes>& change, double factor) {
 
 void FrameTerms::commit(const std::vector<double>& tension, RodState& state) {
   const int edges = static_cast<int>(rod_.edges());
-  carry_directors();
+  if (!curved_) carry_directors();
   for (int j = 0; j < edges; ++j) {
     state.twist_rate[j] = (angle_[at(j)] - start_->twist[j]) / dt_;
     state.twist[j] = angle_[at(j)];
   }
   for (int i = 1; i < edges; ++i) state.reference_twist[i - 1] = reference_twist_[at(i)];
-  state.reference_director = director_;
+  for (int j = 0; j < edges; ++j) {
+    const FourVectors& directors = director_[at(j / 4)];
+    state.reference_director.col(j) << directors.x[j % 4], directors.y[j % 4], directors.z[j % 4];
+  }
   if (curved_) bending_.commit(tension, state);
 }
 
@@ -341,18 +371,21 @@ FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector
   Energy out;
   const int edges = static_cast<int>(rod_.edges());
   const auto turn = [&](int j) { return angle_[at(j)] - start_->twist[j]; };
-  const auto edge_change = [&](int j) { return to_lanes(Vec3(increment.col(j + 1) - increment.col(j))); };
   for (int i = 1; i < edges; ++i) {
-    const double moment = moment_[at(i)], by_e = 0.5 * inverse_length_[at(i - 1)], by_f = 0.5 * inverse_length_[at(i)];
+    const std::size_t g = at(i - 1) / 4;
+    const int k = (i - 1) % 4;
+    const double moment = twists_[g].moment[k];
     if (stiffness_[at(i)] > 0.0) out.twisting += 0.5 * moment * moment / stiffness_[at(i)];
-    out.along +=
-        moment * (dot(binormal_[at(i)], by_e * edge_change(i - 1) + by_f * edge_change(i)) + turn(i) - turn(i - 1));
+    const Lanes* slope = slopes_[g].of;
+    for (int r = 0; r < 3; ++r)
+      out.along += slope[kOfE + r][k] * (increment(r, i) - increment(r, i - 1)) +
+                   slope[kOfF + r][k] * (increment(r, i + 1) - increment(r, i));
+    out.along += slope[kThetaE][k] * turn(i - 1) + slope[kThetaF][k] * turn(i);
   }
   if (curved_) {
-    const FrameBending::Energy bending = bending_.energy(increment, angle_, start_->twist);
+    const FrameBending::Energy bending = bending_.energy();
     out.bending = bending.stored;
     out.plastic = bending.dissipated;
-    out.along += bending.along;
   }
   for (int j = 0; j < edges; ++j) {
     const double turned = turn(j), rate = turned / dt_, change = rate - start_->twist_rate[j];

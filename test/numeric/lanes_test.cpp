@@ -85,6 +85,7 @@ TEST(LanesInTwo, MovesLanes) {
     for (int j = 0; j < 4; ++j) rows[i][j] = 10.0 * i + j;
   const LanesInTwo before = rows[0], now = rows[1];
   expect_same(one_later(before, now), {3.0, 10.0, 11.0, 12.0});
+  expect_same(one_earlier(before, now), {1.0, 2.0, 3.0, 10.0});
   transpose(rows[0], rows[1], rows[2], rows[3]);
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) EXPECT_EQ(rows[i][j], 10.0 * j + i) << i << j;

@@ -74,6 +74,7 @@ struct FourVectors {
     transpose(a, b, c, d);
     return {a, b, c};
   }
+  const Lanes& operator[](int k) const { return k == 0 ? x : k == 1 ? y : z; }
 
   FourVectors& operator+=(const FourVectors& o) { return *this = {x + o.x, y + o.y, z + o.z}; }
   FourVectors& operator-=(const FourVectors& o) { return *this = {x - o.x, y - o.y, z - o.z}; }
@@ -88,5 +89,8 @@ inline FourVectors cross(const FourVectors& a, const FourVectors& b) {
 }
 inline Lanes dot(const FourVectors& a, const FourVectors& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.dot(b); }
+inline FourVectors one_earlier(const FourVectors& now, const FourVectors& after) {
+  return {one_earlier(now.x, after.x), one_earlier(now.y, after.y), one_earlier(now.z, after.z)};
+}
 
 }  // namespace knot_utm

@@ -28,4 +28,9 @@ inline LanesInOne one_later(const LanesInOne& before, const LanesInOne& now) {
   return __builtin_shufflevector(before, now, 3, 4, 5, 6);
 }
 
+/// The last three lanes of `now`, then the first lane of `after`.
+inline LanesInOne one_earlier(const LanesInOne& now, const LanesInOne& after) {
+  return __builtin_shufflevector(now, after, 1, 2, 3, 4);
+}
+
 }  // namespace knot_utm

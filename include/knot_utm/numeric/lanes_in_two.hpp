@@ -88,4 +88,9 @@ inline LanesInTwo one_later(const LanesInTwo& before, const LanesInTwo& now) {
           __builtin_shufflevector(now.low(), now.high(), 1, 2)};
 }
 
+/// The last three lanes of `now`, then the first lane of `after`.
+inline LanesInTwo one_earlier(const LanesInTwo& now, const LanesInTwo& after) {
+  return {__builtin_shufflevector(now.low(), now.high(), 1, 2), __builtin_shufflevector(now.high(), after.low(), 1, 2)};
+}
+
 }  // namespace knot_utm

@@ -9,6 +9,7 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
+#include "knot_utm/sim/four_nodes.hpp"
 #include "knot_utm/sim/frame_bending.hpp"
 #include "knot_utm/sim/linear_system.hpp"
 #include "knot_utm/sim/scene.hpp"
@@ -127,17 +128,22 @@ class FrameTerms {
   void commit(const std::vector<double>& tension, RodState& state);
 
  private:
-  /// The twisting stiffness of one inner node in its edge vectors e and f: columns of d2E/(de df), with fe = ef^T, and
-  /// m_e, m_f times d2E/dm2.
-  struct TwistStiffness {
-    Lanes ee[3], ef[3], fe[3], ff[3];
-    Lanes by_e, by_f;
-    double stiffness;  // d2E/dm2 [N m]
+  /// Twist of four inner nodes.
+  struct FourTwists {
+    FourVectors binormal;       // b, as twisting.hpp has it
+    Lanes over_chi, stiffness;  // 1/chi; d2E/dm2 [N m]
+    Lanes moment;               // dE/dm [N m]
   };
-  TwistStiffness twist_stiffness(std::size_t node) const;
+
   void set_tangents(const Points& position);
   void set_twist();
+  FourSlopes twist_slopes(std::size_t group) const;
+  FourCurves twist_curves(std::size_t group) const;
+  FourEdges edges_behind(std::size_t group) const;
+  void add_first_edge(StepMatrix<4>& matrix) const;
   void carry_directors();
+  void add_elastic_forces(std::vector<Lanes>& force);
+  int nodes_of(std::size_t group) const;  // how many of the four there are
   void set_turn(std::size_t edge, double turned);
 
   /// Stiffnesses of inner node i are zero where it ends a parted edge.
@@ -156,24 +162,26 @@ class FrameTerms {
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N
-  // These lists hold a value for each edge or node. Lists that are computed four at a time have room for three more
-  // behind the last entry.
-  std::vector<Lanes> start_tangent_;       // t^n
-  std::vector<Lanes> edge_, tangent_;      // e_j, t_j of the trial positions
-  std::vector<double> inverse_length_;     // 1/|e_j|
-  std::vector<Lanes> lean_;                // lean_j
-  SectionTurns turns_;                     // in this step
-  std::vector<double> stiffness_;          // k_t/lbar of every node, 0 at a parted edge [N m]
-  std::vector<Lanes> binormal_;            // b of every node, as twisting.hpp has it
-  std::vector<double> over_chi_;           // 1/chi
-  std::vector<double> twist_;              // m - mbar of every node
-  std::vector<double> moment_;             // dE/dm [N m]
-  std::vector<double> tangent_stiffness_;  // d2E/dm2 [N m]
-  Points director_;                        // d1_j; of a rod that is straight at rest once a step
-  std::vector<double> angle_;              // theta_j
-  std::vector<double> start_twist_;        // m_ref - mbar of every node as the step began
-  std::vector<double> reference_twist_;    // m_ref of every node
-  std::vector<double> torque_;             // dE/dtheta_j [N m]
+  // These lists hold a value for each edge or node. They have room for three more behind the last entry, because they
+  // are computed four at a time.
+  std::vector<Lanes> start_tangent_;     // t^n
+  std::vector<Lanes> edge_, tangent_;    // e_j, t_j of the trial positions
+  std::vector<double> inverse_length_;   // 1/|e_j|
+  std::vector<Lanes> lean_;              // lean_j
+  SectionTurns turns_;                   // in this step
+  std::vector<double> stiffness_;        // k_t/lbar of every node, 0 at a parted edge [N m]
+  std::vector<double> angle_;            // theta_j
+  std::vector<double> spin_;             // d(torque)/dtheta_j of inertia, drag and r_j in this step [N m]
+  std::vector<double> kept_spin_;        // I_j omega_j^n/dt [N m]
+  std::vector<double> start_twist_;      // m_ref - mbar of every node as the step began
+  std::vector<double> reference_twist_;  // m_ref of every node
+  std::vector<double> torque_;           // dE/dtheta_j [N m]
+  // Group g of these lists is edges 4 g to 4 g + 3, or inner nodes 4 g + 1 to 4 g + 4. Those of edges have one more.
+  std::vector<FourVectors> start_fours_, tangent_fours_;  // t^n, t
+  std::vector<FourVectors> start_director_, director_;    // d1_j; of a rod that is straight at rest once a step
+  std::vector<FourPairs> start_pairs_, pairs_;            // without lengths in start_pairs_
+  std::vector<FourTwists> twists_;
+  std::vector<FourSlopes> slopes_;  // of the elastic energy
 };
 
 }  // namespace knot_utm
