@@ -118,7 +118,7 @@ void FrameBending::respond(const Law& law, const Lanes bend[2], std::size_t grou
 void FrameBending::evaluate(const std::vector<FourPairs>& pairs, const std::vector<FourVectors>& director,
                             const std::vector<double>& angle, std::vector<FourSlopes>& slopes) {
   set_directors(pairs, director, angle);
-  fours_.resize((nodes_.size() + 2) / 4);
+  fours_.resize(pairs.size());
   const auto evaluate_four = [&](const auto& law, std::size_t g) {
     Lanes bend[2];
     set_curvatures(pairs[g], directors(g), fours_[g], bend);

@@ -66,7 +66,7 @@ FourVectors transported(const FourVectors& d1, const FourVectors& from, const Fo
   return out;
 }
 
-/// Their tangents, of edges in fours.
+/// Sets the tangents of pairs from those of the edges, which come in fours.
 void set_tangents_of(std::vector<FourPairs>& pairs, const std::vector<FourVectors>& tangent) {
   for (std::size_t g = 0; g < pairs.size(); ++g) {
     pairs[g].u = tangent[g];

@@ -46,7 +46,8 @@ struct FourEdges {
 };
 
 /// Subtracts slopes of `count` nodes, of which the first has number `first`, from forces of nodes and torques on their
-/// spins. By e = x_i - x_{i-1} and f = x_{i+1} - x_i, the node before bears -dE/de, the one behind dE/df.
+/// spins. By e = x_i - x_{i-1} and f = x_{i+1} - x_i, dE/dx is -dE/de of the node before, dE/df of the one behind, and
+/// dE/de - dE/df of the node between them.
 void subtract_slopes(const FourSlopes& slopes, int first, int count, std::vector<Lanes>& force);
 
 /// Adds second derivatives of `count` nodes to the matrix, and those of their edges f.
