@@ -152,7 +152,7 @@ def printable(text):
 
 def read_yaml(file, errors="strict"):
     try:
-        content = yaml.load(printable(read_text(file, errors)), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        content = yaml.safe_load(printable(read_text(file, errors)))
     except yaml.YAMLError as why:
         raise CannotReport(f"{file}: not YAML: {' '.join(str(why).split())}") from why
     if not isinstance(content, dict):
@@ -167,7 +167,7 @@ def reasons_in(file):
 
 def texts_of(file, key):
     """A map of a YAML file with every value as it is written: a specimen's name may be 0012, a date is what it says."""
-    found = yaml.load(printable(read_text(file)), Loader=getattr(yaml, "CBaseLoader", yaml.BaseLoader)).get(key)
+    found = yaml.load(printable(read_text(file)), Loader=yaml.BaseLoader).get(key)
     return found if isinstance(found, dict) else {}
 
 
