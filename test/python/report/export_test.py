@@ -23,7 +23,8 @@ EXPORT = os.path.join(ROOT, "scripts/export")
 def setUpModule():
     global folders, broken, twisted, series
     folders = Folders()
-    broken = folders.run("broken", ["config/tighten.yaml", "--set", "compatibility=1", "--set", "physics.accuracy=draft"],
+    broken = folders.run("broken", ["config/tighten.yaml", "--set", "compatibility=1", "--set", "physics.accuracy=draft",
+                                    "--set", "machine.after_break=follow"],
                          "--shapes")
     # A knot that is drawn and held in clamps solves for twist from the beginning.
     twisted = folders.run("twisted", ["config/overhand.yaml", "--set", "physics.accuracy=draft", "--set",

@@ -19,7 +19,7 @@ def setUpModule():
     global folders, nylon, other
     folders = Folders()
     draft = ["config/tighten.yaml", "--set", "compatibility=1", "--set", "physics.accuracy=draft"]
-    nylon = folders.run("nylon", draft, "--shapes")
+    nylon = folders.run("nylon", [*draft, "--set", "machine.after_break=follow"], "--shapes")
     other = folders.run("other", [*draft, "--set", "material=polypropylene"], "--shapes")
 
 
