@@ -79,7 +79,7 @@ MadeResults make_with_margin(const std::string& folder, const Method& method, co
       if (results.motion_pattern != MotionPattern::kSliding) return none;
       return find_margin(method, options.interrupted);
     };
-  const MadeResults made = make_results(folder, method, more);
+  MadeResults made = make_results(folder, method, more);
   for (const std::string& warning : printed_warnings(made.results, made.facts)) options.tell(warning);
   return made;
 }
