@@ -101,7 +101,7 @@ void ProgramRunner::state(Archive& archive) {
   step_ = static_cast<std::size_t>(step);
   program_[step_]->state(archive);
   archive(course_, break_detector_, reason_);
-  archive.choice("end of the test", ended_by_, EndedBy::kUntangled);
+  archive.choice("end of the test", ended_by_, EndedBy::kPlateau);
 }
 
 void ProgramRunner::end(EndedBy by, std::string reason) {

@@ -108,6 +108,7 @@ HeadlessOutcome run_to_end(const Test& test) {
   EarlyEnd early(test.method, test.options.readings);
   const auto also = [&](const Record& record) { early.add(record); };
   const WallClock clock(test.beginning ? test.beginning->replay(samples, also) : 0.0);
+  early.end(test.program);  // what comes before may have the whole plateau
   pull(test, samples, early, clock);
   HeadlessOutcome out;
   out.folder = test.folder;
