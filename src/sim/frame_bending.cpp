@@ -1,10 +1,11 @@
 #include "knot_utm/sim/frame_bending.hpp"
 
+#include <cmath>
+
 #include <algorithm>
 
 #include "knot_utm/numeric/fours.hpp"
 #include "knot_utm/numeric/index.hpp"
-#include "knot_utm/numeric/sine_cosine.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod_laws.hpp"
@@ -34,7 +35,11 @@ void FrameBending::set_directors(const std::vector<FourPairs>& pairs, const std:
   m1_.resize(director.size());
   m2_.resize(director.size());
   for (std::size_t g = 0; g < pairs.size(); ++g) {
-    const auto [sine, cosine] = sine_cosine(four(angle, 4 * g));
+    Lanes sine, cosine;
+    for (std::size_t k = 0; k < 4; ++k) {
+      sine[static_cast<int>(k)] = std::sin(angle[4 * g + k]);
+      cosine[static_cast<int>(k)] = std::cos(angle[4 * g + k]);
+    }
     const FourVectors &d1 = director[g], d2 = cross(pairs[g].u, d1);
     m1_[g] = cosine * d1 + sine * d2;
     m2_[g] = cosine * d2 - sine * d1;

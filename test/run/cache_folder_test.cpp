@@ -152,10 +152,10 @@ class CacheOfUser : public MadeFolder {
 
 TEST_F(CacheOfUser, StandsWhereTheEnvironmentSays) {
   EXPECT_EQ(folder_of_cache(), "none") << "without a home there is none";
-  set("HOME", "/home/someone");
-  EXPECT_EQ(folder_of_cache(), "/home/someone/.cache/knot_utm");
+  set("HOME", "/home/of/user");
+  EXPECT_EQ(folder_of_cache(), "/home/of/user/.cache/knot_utm");
   set("XDG_CACHE_HOME", "relative");
-  EXPECT_EQ(folder_of_cache(), "/home/someone/.cache/knot_utm");
+  EXPECT_EQ(folder_of_cache(), "/home/of/user/.cache/knot_utm");
   set("XDG_CACHE_HOME", "/caches");
   EXPECT_EQ(folder_of_cache(), "/caches/knot_utm");
   set("KNOT_UTM_CACHE_DIR", "own");
