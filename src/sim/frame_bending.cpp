@@ -1,8 +1,7 @@
 #include "knot_utm/sim/frame_bending.hpp"
 
-#include <cmath>
-
 #include <algorithm>
+#include <cmath>
 
 #include "knot_utm/numeric/fours.hpp"
 #include "knot_utm/numeric/index.hpp"
