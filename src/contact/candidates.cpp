@@ -73,8 +73,10 @@ Candidates::Candidates(const RodProperties& rod, double reach, double margin, do
       exclusion_(exclusion),
       extent_(extent),
       arclength_(rod.arclength()),
-      size_(Eigen::VectorXd::Zero(rod.nodes())) {
+      size_(Eigen::VectorXd::Zero(rod.nodes())),
+      touches_(static_cast<std::size_t>(rod.nodes()), 1) {
   const auto nodes = static_cast<std::size_t>(rod.nodes());
+  touches_.front() = touches_.back() = 0;
   levels_.emplace_back(fours(nodes));
   do {
     levels_.emplace_back(fours(levels_.back().size()));
@@ -98,7 +100,8 @@ bool Candidates::refresh(const Points& position) {
 }
 
 void Candidates::part(int edge) {
-  parted_ = edge;
+  whole_ = false;
+  touches_[at(edge)] = touches_[at(edge + 1)] = 0;
   built_at_.resize(3, 0);
 }
 
@@ -106,7 +109,7 @@ void Candidates::measure(const Points& position) {
   double before = (position.col(1) - position.col(0)).norm();
   for (Eigen::Index i = 1; i + 1 < position.cols(); ++i) {
     const double after = (position.col(i + 1) - position.col(i)).norm();
-    size_[i] = reaches_into_parted(static_cast<int>(i)) ? 0.0 : extent_ * std::max(before, after);
+    size_[i] = touches_[static_cast<std::size_t>(i)] == 0 ? 0.0 : extent_ * std::max(before, after);
     before = after;
   }
 }
@@ -162,10 +165,9 @@ Candidates::Ball Candidates::Balls::around() const {
 
 void Candidates::set_balls(const Points& position) {
   const Ball nothing{kNowhere, 0.0};
-  const int nodes = static_cast<int>(position.cols());
   for (std::size_t k = 0; k < kLanes * levels_[0].size(); ++k) {
-    const int i = static_cast<int>(k);
-    const bool touches = i > 0 && i + 1 < nodes && !reaches_into_parted(i);
+    const bool touches = k < touches_.size() && touches_[k] != 0;
+    const auto i = static_cast<Eigen::Index>(k);
     levels_[0][k / kLanes].set(k % kLanes, touches ? Ball{position.col(i), size_[i]} : nothing);
   }
   for (std::size_t level = 1; level < levels_.size(); ++level) {
@@ -196,14 +198,14 @@ void Candidates::build(const Points& position) {
   runs_.clear();
   begin_.assign(static_cast<std::size_t>(position.cols()) + 1, 0);
   measure(position);
-  if (parted_ == kWhole && is_taut(position)) return;
+  if (whole_ && is_taut(position)) return;
   set_balls(position);
 
   const int nodes = static_cast<int>(position.cols());
   int around = -1;
   for (int i = 1; i + 1 < nodes; ++i) {
     begin_[at(i)] = runs_.size();
-    if (reaches_into_parted(i)) continue;
+    if (touches_[at(i)] == 0) continue;
     // Four segments in a row look for theirs among the same.
     if (const int own = i / static_cast<int>(kLanes); own != around) find_around(around = own);
     const double limit = reach_ + margin_ + size_[i];

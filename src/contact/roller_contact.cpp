@@ -68,6 +68,10 @@ double RollerContact::distance(const Roller& roller, const Vec3& x) {
   return (away - roller.axis * roller.axis.dot(away)).norm();
 }
 
+bool RollerContact::reaches_into_cut(int segment) const {
+  return std::any_of(cuts_.begin(), cuts_.end(), [&](int cut) { return segment == cut || segment == cut + 1; });
+}
+
 double RollerContact::limit(const Roller& roller, int segment) const {
   return roller.radius + radius_ + voronoi_[segment];
 }
@@ -76,7 +80,7 @@ void RollerContact::find_near_segments(const std::vector<Roller>& rollers, const
   near_.clear();
   for (std::size_t roller = 0; roller < rollers.size(); ++roller)
     for (int segment = 1; segment + 1 < static_cast<int>(start.cols()); ++segment) {
-      if (segment == parted_ || segment == parted_ + 1) continue;
+      if (reaches_into_cut(segment)) continue;
       if (segment < rollers[roller].first_node || segment > rollers[roller].last_node) continue;
       if (distance(rollers[roller], start.col(segment)) <= limit(rollers[roller], segment) + farthest_)
         near_.push_back({roller, segment});

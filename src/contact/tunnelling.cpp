@@ -108,7 +108,7 @@ std::optional<Tunnelling> TunnellingSearch::search(std::size_t level, int i, int
 }
 
 std::optional<Tunnelling> TunnellingSearch::edges_meet(int a, int b) const {
-  if (a == parted_ || b == parted_) return std::nullopt;
+  if (std::any_of(cuts_.begin(), cuts_.end(), [&](int cut) { return a == cut || b == cut; })) return std::nullopt;
   if (closed_ && a == 0 && b + 2 == start_->cols()) return std::nullopt;  // they share the node that closes the rod
   // A free end edge is tested on its inner half only; its midpoint, too, moves straight.
   const bool bare = bare_ends_ && !closed_;

@@ -46,14 +46,16 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
   }
   const Knot& knot = knot_of(specimen);
   const bool clamped = clamps_hold(specimen, machine);
-  auto hold = [&](std::vector<FixedNode>& held, const HeldNode& at) {
-    held.push_back({at.node, centreline.points.col(at.node)});
-    if (!clamped) return;
-    held.push_back({at.next, centreline.points.col(at.next)});
-    held_frames_.push_back({at.edge(), 0.0});
+  auto hold = [&](std::vector<FixedNode>& held, const std::vector<HeldNode>& ends) {
+    for (const HeldNode& at : ends) {
+      held.push_back({at.node, centreline.points.col(at.node)});
+      if (!clamped) continue;
+      held.push_back({at.next, centreline.points.col(at.next)});
+      held_frames_.push_back({at.edge(), 0.0});
+    }
   };
   supports_ = knot.supports(specimen, material);
-  if (!on_posts()) hold(lower_nodes_, knot.held_below(centreline, clamped));
+  if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
   hold(upper_nodes_, knot.held_above(centreline, clamped));
 }
 

@@ -3,6 +3,7 @@
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/polyline.hpp"
 
 namespace knot_utm {
 
@@ -20,7 +21,17 @@ double slack_of(const SpecimenOptions& specimen, const Centreline& centreline) {
   const KnotDescription& knot = knot_of(specimen).about();
   if (!knot.may_hold_a_knot() || knot.loop || centreline.closed) return 0.0;
   const Points& x = centreline.points;
-  return centreline.length() - (x.col(x.cols() - 1) - x.col(0)).norm();
+  const std::vector<double> at = arclengths(x);
+  double slack = 0.0;
+  Eigen::Index begin = 0;
+  const auto add_rope = [&](Eigen::Index end) {
+    slack +=
+        at[static_cast<std::size_t>(end)] - at[static_cast<std::size_t>(begin)] - (x.col(end) - x.col(begin)).norm();
+    begin = end + 1;
+  };
+  for (const int cut : centreline.cuts) add_rope(cut);
+  add_rope(x.cols() - 1);
+  return slack;
 }
 
 }  // namespace knot_utm

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -14,7 +15,7 @@
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
-#include "knot_utm/machine/tied_loop.hpp"
+#include "knot_utm/machine/tying.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
@@ -37,6 +38,12 @@ constexpr double kAimedSlip = 0.4;      // of strands on each other, in a step [
 constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
+/// Strands that bear on the upper grip.
+int strands_of(const SpecimenOptions& specimen, const Centreline& centreline) {
+  if (knot_of(specimen).about().loop) return 2;
+  return std::max(1, static_cast<int>(centreline.above.size()));
+}
+
 constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
 constexpr double kLeastPassed = 1e-2;    // by which the grip may pass the balance of forces [k_b/h^2]
 constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for
@@ -56,7 +63,7 @@ struct TestingMachine::Impl {
   LoadCell cell;
   std::optional<BreakWatch> breaks;  // where the rod can part
   bool refused = false;              // by it, the step that was tried last, though it was solved
-  std::optional<TiedLoop> loop;      // where it is one
+  std::unique_ptr<Tying> tying;      // where it can be tied
   std::optional<KnotWatch> watch;    // where it is knotted
   Boundary boundary;
 
@@ -88,8 +95,7 @@ struct TestingMachine::Impl {
         machine(machine_),
         physics(physics_),
         grips(specimen_, machine_, centreline, material),
-        frame(machine_.stiffness, material, knot_of(specimen_).about().loop ? 2 : 1,
-              grips.length_around(material_.radius)),
+        frame(machine_.stiffness, material, strands_of(specimen_, centreline), grips.length_around(material_.radius)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);
@@ -98,7 +104,7 @@ struct TestingMachine::Impl {
     RodState state;
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
-    const RodProperties rod = make_rod(material, rest);
+    const RodProperties rod = make_rod(material, rest, centreline.cuts);
     const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
     if (takes_set || bends_on_frames(material)) remember_bends(rod, &state);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
@@ -116,9 +122,9 @@ struct TestingMachine::Impl {
     options.shortest = std::min(options.shortest, kShortestStep * bending_time);
     control = StepControl(options);
     const KnotDescription& knot = knot_of(specimen).about();
-    if (knot.loop) loop.emplace(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
-    if (knot.may_hold_a_knot()) {
-      watch.emplace(loop ? loop->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
+    tying = make_tying(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
+    if (is_followed(knot, centreline)) {
+      watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points, centreline.windings());
     }
     if (can_part(material)) watch_for_break(kNearBreak * options.longest);
@@ -132,9 +138,16 @@ struct TestingMachine::Impl {
     has_weight = !specimen.to_be_tied;
   }
 
+  /// Whether the type of its knot is followed: that of a rod whose ends are held, or which is a loop. How free ends lie
+  /// would decide how others are closed.
+  static bool is_followed(const KnotDescription& knot, const Centreline& centreline) {
+    const bool held = centreline.above.empty() || centreline.above.size() + centreline.below.size() == 2;
+    return knot.may_hold_a_knot() && centreline.cuts.empty() && held;
+  }
+
   /// A loop gets its weight as the rollers take it: all at once, it would swing, and its knots could jump open.
   void apply_gravity(double at_time) {
-    const double part = !has_weight ? 0.0 : loop ? loop->weight_borne(at_time) : 1.0;
+    const double part = !has_weight ? 0.0 : tying ? tying->weight_borne(at_time) : 1.0;
     stepper->set_gravity(part * gravity);
   }
 
@@ -159,25 +172,25 @@ struct TestingMachine::Impl {
     const double whole = command.time - start_time;
     // A recoil may go on behind the command; the crosshead does not.
     const double fraction = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
-    const double travel = mounts() ? displacement + loop->mounting_velocity(command.speed) * (to - from)
+    const double travel = mounts() ? displacement + tying->mounting_velocity(command.speed) * (to - from)
                                    : start_displacement + fraction * (command.displacement - start_displacement);
     travel_tried = travel;
     refused = false;
     // This depends on the last accepted state only, so that a step that is tried again begins from the same.
     if (!frame.rigid()) borne_before = grips.force_upper(*stepper);
     grip_tried = frame.grip_after(grip, travel, borne_before, held_length(from, to), to - from);
-    grips.set(grip_tried, loop ? loop->left_to_put_on(to) : 0.0, boundary);
+    grips.set(grip_tried, tying ? tying->left_to_put_on(to) : 0.0, boundary);
     grips.turn_rollers(to, boundary.rollers);
     apply_gravity(to);
     boundary.grips.clear();
     boundary.extra_drag = drag_of_settling(to);
-    if (loop) loop->hold(boundary, from, to);
+    if (tying) tying->hold(boundary, from, to);
     return boundary;
   }
 
   /// The length of the strands that bear on the upper grip, as mounted [m].
   double held_length(double from, double to) const {
-    return loop ? loop->held_length(from, to) : grips.end_to_end(0.0);
+    return tying ? tying->held_length(from, to) : grips.end_to_end(0.0);
   }
 
   /// A drawn shape's stored energy is an artefact of the drawing, and would throw it about. A straight rod has none;
@@ -204,13 +217,13 @@ struct TestingMachine::Impl {
     if (pulled) grips.turn_rollers_from(time);
     status = BenchStatus::kRunning;
     has_weight |= !forms(phase) && !rests(phase);
-    if (loop) loop->enter(command, place());
+    if (tying) tying->enter(command, place());
   }
 
   /// The crosshead takes up the slack by itself.
-  bool mounts() const { return loop && phase == Phase::kMount; }
+  bool mounts() const { return tying && phase == Phase::kMount; }
 
-  TiedLoop::Place place() const { return {time, displacement, grip}; }
+  Tying::Place place() const { return {time, displacement, grip}; }
 
   bool parted() const { return stepper->parted_edge() >= 0; }
   /// A step that could not be made leaves contacts that no accepted step has, of a recoil too.
@@ -271,22 +284,22 @@ struct TestingMachine::Impl {
     return rod.rest_length.head(edge).sum() + 0.5 * rod.rest_length[edge];
   }
 
-  /// Whether the loop cannot be tied or mounted.
-  bool give_up_loop() {
-    if (!loop || loop->gave_up().empty()) return false;
+  /// Whether the specimen cannot be tied or mounted.
+  bool give_up_tying() {
+    if (!tying || tying->gave_up().empty()) return false;
     status = BenchStatus::kFailed;
-    message = loop->gave_up();
+    message = tying->gave_up();
     return true;
   }
 
   void judge_phase() {
     if (parted()) return;
-    if (give_up_loop()) return;
-    if (!ends_by_itself(phase) || (loop && !loop->done(phase))) return;
+    if (give_up_tying()) return;
+    if (!ends_by_itself(phase) || (tying && !tying->done(phase))) return;
     status = BenchStatus::kPhaseDone;
-    if (phase == Phase::kMount || !loop || loop->not_equilibrated().empty()) return;
+    if (phase == Phase::kMount || !tying || tying->not_equilibrated().empty()) return;
     status = BenchStatus::kNotEquilibrated;
-    message = loop->not_equilibrated();
+    message = tying->not_equilibrated();
   }
 
   Sample read(const Command& command, double at_time) const {
@@ -303,7 +316,7 @@ struct TestingMachine::Impl {
     s.load = s.highest_load = s.lowest_load = cell.balanced(s.force_upper);
     s.balance_offset = cell.offset();
     s.tail_force = s.excess_length = PerKnot::unknown(static_cast<std::size_t>(knot_of(specimen).about().knots));
-    if (loop) loop->read(s);
+    if (tying) tying->read(s);
     const ContactReading contact = stepper->readings().contact();
     s.max_penetration = contact.largest_overlap / material.radius;
     s.normal_force = contact.normal_force;
@@ -348,9 +361,9 @@ struct TestingMachine::Impl {
                     break_place_name(break_place));
     archive(control, cell, *stepper, grips);
     if (!frame.rigid()) archive(frame);
-    archive.same("loop", loop ? 1 : 0);
+    archive.same("tying", tying ? 1 : 0);
     archive.same("knot", watch ? 1 : 0);
-    if (loop) archive(*loop);
+    if (tying) archive(*tying);
     if (watch) archive(*watch);
     if (archive.loads()) substeps.clear();
   }
@@ -377,7 +390,7 @@ struct TestingMachine::Impl {
           grip = frame.rigid() ? displacement : grip_tried;
           if (!frame.rigid()) frame.follow(moved, grips.force_upper(*stepper) - borne_before, held_length(to - dt, to));
           work += stepper->readings().work();
-          if (loop) loop->follow(phase, {to, displacement, grip}, dt);
+          if (tying) tying->follow(phase, {to, displacement, grip}, dt);
           judge_break(dt);
           substeps.push_back(read(command, to));
         });
@@ -390,7 +403,7 @@ struct TestingMachine::Impl {
       return substeps.back();
     }
     if (command.step != step_index) enter_step(command);
-    if (give_up_loop()) {
+    if (give_up_tying()) {
       substeps.push_back(read(command, time));
       return substeps.back();
     }
@@ -414,7 +427,7 @@ struct TestingMachine::Impl {
     } else {
       if (!mounts()) displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
-      if (loop) loop->leave(phase, place());
+      if (tying) tying->leave(phase, place());
       judge_phase();
     }
     if (watch && !parted()) watch->follow(stepper->state().position);

@@ -21,7 +21,7 @@ constexpr const char* kNoRoom =
 TyingRig::Options tying_options(const SpecimenOptions& specimen, const Material& material, double creep_speed) {
   TyingRig::Options out;
   out.preload = tying_load(specimen, material);
-  out.rest_speed = std::max(specimen_scales(material).rest_speed, creep_speed);
+  out.rest.speed = std::max(specimen_scales(material).rest_speed, creep_speed);
   out.grip_stiffness = out.preload / (kGripStretch * material.radius);
   return out;
 }

@@ -21,14 +21,6 @@ namespace {
 constexpr std::array kSinceFirstRelease{"bending_law",        "friction_moment",    "stick_ratio",    "compaction",
                                         "rolling_resistance", "rolling_hysteresis", "friction_couple"};
 
-bool is_shipped(const std::string& kind, const fs::path& file) {
-  const std::vector<std::string> shipped = shipped_folders();
-  return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& folder) {
-    std::error_code error;
-    return fs::equivalent(file.parent_path(), fs::path(folder) / kind, error);
-  });
-}
-
 }  // namespace
 
 ConfigLibrary::ConfigLibrary(const fs::path& method_folder) {
@@ -54,7 +46,8 @@ std::string ConfigLibrary::allowed(const std::string& kind) const {
   return "a name (" + listed(names(kind), ", ") + ") or a map";
 }
 
-fs::path ConfigLibrary::find(const std::string& kind, const std::string& name, const std::string& key) const {
+fs::path ConfigLibrary::find(const std::string& kind, const std::string& name, const std::string& key,
+                             const std::vector<std::string>& others) const {
   std::error_code error;
   for (const fs::path& folder : folders_) {
     for (const fs::path& candidate : {folder / kind / (name + ".yaml"), folder / name}) {
@@ -63,12 +56,23 @@ fs::path ConfigLibrary::find(const std::string& kind, const std::string& name, c
   }
   const fs::path file(name);
   if (file.has_parent_path() || file.extension() == ".yaml") throw InvalidInput::cannot_read(name, key);
-  throw InvalidInput::unknown_name(key, name, allowed(kind), names(kind));
+  if (others.empty()) throw InvalidInput::unknown_name(key, name, allowed(kind), names(kind));
+  std::vector<std::string> all = others;
+  for (const std::string& file_name : names(kind)) all.push_back(file_name);
+  throw InvalidInput::unknown_name(key, name, listed(all) + ", or the file of a knot", all);
 }
 
 void ConfigLibrary::add(const fs::path& folder) {
   std::error_code error;
   if (fs::is_directory(folder, error)) folders_.push_back(folder.lexically_normal());
+}
+
+bool is_shipped(const std::string& kind, const fs::path& file) {
+  const std::vector<std::string> shipped = shipped_folders();
+  return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& folder) {
+    std::error_code error;
+    return fs::equivalent(file.parent_path(), fs::path(folder) / kind, error);
+  });
 }
 
 YAML::Node read_material_file(const fs::path& file, const YAML::Node& method) {

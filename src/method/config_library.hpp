@@ -9,8 +9,8 @@
 
 namespace knot_utm {
 
-/// The folders in which files of materials and load cells are looked for, in order. A kind is the name of a subfolder,
-/// "materials" or "load_cells".
+/// The folders in which files of materials, load cells and knots are looked for, in order. A kind is the name of a
+/// subfolder, "materials", "load_cells" or "knots".
 class ConfigLibrary {
  public:
   explicit ConfigLibrary(const std::filesystem::path& method_folder);
@@ -21,14 +21,19 @@ class ConfigLibrary {
   /// What is allowed, for a message: "a name (20N, 50kN) or a map".
   std::string allowed(const std::string& kind) const;
 
-  /// The file with this name. `key`: the key that named it, for the message. Throws InvalidInput where there is none.
-  std::filesystem::path find(const std::string& kind, const std::string& name, const std::string& key) const;
+  /// The file with this name. `key`: the key that named it, and `others`: what else it may name, for the message.
+  /// Throws InvalidInput where there is none.
+  std::filesystem::path find(const std::string& kind, const std::string& name, const std::string& key,
+                             const std::vector<std::string>& others = {}) const;
 
  private:
   void add(const std::filesystem::path& folder);
 
   std::vector<std::filesystem::path> folders_;
 };
+
+/// Whether a file of this kind comes with the package.
+bool is_shipped(const std::string& kind, const std::filesystem::path& file);
 
 /// What the file of a method's material says. With `compatibility: 1` in the method a material that comes with the
 /// package is the one of release 1, without the keys that it has had since. An own material is what it is.

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "config_library.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -163,6 +165,17 @@ void set_creep(FrictionLaw law, double speed, FrictionOptions& friction) {
       friction.set(key.name, speed);
 }
 
+/// The drawing of a knot that a file describes; of another knot none.
+std::shared_ptr<const KnotDrawing> read_drawing(const YAML::Node& knot, const ConfigLibrary& library) {
+  if (!knot.IsDefined() || !knot.IsScalar()) return nullptr;
+  const std::string& given = knot.Scalar();
+  const std::vector<std::string> coded = knot_names(nullptr);
+  if (std::find(coded.begin(), coded.end(), given) != coded.end()) return nullptr;
+  const fs::path file = library.find("knots", given, "specimen.knot", coded);
+  return read_knot_file(
+      file, is_shipped("knots", file) ? file.stem().string() : fs::absolute(file).lexically_normal().string());
+}
+
 /// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of
 /// the rest. Notes the keys whose values are `automatic`.
 Method read_method(const YAML::Node& root, const std::string& file, const ConfigLibrary& library, const Method* known,
@@ -173,8 +186,9 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   fields::compatibility(top, method.compatibility);
   method.material = read_material(top.take("material"), root, file, library);
   Reader specimen = top.in("specimen");
-  fields::knot(specimen, method.specimen.knot);
-  const fields::Defaults defaults = fields::defaults(method.specimen.knot, method.material, known);
+  method.specimen.drawing = read_drawing(specimen.take("knot"), library);
+  fields::knot(specimen, method.specimen);
+  const fields::Defaults defaults = fields::defaults(method.specimen, method.material, known);
   method.specimen = defaults.specimen;
   fields::specimen(specimen, method.specimen);
   specimen.finish();

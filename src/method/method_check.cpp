@@ -203,7 +203,8 @@ void check_pull(const Method& m, const PullStep& step, const std::string& key) {
 }
 
 void check_program(const Method& m) {
-  StepPlace place{m.program, 0, knot_of(m.specimen).about().loop ? "" : loops()};
+  const KnotDescription& knot = knot_of(m.specimen).about();
+  StepPlace place{m.program, 0, knot.loop ? "" : loops(), knot.can_be_tied() ? "" : knots_that_can_be_tied()};
   for (; place.index < m.program.size(); ++place.index) {
     const ProgramStep& step = m.program[place.index];
     step->check(place);

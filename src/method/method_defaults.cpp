@@ -8,6 +8,7 @@
 #include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm::fields {
@@ -63,14 +64,17 @@ double capacity(const Material& material, const Method* known) {
 
 }  // namespace
 
-Defaults defaults(KnotKind kind, const Material& material, const Method* known) {
+Defaults defaults(const SpecimenOptions& specimen, const Material& material, const Method* known) {
   const double h = material.radius, r = h / kPaperRadius;
   Defaults out;
   out.scale = r;
-  const Knot& knot = knot_of(kind);
+  const Knot& knot = knot_of(specimen);
   out.specimen = knot.defaults(h);
-  out.specimen.knot = kind;
+  out.specimen.knot = specimen.knot;
+  out.specimen.drawing = specimen.drawing;
   out.machine.roller_diameter = knot.roller_diameter(h).value_or(out.machine.roller_diameter);
+  if (specimen.drawing && !specimen.drawing->posts.empty())
+    out.machine.roller_friction = material.friction_coefficient;
   if (known) knot.suit(known->specimen, known->machine.roller_diameter, h, out.specimen);
   out.way = knot.pull(known ? known->specimen : out.specimen, h);
   const double asked = known ? largest(known->program, "m") : out.way;

@@ -18,6 +18,6 @@ struct Defaults {
 
 /// The defaults for a knot of this material. `known`: the method as it was read with the defaults of knot and material
 /// alone; null while it has not been read.
-Defaults defaults(KnotKind kind, const Material& material, const Method* known);
+Defaults defaults(const SpecimenOptions& specimen, const Material& material, const Method* known);
 
 }  // namespace knot_utm::fields

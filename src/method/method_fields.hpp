@@ -39,10 +39,11 @@ inline void compatibility(Fields& top, std::optional<double>& release) {
   top.optional_number("compatibility", release, Range{1.0, 1.0, "-"}, "none");
 }
 
-inline void knot(Fields& f, KnotKind& knot) { f.choice("knot", knot, knot_names()); }
+/// One that a file describes goes by the name of its drawing, which has been read.
+inline void knot(Fields& f, SpecimenOptions& o) { f.choice("knot", o.knot, knot_names(o.drawing.get())); }
 
 inline void specimen(Fields& f, SpecimenOptions& o) {
-  knot(f, o.knot);
+  knot(f, o);
   f.choice("handedness", o.handedness, std::array{"same", "opposite"});
   f.integer("turns", o.turns, 1, 4);
   f.file("file", o.file);

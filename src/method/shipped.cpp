@@ -8,9 +8,11 @@
 #include <set>
 #include <system_error>
 
+#include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 
 namespace knot_utm {
 namespace {
@@ -61,13 +63,21 @@ std::map<std::string, std::string> shipped_in(const std::string& subfolder, cons
   return found;
 }
 
-std::map<std::string, std::string> titles_of_knots() {
+/// Knots that the program draws itself, and those that have a file.
+std::map<std::string, std::string> titles_of_knots(const std::vector<std::string>& shipped) {
   std::map<std::string, std::string> found;
-  for (const Knot* knot : knots()) found.emplace(knot->about().name, knot->about().title);
+  const std::vector<std::string> coded = knot_names(nullptr);
+  for (std::size_t i = 0; i < coded.size(); ++i) found.emplace(coded[i], knots()[i]->about().title);
+  for (const std::string& folder : shipped) {
+    std::error_code error;
+    for (fs::directory_iterator file(folder + "/knots", error), end; !error && file != end; file.increment(error))
+      if (file->path().extension() == ".yaml")
+        found.emplace(file->path().stem().string(), read_knot_file(file->path(), "")->title);
+  }
   return found;
 }
 
-/// What can be listed, and where it lies in the shipped folders; of knots the program knows itself.
+/// What can be listed, and where it lies in the shipped folders; some knots are no files.
 struct Listed {
   const char* kind;
   const char* subfolder;
@@ -80,7 +90,7 @@ constexpr Listed kListed[] = {{"methods", ""},
 
 std::string listing_of(const Listed& what, const std::vector<std::string>& shipped) {
   const std::map<std::string, std::string> found =
-      what.subfolder == nullptr ? titles_of_knots() : shipped_in(what.subfolder, shipped);
+      what.subfolder == nullptr ? titles_of_knots(shipped) : shipped_in(what.subfolder, shipped);
   std::size_t width = 0;
   for (const auto& [name, about] : found) width = std::max(width, name.size());
   std::string out;

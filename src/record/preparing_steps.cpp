@@ -14,7 +14,7 @@ void TieStep::keys(fields::Fields& f, double) { f.scaled_number("speed", speed, 
 
 void TieStep::check(const StepPlace& place) const {
   if (place.index != 0) place.misplaced("can only be the first step");
-  place.needs_loop();
+  place.needs(place.tied);
 }
 
 void ReleaseStep::keys(fields::Fields& f, double) { f.number("duration", duration, {1e-3, 1e4, "s"}); }
@@ -26,7 +26,7 @@ void ReleaseStep::check(const StepPlace& place) const {
 void MountStep::keys(fields::Fields& f, double) { f.scaled_number("speed", speed, kSpeeds); }
 
 void MountStep::check(const StepPlace& place) const {
-  place.needs_loop();
+  place.needs(place.loops);
   for (std::size_t i = 0; i < place.index; ++i)
     if (moves(place.program[i]->phase()))
       place.misplaced("can only stand before the first step that moves the crosshead");

@@ -44,8 +44,8 @@ void StepPlace::misplaced(const std::string& why) const {
   throw InvalidInput::sentence(entry, name, entry + ": " + name + " " + why);
 }
 
-void StepPlace::needs_loop() const {
-  if (!loops.empty()) misplaced("needs specimen.knot: " + loops + "; begin the program with another step");
+void StepPlace::needs(const std::string& knots) const {
+  if (!knots.empty()) misplaced("needs specimen.knot: " + knots + "; begin the program with another step");
 }
 
 }  // namespace knot_utm

@@ -10,15 +10,19 @@ namespace {
 
 bool has_frame(const RodState& state) { return state.twist.size() > 0; }
 
+bool ends_at_cut(const RodProperties& rod, Eigen::Index node) { return rod.is_cut(node - 1) || rod.is_cut(node); }
+
 double stretching_energy(const RodProperties& rod, const Points& x) {
   double sum = 0.0;
-  for (Eigen::Index j = 0; j < rod.edges(); ++j) sum += respond(rod, stretched_edge(rod, x, j)).energy;
+  for (Eigen::Index j = 0; j < rod.edges(); ++j)
+    if (!rod.is_cut(j)) sum += respond(rod, stretched_edge(rod, x, j)).energy;
   return sum;
 }
 
 double isotropic_bending_energy(const RodProperties& rod, const Points& x) {
   double sum = 0.0;
   for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i) {
+    if (ends_at_cut(rod, i)) continue;
     sum += isotropic_bending_gradient(rod.material.bending_stiffness, rod.voronoi_length[i], x.col(i) - x.col(i - 1),
                                       x.col(i + 1) - x.col(i))
                .energy;
@@ -59,10 +63,12 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
                                     0.0, remembered})
                           .energy;
   };
-  for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i)
+  for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i) {
+    if (ends_at_cut(rod, i)) continue;
     std::visit(
         [&](const auto& law) { add_node(inner_node(rod, state, i), state.bending_own.data() + own * (i - 1), law); },
         rod.laws->bending);
+  }
   return energy;
 }
 

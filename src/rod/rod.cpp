@@ -1,5 +1,6 @@
 #include "knot_utm/rod/rod.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -17,17 +18,22 @@ void require_size(const char* key, Eigen::Index size, Eigen::Index expected) {
         std::string(key) + " has " + std::to_string(size) + " values, but must have " + std::to_string(expected));
 }
 
+constexpr double kLengthOfCut = 10.0;  // more than least_loop [h]
+
 }  // namespace
 
-RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length) {
+RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length, const std::vector<int>& cuts) {
   RodProperties rod;
   rod.material = material;
   rod.laws = std::make_shared<const RodLaws>(RodLaws::of(material));
+  rod.cuts = cuts;
   rod.rest_length = rest_length;
+  for (const int cut : cuts) rod.rest_length[cut] = 0.0;
   const Eigen::Index edges = rest_length.size();
   rod.voronoi_length = Eigen::VectorXd::Zero(edges + 1);
-  rod.voronoi_length.head(edges) += 0.5 * rest_length;
-  rod.voronoi_length.tail(edges) += 0.5 * rest_length;
+  rod.voronoi_length.head(edges) += 0.5 * rod.rest_length;
+  rod.voronoi_length.tail(edges) += 0.5 * rod.rest_length;
+  for (const int cut : cuts) rod.rest_length[cut] = kLengthOfCut * material.radius;
   rod.mass = material.density * M_PI * material.radius * material.radius * rod.voronoi_length;
   return rod;
 }
@@ -35,6 +41,14 @@ RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_
 bool are_places(const Points& points) {
   constexpr double kFarthest = 1e6;  // [m]
   return (points.array().abs() <= kFarthest).all();
+}
+
+bool RodProperties::is_cut(Eigen::Index edge) const { return std::find(cuts.begin(), cuts.end(), edge) != cuts.end(); }
+
+double RodProperties::length() const {
+  double length = rest_length.sum();
+  for (const int cut : cuts) length -= rest_length[cut];
+  return length;
 }
 
 Eigen::VectorXd RodProperties::arclength() const {
@@ -49,12 +63,15 @@ void RodMaterial::state(Archive& archive) {
 }
 
 void RodProperties::state(Archive& archive) {
-  archive.section("PRO4");  // "PRO3" had a twisting law, "PRO2" all of the material
+  archive.section("PRO5");  // "PRO4" had no cuts, "PRO3" a twisting law, "PRO2" all of the material
   archive(material);
   for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass, &natural_twist}) archive.list(*each);
+  archive.list(cuts);
   const Eigen::Index inner = nodes() - 2, twisted = natural_twist.size();
   const bool fits = inner >= 1 && edges() == inner + 1 && mass.size() == nodes() && (twisted == 0 || twisted == inner);
   archive.require(fits, "nodes", std::to_string(nodes()));
+  archive.require(std::all_of(cuts.begin(), cuts.end(), [&](int cut) { return cut >= 0 && cut < edges(); }), "cuts",
+                  "edges of no rod");
   const auto positive = [](const Eigen::VectorXd& values) { return values.allFinite() && values.minCoeff() > 0.0; };
   const bool solid = positive(rest_length) && positive(voronoi_length) && positive(mass) && std::isfinite(length()) &&
                      material.radius > 0.0 && std::isfinite(material.radius);

@@ -17,15 +17,17 @@ FrameBending::FrameBending(const RodProperties& rod) : rod_(rod), own_(own_numbe
 void FrameBending::begin(const RodState& start, double dt) {
   nodes_.resize(at(static_cast<int>(rod_.edges())));
   for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) {
-    const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
     BendingNode& node = nodes_[at(i)];
-    node.k_b = whole * rod_.material.bending_stiffness;
+    node.k_b = rod_.material.bending_stiffness;
     node.voronoi_length = rod_.voronoi_length[i];
     node.natural = start.natural_curvature.col(i - 1);
     node.dt = dt;
     node.own = start.bending_own.data() + own_ * (i - 1);
     node.bend = node.natural;  // no trial before the first one
   }
+  for (const int cut : cuts_)
+    for (const int i : {cut, cut + 1})
+      if (i > 0 && i < static_cast<int>(nodes_.size())) nodes_[at(i)].k_b = 0.0;
 }
 
 /// m1 and m2 of every edge, as material_directors gives them.

@@ -113,7 +113,6 @@ FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
 }
 
 void FrameTerms::part(int edge) {
-  parted_ = edge;
   bending_.part(edge);
   stiffness_[at(edge)] = stiffness_[at(edge + 1)] = 0.0;
 }
@@ -252,7 +251,7 @@ void FrameTerms::set_turn(std::size_t j, double turned) {
 }
 
 TwistingInput FrameTerms::twisting_input(int i) const {
-  const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
+  const double whole = stiffness_[at(i)] > 0.0 ? 1.0 : 0.0;
   return {whole * rod_.material.twisting_stiffness, rod_.voronoi_length[i],
           rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0};
 }

@@ -65,7 +65,7 @@ struct Equation {
       }
   }
 
-  /// From the next step on, the rod is parted at this edge.
+  /// From the next step on, the rod is cut at this edge, too.
   void part(int edge) {
     centreline.part(edge);
     frames.part(edge);

@@ -25,7 +25,9 @@ class ImplicitStep final : public TimeStep {
         tunnelling_(rod.nodes(), std::is_same_v<StrandContact, SmoothContact>),
         readings_(rod_, state_, equation_.frames.kinetic_energy(state_.twist_rate), equation_.strands.points(),
                   equation_.rollers.contacts()),
-        increment_(3, rod.nodes()) {}
+        increment_(3, rod.nodes()) {
+    for (const int edge : rod_.cuts) cut(edge);
+  }
 
   StepSummary step(const Boundary& boundary, double dt, SolveStrategy strategy) override {
     const StepStart start{state_, boundary, dt};
@@ -50,8 +52,7 @@ class ImplicitStep final : public TimeStep {
 
   void part(int edge) override {
     parted_edge_ = edge;
-    equation_.part(edge);
-    tunnelling_.part(edge);
+    cut(edge);
   }
 
   const StepReadings& readings() const override { return readings_; }
@@ -66,6 +67,11 @@ class ImplicitStep final : public TimeStep {
   }
 
  private:
+  void cut(int edge) {
+    equation_.part(edge);
+    tunnelling_.part(edge);
+  }
+
   NewtonSummary solve(const StepStart& start, SolveStrategy strategy, WorstResidual& worst) {
     const auto watch = [&](const Increment<D, StrandContact>& increment) {
       if (watcher_) watcher_(iterate_of(equation_, increment));

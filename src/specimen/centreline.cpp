@@ -40,14 +40,16 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
   // knot that a run left press on each other a little.
   constexpr double kMayOverlap = 0.07;  // by choice: overlap of a shape that may begin [h]
   const double exclusion = 1.5 * M_PI * radius;
-  const NearestPlaces nearest = nearest_places(points, exclusion, centreline.closed);
+  const NearestPlaces nearest = nearest_places(points, exclusion, centreline.closed, centreline.cuts);
   if (nearest.distance < 2.0 * radius &&
-      (centreline.closed ||
+      (centreline.closed || !centreline.cuts.empty() ||
        nearest_places(sampled_centreline(points), exclusion).distance < (2.0 - kMayOverlap) * radius))
     refuse("strands overlap at " + text(nearest.first) + " m and " + text(nearest.second) +
            " m along the rod, where they are " + text(nearest.distance) +
            " m apart, but must be at least a diameter apart, " + text(2.0 * radius) + " m");
-  if (const std::optional<Tunnelling> passage = TunnellingSearch(points.cols()).find(points, points)) {
+  TunnellingSearch search(points.cols());
+  for (const int cut : centreline.cuts) search.part(cut);
+  if (const std::optional<Tunnelling> passage = search.find(points, points)) {
     const std::vector<double> at = arclengths(points);
     auto place = [&](int edge, double fraction) {
       const auto i = static_cast<std::size_t>(edge);

@@ -396,14 +396,14 @@ class FishermanKnot : public Knot {
   }
 
   /// The bottom and the top of the loop.
-  HeldNode held_below(const Centreline& centreline, bool) const override {
+  std::vector<HeldNode> held_below(const Centreline& centreline, bool) const override {
     const int node = centreline.nearest_node(centreline.lower_apex);
-    return {node, node + 1};
+    return {HeldNode{node, node + 1}};
   }
 
-  HeldNode held_above(const Centreline& centreline, bool) const override {
+  std::vector<HeldNode> held_above(const Centreline& centreline, bool) const override {
     const int node = centreline.nearest_node(centreline.upper_apex);
-    return {node, node + 1};
+    return {HeldNode{node, node + 1}};
   }
 
  protected:

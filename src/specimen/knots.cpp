@@ -3,6 +3,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
@@ -14,18 +15,22 @@ const Knot& overhand_knot();
 const Knot& straight_rod();
 const Knot& drawn_rod();
 const Knot& capstan();
+const Knot& drawn_knot();
 
 const std::vector<const Knot*>& knots() {
   static const std::vector<const Knot*> all = {
-      &fisherman_knot(), &multiple_fisherman_knot(), &overhand_knot(), &straight_rod(), &drawn_rod(), &capstan()};
+      &fisherman_knot(), &multiple_fisherman_knot(), &overhand_knot(), &straight_rod(), &drawn_rod(), &capstan(),
+      &drawn_knot()};
   return all;
 }
 
 const Knot& knot_of(KnotKind kind) { return *knots().at(static_cast<std::size_t>(kind)); }
 
-std::vector<const char*> knot_names() {
-  std::vector<const char*> out;
-  for (const Knot* knot : knots()) out.push_back(knot->about().name);
+std::vector<std::string> knot_names(const KnotDrawing* drawing) {
+  std::vector<std::string> out;
+  for (const Knot* knot : knots())
+    if (knot != &drawn_knot()) out.emplace_back(knot->about().name);
+  if (drawing != nullptr) out.push_back(drawing->name);
   return out;
 }
 
@@ -57,6 +62,10 @@ std::string loops() {
   return listed_knots([](const Knot& knot) { return knot.about().loop; });
 }
 
+std::string knots_that_can_be_tied() {
+  return listed_knots([](const Knot& knot) { return knot.about().can_be_tied(); });
+}
+
 void check_ends(const SpecimenOptions& specimen) {
   if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false, since the grips hold the rod's two ends");
 }
@@ -76,11 +85,15 @@ std::optional<double> Knot::roller_diameter(double) const { return std::nullopt;
 
 Supports Knot::supports(const SpecimenOptions&, const Material&) const { return {}; }
 
-HeldNode Knot::held_below(const Centreline&, bool) const { return {0, 1}; }
+std::vector<HeldNode> Knot::held_below(const Centreline& centreline, bool) const {
+  if (!centreline.above.empty()) return centreline.below;
+  return {HeldNode{0, 1}};
+}
 
-HeldNode Knot::held_above(const Centreline& centreline, bool) const {
+std::vector<HeldNode> Knot::held_above(const Centreline& centreline, bool) const {
+  if (!centreline.above.empty()) return centreline.above;
   const int last = static_cast<int>(centreline.points.cols()) - 1;
-  return {last, last - 1};
+  return {HeldNode{last, last - 1}};
 }
 
 }  // namespace knot_utm

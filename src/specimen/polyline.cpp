@@ -121,18 +121,22 @@ Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vec
   return nodes;
 }
 
-NearestPlaces nearest_places(const Points& points, double exclusion, bool closed) {
+NearestPlaces nearest_places(const Points& points, double exclusion, bool closed, const std::vector<int>& cuts) {
   const Eigen::Index edges = points.cols() - 1;
   const Points edge = points.rightCols(edges) - points.leftCols(edges);
   const Points middle = 0.5 * (points.rightCols(edges) + points.leftCols(edges));
   const Eigen::VectorXd length = edge.colwise().norm();
+  std::vector<char> cut(static_cast<std::size_t>(edges), 0);
+  for (const int at : cuts) cut[static_cast<std::size_t>(at)] = 1;
   Eigen::VectorXd begin(edges + 1);
   begin[0] = 0.0;
   for (Eigen::Index i = 0; i < edges; ++i) begin[i + 1] = begin[i] + length[i];
   const double total = begin[edges];
   NearestPlaces best{std::numeric_limits<double>::infinity(), 0.0, 0.0};
   for (Eigen::Index i = 0; i < edges; ++i) {
+    if (cut[static_cast<std::size_t>(i)] != 0) continue;
     for (Eigen::Index j = i + 1; j < edges; ++j) {
+      if (cut[static_cast<std::size_t>(j)] != 0) continue;
       if (begin[j] - begin[i + 1] < exclusion) continue;
       if (closed && total - begin[j + 1] + begin[i] < exclusion) continue;
       const double reach = best.distance + 0.5 * (length[i] + length[j]);

@@ -53,16 +53,17 @@ class StraightRod final : public Knot {
     out.points.row(2).array() -= edge;
     return out;
   }
-  HeldNode held_below(const Centreline& centreline, bool clamped) const override {
+  std::vector<HeldNode> held_below(const Centreline& centreline, bool clamped) const override {
     return inwards(Knot::held_below(centreline, clamped), clamped);
   }
-  HeldNode held_above(const Centreline& centreline, bool clamped) const override {
+  std::vector<HeldNode> held_above(const Centreline& centreline, bool clamped) const override {
     return inwards(Knot::held_above(centreline, clamped), clamped);
   }
 
  private:
-  static HeldNode inwards(HeldNode held, bool clamped) {
-    if (clamped) std::swap(held.node, held.next);
+  static std::vector<HeldNode> inwards(std::vector<HeldNode> held, bool clamped) {
+    for (HeldNode& end : held)
+      if (clamped) std::swap(end.node, end.next);
     return held;
   }
 };

@@ -29,16 +29,10 @@ constexpr double kSettlingWave = 17.0;
 constexpr double kPuttingOnWave = 73.0;
 constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
 
-constexpr double kSlips = 0.999;  // of the force at which a grip slips: it counts as slipping [-]
-
-double fastest_node(const TimeStep& stepper) {
-  return std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff());
-}
-
 }  // namespace
 
 TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options)
-    : options_(options), radius_(rod.material.radius) {
+    : options_(options), radius_(rod.material.radius), rest_(options.rest) {
   const double h = rod.material.radius;
   const int nodes = static_cast<int>(rod.nodes());
   const Points& x = centreline.points;
@@ -83,29 +77,22 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
 void TyingRig::enter(Stage stage, double time) {
   stage_ = stage;
   stage_begin_ = time;
-  rested_ = 0.0;
+  rest_.begin();
 }
 
 void TyingRig::tie(double speed, double time, const Points& position) {
   speed_ = speed;
   reached_ = -1.0;
-  not_equilibrated_.clear();
+  rest_.forget();
   not_tied_.clear();
   attach_grips();
-  for (SlippingGrip& grip : grips_) grip.place = grip.direction.dot(position.col(grip.node));
+  grips_.begin_at(position);
   enter(Stage::kSettling, time);
 }
 
 void TyingRig::attach_grips() {
   grips_.clear();
-  for (const Knot& knot : knots_) {
-    SlippingGrip grip;
-    grip.node = knot.tail_node;
-    grip.direction = knot.outwards;
-    grip.stiffness = options_.grip_stiffness;
-    grip.slip_force = options_.preload;
-    grips_.push_back(grip);
-  }
+  for (const Knot& knot : knots_) grips_.add(knot.tail_node, knot.outwards, options_.grip_stiffness, options_.preload);
 }
 
 void TyingRig::release(double duration, double time) {
@@ -179,10 +166,7 @@ void TyingRig::hold(Boundary& boundary, double from, double to) const {
   }
   if (stage_ == Stage::kPuttingOn || stage_ == Stage::kGuided) boundary.extra_drag = putting_on_drag_;
   if (stage_ == Stage::kSettling || stage_ == Stage::kPulling || stage_ == Stage::kTied) {
-    for (SlippingGrip grip : grips_) {
-      if (stage_ == Stage::kPulling) grip.place += speed_ * (to - from);
-      boundary.grips.push_back(grip);
-    }
+    grips_.add_to(boundary, stage_ == Stage::kPulling ? speed_ * (to - from) : 0.0);
   } else if (stage_ == Stage::kTailsRamp || stage_ == Stage::kLettingGo) {
     for (std::size_t k = 0; k < knots_.size(); ++k)
       boundary.forces.push_back({knots_[k].tail_node, ramp * ramp_from_[k] * knots_[k].outwards});
@@ -205,49 +189,36 @@ void TyingRig::hold_knots(Boundary& boundary, double ramp) const {
   }
 }
 
-bool TyingRig::let_grips_slip(const Points& x, double dt) {
-  bool all_slip = true;
-  for (std::size_t k = 0; k < grips_.size(); ++k) {
-    SlippingGrip& grip = grips_[k];
-    if (stage_ == Stage::kPulling) {
-      grip.place += speed_ * dt;
-      const double slipped = grip.direction.dot(x.col(grip.node)) + grip.slip_force / grip.stiffness;
-      grip.place = std::min(grip.place, slipped);
-    }
-    tail_force_[k] = stage_ <= Stage::kTied ? grip.force(x.col(grip.node)) : 0.0;
-    if (tail_force_[k] < kSlips * grip.slip_force) all_slip = false;
-  }
-  return all_slip;
-}
-
 void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
   const Points& x = stepper.state().position;
-  const bool all_slip = let_grips_slip(x, dt);
+  if (stage_ == Stage::kPulling) grips_.move(x, speed_ * dt);
+  for (std::size_t k = 0; k < grips_.size(); ++k) tail_force_[k] = stage_ <= Stage::kTied ? grips_.force(k, x) : 0.0;
+  const bool all_slip = stage_ <= Stage::kTied && grips_.all_slip(x);
   const double elapsed = time - stage_begin_;
-  rested_ = fastest_node(stepper) > options_.rest_speed ? 0.0 : rested_ + dt;
+  rest_.follow(stepper.state().velocity, dt);
   if (stage_ == Stage::kPulling && all_slip && reached_ < 0.0) reached_ = time;
   switch (stage_) {
     case Stage::kSettling:
       if (elapsed >= kSettlingTime) {
-        for (SlippingGrip& grip : grips_) grip.place = grip.direction.dot(x.col(grip.node));
+        grips_.begin_at(x);
         enter(Stage::kPulling, time);
       }
       break;
     case Stage::kPulling:
       // A grip that stuck again since it reached the pre-load is waited for no longer than for rest.
-      if (reached_ >= 0.0 && (all_slip || time - reached_ > options_.patience) &&
-          waited_for_rest(stepper, time, reached_, "the tail grips reached the pre-load")) {
+      if (reached_ >= 0.0 && (all_slip || time - reached_ > rest_.patience()) &&
+          rest_.waited(time, reached_, "the tail grips reached the pre-load")) {
         enter(Stage::kTied, time);
       }
       break;
     case Stage::kTailsRest:
-      if (waited_for_rest(stepper, time, stage_begin_, "the tails were released")) {
+      if (rest_.waited(time, stage_begin_, "the tails were released")) {
         for (Clamp& clamp : clamps_) clamp.reaction = stepper.readings().reaction(clamp.node);
         enter(Stage::kClampsRamp, time);
       }
       break;
     case Stage::kClampsRest:
-      if (elapsed >= ramp_time_ && waited_for_rest(stepper, time, stage_begin_, "the clamps were released")) {
+      if (elapsed >= ramp_time_ && rest_.waited(time, stage_begin_, "the clamps were released")) {
         enter(Stage::kReleased, time);
       }
       break;
@@ -270,16 +241,6 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
   judge_pull(time);
 }
 
-bool TyingRig::waited_for_rest(const TimeStep& stepper, double time, double begin, const char* since) {
-  if (rested_ >= options_.rest_time) return true;
-  if (time - begin <= options_.patience) return false;
-  std::ostringstream message;
-  message << "not equilibrated: " << options_.patience << " s after " << since << ", the fastest node still moved at "
-          << fastest_node(stepper) << " m/s; at rest it moves at less than " << options_.rest_speed << " m/s";
-  not_equilibrated_ = message.str();
-  return true;
-}
-
 void TyingRig::judge_pull(double time) {
   const double elapsed = time - stage_begin_;
   if (stage_ != Stage::kPulling || reached_ >= 0.0 || elapsed <= options_.pull_patience) return;
@@ -292,16 +253,16 @@ void TyingRig::judge_pull(double time) {
 }
 
 void TyingRig::state(Archive& archive) {
-  archive.section("TIE2");
+  archive.section("TIE3");  // "TIE2" did not keep the speed of the fastest node
   archive.choice("stage of tying", stage_, Stage::kFree);
   archive(loop_begin_, loop_end_);
-  archive(speed_, ramp_time_, stage_begin_, rested_, reached_, not_equilibrated_, tail_force_, ramp_from_);
+  archive(speed_, ramp_time_, stage_begin_, reached_, tail_force_, ramp_from_, rest_);
   for (Clamp& clamp : clamps_) archive(clamp.reaction);
   for (Clamp& held : far_side_) archive(held.reaction);
   bool pulls = !grips_.empty();
   archive(pulls);
   if (archive.loads() && pulls) attach_grips();
-  for (SlippingGrip& grip : grips_) archive(grip.place);
+  archive(grips_);
 }
 
 std::vector<int> TyingRig::standing_nodes() const {

@@ -72,7 +72,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"material=", "material is missing", "", "green_vps, nylon"},
       {"material=[nylon]", "material", "[nylon]", "green_vps, nylon"},
       // Values, among them those of a wrong unit
-      {"specimen.knot=granny", "specimen.knot", "granny", "fisherman, multiple_fisherman, overhand"},
+      {"specimen.knot=hitched", "specimen.knot", "hitched", "fisherman, multiple_fisherman, overhand"},
       {"specimen.turns=5", "specimen.turns", "5", "1 to 4"},
       {"specimen.end_to_end=250", "specimen.end_to_end", "250", "m"},
       {"specimen.end_to_end=250 mm", "specimen.end_to_end", "250 mm", "m"},
@@ -385,7 +385,7 @@ TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
       {"machine.roller_diameter=0.05", "machine.roller_diameter", "0.05",
        "only for knot: fisherman or multiple_fisherman"},
       {"machine.roller_friction=0.1", "machine.roller_friction", "0.1", "only with grips: rollers"},
-      {"program.0={tie: {}}", "program.0", "tie", "needs specimen.knot: fisherman or multiple_fisherman"},
+      {"program.0={tie: {}}", "program.0", "tie", "needs specimen.knot: fisherman, multiple_fisherman or a file"},
       {"program.0={mount: {}}", "program.0", "mount", "needs specimen.knot: fisherman or multiple_fisherman"},
   };
   for (const Wrong& wrong : table) {

@@ -112,8 +112,8 @@ TEST(TyingRig, SaysWhenThePreloadWasNotReachedInTime) {
 
 TEST(TyingRig, GoesOnWhereNothingComesToRestInTimeAndSaysSo) {
   TyingRig::Options options;
-  options.patience = 0.01;
-  options.rest_speed = 0.0;  // never
+  options.rest.patience = 0.01;
+  options.rest.speed = 0.0;  // never
   Loop loop(options);
   loop.rig->tie(0.1, 0.0, loop.stepper->state().position);
   loop.rig->release(0.03, 0.0);

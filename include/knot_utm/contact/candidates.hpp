@@ -50,7 +50,7 @@ class Candidates {
 
   double exclusion() const { return exclusion_; }
 
-  /// From now on the rod has parted at an edge, and the two segments that reach into it touch nothing.
+  /// From now on the rod is cut at this edge, too, and the two segments that reach into it touch nothing.
   void part(int edge);
 
   /// Saves or loads the positions for which the list was built; the list follows from them.
@@ -77,9 +77,6 @@ class Candidates {
     }
   };
 
-  static constexpr int kWhole = -2;  // no segment reaches into it
-
-  bool reaches_into_parted(int segment) const { return segment == parted_ || segment == parted_ + 1; }
   void build(const Points& position);
   void measure(const Points& position);
   void set_balls(const Points& position);
@@ -92,7 +89,8 @@ class Candidates {
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd size_;       // of segment i about its node [m]
   Points built_at_;
-  int parted_ = kWhole;  // edge
+  bool whole_ = true;          // no edge is cut
+  std::vector<char> touches_;  // whether a segment may touch anything: none at the ends or at a cut
   std::vector<std::size_t> begin_;
   std::vector<Run> runs_;
   std::vector<int> segments_;

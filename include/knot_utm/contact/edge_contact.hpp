@@ -63,7 +63,7 @@ class EdgeContact {
   }
   bool at_surface() const { return turns_ != nullptr; }
 
-  /// From now on the rod has parted at an edge.
+  /// From now on the rod is cut at this edge, too.
   void part(int edge) { candidates_.part(edge); }
   /// Pairs of edges that may touch.
   const std::vector<std::pair<int, int>>& pairs() const { return pairs_; }

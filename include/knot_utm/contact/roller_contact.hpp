@@ -98,8 +98,8 @@ class RollerContact {
     return knot_utm::linearise(normal_, friction_, rolling_, dt, how, contacts_, surfaces_, from, models);
   }
 
-  /// From now on the rod has parted at an edge, and segments that reach into it touch nothing.
-  void part(int edge) { parted_ = edge; }
+  /// From now on the rod is cut at this edge, too, and segments that reach into it touch nothing.
+  void part(int edge) { cuts_.push_back(edge); }
 
   /// The motion of one of `contacts()` in this step.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
@@ -126,6 +126,7 @@ class RollerContact {
 
   /// The distance of a place from a roller's axis [m].
   static double distance(const Roller& roller, const Vec3& x);
+  bool reaches_into_cut(int segment) const;
   /// Distance of a segment's node from the axis beyond which no part of the segment touches [m].
   double limit(const Roller& roller, int segment) const;
   void find_near_segments(const std::vector<Roller>& rollers, const Points& start);
@@ -143,7 +144,7 @@ class RollerContact {
   double radius_;
   double farthest_;
   std::vector<Near> near_;  // of this step
-  int parted_ = -2;         // edge; no segment reaches into this one
+  std::vector<int> cuts_;   // edges
   Eigen::VectorXd voronoi_;
   std::vector<Roller> start_;
   std::vector<double> turned_;    // of every roller in this step [rad]

@@ -49,7 +49,7 @@ class SmoothContact {
   }
   bool at_surface() const { return turns_ != nullptr; }
 
-  /// From now on the rod has parted at an edge.
+  /// From now on the rod is cut at this edge, too.
   void part(int edge) { candidates_.part(edge); }
 
   /// Begins a step from `start`: the search for candidates is repeated where a node has moved far enough, and the

@@ -33,8 +33,8 @@ class TunnellingSearch {
   /// over these. Meetings with the outer half of an end edge then do not count.
   explicit TunnellingSearch(Eigen::Index nodes, bool bare_ends = false);
 
-  /// From now on the rod has parted at an edge, which anything may pass.
-  void part(int edge) { parted_ = edge; }
+  /// From now on the rod is cut at this edge, too, which anything may pass.
+  void part(int edge) { cuts_.push_back(edge); }
 
   /// Columns are nodes, all of them finite. A first and a last node that coincide at the start and at the end count as
   /// one.
@@ -67,7 +67,7 @@ class TunnellingSearch {
   const Points* end_ = nullptr;
   bool bare_ends_;
   bool closed_ = false;
-  int parted_ = -1;  // edge; -1: none
+  std::vector<int> cuts_;  // edges
 };
 
 }  // namespace knot_utm

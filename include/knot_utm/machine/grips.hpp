@@ -65,7 +65,7 @@ class Grips {
   double force_lower(const TimeStep& step) const;
 
  private:
-  bool on_posts() const { return !supports_.posts.empty(); }
+  bool on_posts() const { return lower_nodes_.empty() && !supports_.posts.empty(); }
   double half_way(double displacement) const;
   void narrow(double left, std::vector<Roller>& rollers) const;
   bool comes_near(const Points& loop, double displacement, double radius);

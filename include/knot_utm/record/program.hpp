@@ -29,12 +29,13 @@ struct StepPlace {
   const Program& program;
   std::size_t index = 0;
   std::string loops;  ///< the knots that are loops, as a message lists them; empty: the specimen is one
+  std::string tied;   ///< those that can be tied; empty: the specimen can
 
   std::string key() const;  ///< "program.4.pull"
   /// Throws InvalidInput: the step cannot stand where it stands.
   [[noreturn]] void misplaced(const std::string& why) const;
-  /// Throws InvalidInput where the specimen is no loop.
-  void needs_loop() const;
+  /// Throws InvalidInput where the specimen is none of these knots; empty: it is.
+  void needs(const std::string& knots) const;
 };
 
 /// A step of a test program: what a method says of it, how it moves the crosshead, and when it ends. A kind of step is

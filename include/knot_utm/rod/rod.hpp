@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/points.hpp"
@@ -16,6 +17,10 @@ bool are_places(const Points& points);
 
 /// What stays constant while the rod moves: N nodes, N-1 edges, N-2 inner nodes.
 /// Symbols: l_j rest length of edge j, lbar_i = (l_{i-1}+l_i)/2 Voronoi length of node i.
+///
+/// Several ropes are one rod with cut edges. A cut edge joins the last node of a rope to the first one of the next, and
+/// has no mass and no stiffness, nor do nodes bend or twist at its ends. Its l_j is no length of rod: it only keeps the
+/// two ropes further apart along the rod than where a strand touches itself (least_loop in contact/candidates.hpp).
 struct RodProperties {
   RodMaterial material;
   std::shared_ptr<const RodLaws> laws;  ///< of stretching and bending (rod_laws.hpp)
@@ -23,10 +28,12 @@ struct RodProperties {
   Eigen::VectorXd voronoi_length;       ///< lbar_i [m], N (half an edge at the ends)
   Eigen::VectorXd mass;                 ///< m_i [kg], N
   Eigen::VectorXd natural_twist;        ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
+  std::vector<int> cuts;                ///< edges that are cut, ascending
 
   Eigen::Index nodes() const { return voronoi_length.size(); }
   Eigen::Index edges() const { return rest_length.size(); }
-  double length() const { return rest_length.sum(); }
+  bool is_cut(Eigen::Index edge) const;
+  double length() const;  ///< of all ropes [m]
   /// Arclength at rest of every node from the first [m], N
   Eigen::VectorXd arclength() const;
 
@@ -34,8 +41,10 @@ struct RodProperties {
   void state(Archive& archive);
 };
 
-/// Straight, untwisted rod of the given rest lengths, by the laws of its material: masses rho pi h^2 lbar_i.
-RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length);
+/// Straight, untwisted rod of the given rest lengths, by the laws of its material: masses rho pi h^2 lbar_i. What
+/// `rest_length` says of cut edges does not count.
+RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length,
+                       const std::vector<int>& cuts = {});
 
 /// What moves, and what the laws of the rod remember. Twist members are empty where the scene does not solve for twist.
 struct RodState {

@@ -21,7 +21,7 @@ class CentrelineTerms {
   /// Without `bends`, stretching only: bending about a curved rest shape needs frames. `rod` must outlive this.
   CentrelineTerms(const RodProperties& rod, bool bends);
 
-  /// From now on the rod has parted at an edge: it has no tension, and does not bend at its ends.
+  /// From now on the rod is cut at this edge, too: it has no tension, and does not bend at its ends.
   void part(int edge);
 
   /// Begins a step. `predicts`: the geometric stiffness uses the predicted tensions, at first those at its start; else
@@ -82,8 +82,8 @@ class CentrelineTerms {
   const RodProperties& rod_;
   bool bends_;
   double largest_tension_ = 0.0;
-  std::vector<double> stretching_stiffness_;  // k_s of every edge [N]; 0: parted
-  std::vector<double> bending_stiffness_;     // k_b/lbar of every node [N m]; 0: at a parted edge
+  std::vector<double> stretching_stiffness_;  // k_s of every edge [N]; 0: cut
+  std::vector<double> bending_stiffness_;     // k_b/lbar of every node [N m]; 0: at a cut edge
   // As isotropic_bending.hpp names them.
   std::vector<Lanes> tangent_;           // t of every edge
   std::vector<double> inverse_length_;   // 1/|e| [1/m]

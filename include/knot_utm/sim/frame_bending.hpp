@@ -27,8 +27,8 @@ class FrameBending {
   /// `rod` must outlive this.
   explicit FrameBending(const RodProperties& rod);
 
-  /// From the next step on the rod has parted at an edge: at its ends it does not bend.
-  void part(int edge) { parted_ = edge; }
+  /// From the next step on the rod is cut at this edge, too: at its ends it does not bend.
+  void part(int edge) { cuts_.push_back(edge); }
 
   /// Begins a step of length dt [s] from a state, which must outlive it.
   void begin(const RodState& start, double dt);
@@ -78,8 +78,8 @@ class FrameBending {
   void respond(const Law& law, const Lanes bend[2], std::size_t group);
 
   const RodProperties& rod_;
-  int own_;          // numbers that the law keeps of a node
-  int parted_ = -2;  // edge; no node ends this one
+  int own_;                // numbers that the law keeps of a node
+  std::vector<int> cuts_;  // edges
   // All are empty until the first step that needs them: a rod that is straight at rest has no use for them.
   std::vector<FourVectors> m1_, m2_;  // material directors of the edges
   std::vector<FourNodes> fours_;

@@ -72,7 +72,7 @@ class FrameTerms {
   /// `rod` must outlive this.
   FrameTerms(const RodProperties& rod, const StepSettings& settings);
 
-  /// From now on the rod has parted at an edge: at its ends nothing twists or bends.
+  /// From now on the rod is cut at this edge, too: at its ends nothing twists or bends.
   void part(int edge);
 
   /// Begins a step, whose state must have frames. Held angles begin at their prescribed values, all others at a
@@ -146,7 +146,7 @@ class FrameTerms {
   int nodes_of(std::size_t group) const;  // how many of the four there are
   void set_turn(std::size_t edge, double turned);
 
-  /// Stiffnesses of inner node i are zero where it ends a parted edge.
+  /// Stiffnesses of inner node i are zero where it ends a cut edge.
   TwistingInput twisting_input(int i) const;
   double twist(int i) const;  // m of inner node i
   double angle_change(const std::vector<Lanes>& change, int edge) const;
@@ -158,7 +158,6 @@ class FrameTerms {
   Eigen::VectorXd rest_;     // r_j
   bool curved_ = false;      // at rest, as the step begins
   bool rolls_;               // turns_ are asked for
-  int parted_ = -2;          // edge; no node ends this one
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N
@@ -169,7 +168,7 @@ class FrameTerms {
   std::vector<double> inverse_length_;   // 1/|e_j|
   std::vector<Lanes> lean_;              // lean_j
   SectionTurns turns_;                   // in this step
-  std::vector<double> stiffness_;        // k_t/lbar of every node, 0 at a parted edge [N m]
+  std::vector<double> stiffness_;        // k_t/lbar of every node, 0 at a cut edge [N m]
   std::vector<double> angle_;            // theta_j
   std::vector<double> spin_;             // d(torque)/dtheta_j of inertia, drag and r_j in this step [N m]
   std::vector<double> kept_spin_;        // I_j omega_j^n/dt [N m]

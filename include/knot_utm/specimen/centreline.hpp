@@ -28,6 +28,20 @@ struct DrawnLoop {
   double far_end = 0.0;
 };
 
+/// What a grip other than a roller holds: the node at which the specimen's length begins or ends, and its neighbour,
+/// which a clamp holds as well.
+struct HeldNode {
+  int node = 0, next = 0;
+  int edge() const { return node < next ? node : next; }  ///< between the two
+};
+
+/// A free end by which a knot is tied.
+struct PulledEnd {
+  int node = 0;
+  Vec3 direction;         ///< unit
+  double fraction = 1.0;  ///< of the pre-load F_p [-]
+};
+
 /// A specimen's centreline before the test: an open polyline, and the places of its parts. Edges may be shorter in its
 /// knots. Frame: z up and along the load axis. Arclengths are those of the polyline.
 struct Centreline {
@@ -39,6 +53,10 @@ struct Centreline {
   double upper_apex = 0.0;  ///< of a loop: arclength of the top of the loop, on the upper roller [m]
   double lower_apex = 0.0;  ///< of a loop: arclength of the bottom of the loop [m]
   DrawnLoop loop;
+
+  std::vector<int> cuts;                     ///< edges between one rope and the next (RodProperties::cuts)
+  std::vector<HeldNode> below, above;        ///< ends of ropes that the grips hold; empty: the rod's ends
+  std::vector<std::vector<PulledEnd>> tied;  ///< ends that are pulled together to tie it, in order
 
   double length() const;                     ///< [m]
   int nearest_node(double arclength) const;  ///< to an arclength [m]

@@ -21,13 +21,6 @@ struct Mounting {
   double refinement = 1.0;       ///< edges in and between its knots are shorter by this factor [-]
 };
 
-/// What a grip other than a roller holds: the node at which the specimen's length begins or ends, and its neighbour,
-/// which a clamp holds as well.
-struct HeldNode {
-  int node = 0, next = 0;
-  int edge() const { return node < next ? node : next; }  ///< between the two
-};
-
 /// What bears a specimen besides its grips, unchanged throughout a test.
 struct Supports {
   std::vector<Roller> posts;     ///< fixed to the machine's base; the first one stands for the lower grip
@@ -48,11 +41,13 @@ struct KnotDescription {
   /// Two strands bear the load, and rollers can hold it. It has two knots, each tied into an end of the rod around the
   /// other strand, so that it has the readings between two knots.
   bool loop = false;
-  double drawn_coil = 0.0;  ///< of a loop: radius of its coils' centreline before they are tied [h]
-  bool any_shape = false;   ///< the user gives its shape, which may contain any knot; the type is followed
-  bool straight = false;    ///< it never bends, so that it does not settle, twist or touch itself
+  double drawn_coil = 0.0;    ///< of a loop: radius of its coils' centreline before they are tied [h]
+  bool any_shape = false;     ///< the user gives its shape, which may contain any knot; the type is followed
+  bool tied_by_ends = false;  ///< tied by pulling at its free ends
+  bool straight = false;      ///< it never bends, so that it does not settle, twist or touch itself
   ErrorStudy error_study = ErrorStudy::kNone;
 
+  bool can_be_tied() const { return loop || tied_by_ends; }
   bool may_hold_a_knot() const { return knots > 0 || any_shape; }
 };
 
@@ -89,8 +84,8 @@ class Knot {
   /// Empty where the grips hold both its ends. Where fixed posts bear its lower end, only the upper grip holds it.
   virtual Supports supports(const SpecimenOptions& specimen, const Material& material) const;
   /// The nodes that the lower and the upper grip hold where there are no rollers.
-  virtual HeldNode held_below(const Centreline& centreline, bool clamped) const;
-  virtual HeldNode held_above(const Centreline& centreline, bool clamped) const;
+  virtual std::vector<HeldNode> held_below(const Centreline& centreline, bool clamped) const;
+  virtual std::vector<HeldNode> held_above(const Centreline& centreline, bool clamped) const;
 
   /// The change of its keys that would keep a knot which came undone, "a larger specimen.end_to_end"; empty: none.
   virtual std::string what_keeps_it() const { return ""; }
@@ -108,10 +103,13 @@ const Knot& knot_of(KnotKind kind);
 inline const Knot& knot_of(const SpecimenOptions& specimen) { return knot_of(specimen.knot); }
 /// Throws InvalidInput ("specimen.knot") where no knot has this name.
 KnotKind knot_named(const std::string& name);
-std::vector<const char*> knot_names();
-/// The knots that have a key of `specimen`, or that are loops, as a message lists them: "fisherman or overhand".
+/// What a method may call a knot, in the order of the registry: one that has a drawing by its name.
+std::vector<std::string> knot_names(const KnotDrawing* drawing);
+/// The knots that have a key of `specimen`, that are loops, or that a program can tie, as a message lists them:
+/// "fisherman or overhand".
 std::string knots_with(const std::string& key);
 std::string loops();
+std::string knots_that_can_be_tied();
 
 /// Throws InvalidInput ("specimen.closed") where the last point of the rod is to join the first one.
 void check_ends(const SpecimenOptions& specimen);

@@ -38,7 +38,8 @@ struct NearestPlaces {
 
 /// The two places of a polyline that are nearest to each other among those at least `exclusion` [m] apart along it;
 /// their distance is infinite where there are none. Closed: its last point lies on its first, and the distance along it
-/// is that of the shorter way round.
-NearestPlaces nearest_places(const Points& points, double exclusion, bool closed = false);
+/// is that of the shorter way round. `cuts`: its edges that are no part of it.
+NearestPlaces nearest_places(const Points& points, double exclusion, bool closed = false,
+                             const std::vector<int>& cuts = {});
 
 }  // namespace knot_utm

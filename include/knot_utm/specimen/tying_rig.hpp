@@ -7,6 +7,8 @@
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/rest_watch.hpp"
+#include "knot_utm/specimen/tail_grips.hpp"
 
 namespace knot_utm {
 
@@ -36,9 +38,7 @@ class TyingRig {
   struct Options {
     double preload = 0.0;         ///< F_p, at which the tail grips slip [N]
     double grip_stiffness = 2e4;  ///< [N/m]
-    double rest_speed = 0.0;      ///< every node slower than this ... [m/s]
-    double rest_time = 0.3;       ///< ... for this long: at rest [s]
-    double patience = 60.0;       ///< without rest for this long the test goes on, not equilibrated [s]
+    RestWatch::Options rest;
     double pull_patience = 90.0;  ///< not tied if the pre-load is not reached by then [s] ...
     double pull_way = 300.0;      ///< ... and have gone this far [h]
   };
@@ -86,7 +86,7 @@ class TyingRig {
   /// Whether the loop is still off the rollers.
   bool off_rollers() const { return stage_ != Stage::kIdle && stage_ < Stage::kPuttingOn; }
   /// What had not come to rest when the test went on; empty: nothing.
-  const std::string& not_equilibrated() const { return not_equilibrated_; }
+  const std::string& not_equilibrated() const { return rest_.not_equilibrated(); }
   /// Why the knots cannot be tied; empty: they can.
   const std::string& not_tied() const { return not_tied_; }
 
@@ -129,10 +129,6 @@ class TyingRig {
   SpringHold guide(const Clamp& clamp) const;
   void hold_knots(Boundary& boundary, double ramp) const;
   void enter(Stage stage, double time);
-  /// Moves the grips on and lets them slip at the pre-load. Returns whether all of them slip.
-  bool let_grips_slip(const Points& x, double dt);
-  /// Whether everything is at rest, or rest has been waited for long enough since `begin`.
-  bool waited_for_rest(const TimeStep& stepper, double time, double begin, const char* since);
   void judge_pull(double time);
 
   Options options_;
@@ -143,13 +139,14 @@ class TyingRig {
   std::vector<Clamp> clamps_;
   std::vector<Clamp> far_side_;
   int loop_begin_ = 0, loop_end_ = 0;
-  std::vector<SlippingGrip> grips_;
+  TailGrips grips_;
+  RestWatch rest_;
   std::vector<double> tail_force_;
   std::vector<double> ramp_from_;
   Stage stage_ = Stage::kIdle;
-  double speed_ = 0.0, ramp_time_ = 1.0, stage_begin_ = 0.0, rested_ = 0.0;
+  double speed_ = 0.0, ramp_time_ = 1.0, stage_begin_ = 0.0;
   double reached_ = -1.0;  // when both tail grips had first reached the pre-load; < 0: not yet
-  std::string not_equilibrated_, not_tied_;
+  std::string not_tied_;
 };
 
 }  // namespace knot_utm

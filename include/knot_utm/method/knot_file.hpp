@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace knot_utm {
+
+struct KnotDrawing;
+
+/// Reads a knot from its file, config/knots/NAME.yaml or one of the user's. All lengths are in radii of the rod, and
+/// the load axis is z:
+///
+///     title: Reef knot
+///     use: Where it is used, in a sentence.
+///     source: Ashley 1204                    # who describes it
+///     strands:                               # each is a rope, drawn through its points
+///       - ends: [lower, lower_tail]          # names of its two ends
+///         points: [[0, 0, -12], ...]
+///     lower: [lower]                         # ends that the grips hold; at least one by `upper`
+///     upper: [upper]
+///     posts:                                 # fixed cylinders; the first is the lower grip where that holds no end
+///       - {through: [0, 0, 0], along: [0, 1, 0], radius: 6}
+///     tie:                                   # free ends that are pulled together, in order, to which part of F_p
+///       - {lower_tail: 1, upper_tail: 1}
+///
+/// `name`: what a method calls it. Throws InvalidInput with the file and the key.
+std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& file, const std::string& name);
+
+}  // namespace knot_utm

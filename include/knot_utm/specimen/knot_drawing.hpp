@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/specimen/centreline.hpp"
+
+namespace knot_utm {
+
+/// A knot as its file describes it (method/knot_file.hpp). All lengths are in radii h of the rod; the load axis is z.
+/// Each strand is a rope. Its ends have names, by which grips hold and pull them.
+struct KnotDrawing {
+  struct Strand {
+    std::array<std::string, 2> ends;  ///< the first and the last one
+    std::vector<Vec3> points;         ///< that the strand is drawn through [h]
+  };
+  /// A cylinder that is fixed to the machine's base.
+  struct Post {
+    Vec3 through = Vec3::Zero();  ///< a point of its axis [h]
+    Vec3 along = Vec3::UnitY();   ///< direction of its axis, unit
+    double radius = 0.0;          ///< [h]
+  };
+  struct Pull {
+    std::string end;
+    double fraction = 1.0;  ///< of the pre-load F_p [-]
+  };
+
+  std::string name;    ///< as a method gives it
+  std::string title;   ///< what a report calls it
+  std::string use;     ///< where it is used
+  std::string source;  ///< who describes it
+  std::vector<Strand> strands;
+  std::vector<std::string> lower, upper;  ///< ends that the grips hold
+  std::vector<Post> posts;                ///< the first one stands for the lower grip where that holds no end
+  std::vector<std::vector<Pull>> tie;     ///< ends that are pulled together, in order
+  std::string text;                       ///< all that describes its shape and how it is tied, the same for equal ones
+
+  enum class End { kLower, kUpper, kFree };
+  End held(const std::string& end) const;
+  double bottom() const;  ///< the lowest z of all points, or of the first post's axis where that is the lower grip [h]
+  double top() const;     ///< the highest z of all points [h]
+};
+
+/// How large a drawing is made.
+struct DrawnSize {
+  double radius = 0.0;       ///< h [m]
+  double end_to_end = 0.0;   ///< L, from the lower grip to the upper one [m]
+  double tail = 0.0;         ///< straight length of each free end beyond its last point [m]
+  double edge_length = 0.0;  ///< [m]
+};
+
+/// A drawing as a rod. Each strand is a centripetal Catmull-Rom curve through its points. A held end runs on straight
+/// along z to its grip, and a free one straight on. The shape is smoothed along its arclength by a Gaussian of standard
+/// deviation h. The lower grip is at z = 0, and the knot half-way between the grips. Ropes are joined to one rod by cut
+/// edges. Throws InvalidInput (specimen.knot, specimen.end_to_end) where strands overlap each other or a post, or where
+/// the knot does not fit between the grips.
+///
+/// Source of the curve: Yuksel, Schaefer, Keyser 2011, "Parameterization and applications of Catmull-Rom curves".
+Centreline draw(const KnotDrawing& drawing, const DrawnSize& size);
+
+/// The least L between the grips of such a drawing [m].
+double least_end_to_end(const KnotDrawing& drawing, double radius);
+
+/// z of the drawing's origin above the lower grip [m].
+double height_of_origin(const KnotDrawing& drawing, const DrawnSize& size);
+
+}  // namespace knot_utm

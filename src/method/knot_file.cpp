@@ -1,0 +1,188 @@
+#include "knot_utm/method/knot_file.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
+#include "method_reader.hpp"
+#include "yaml_text.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+using fields::as_given;
+using fields::one_line;
+using fields::Reader;
+
+constexpr double kFarthest = 200.0;  // coordinate of a point [h]
+constexpr double kLeastStep = 0.1;   // from a point to the next [h]
+constexpr double kOffAxis = 1e-3;    // of the two last points of a held end: they lie along z [h]
+constexpr std::size_t kFewestPoints = 3, kMostPoints = 2000;
+
+/// Reads the lists of a knot's file, and refuses what is none.
+class KnotReader {
+ public:
+  explicit KnotReader(std::string file) : file_(std::move(file)) {}
+
+  [[noreturn]] void refuse(const std::string& key, const YAML::Node& value, const std::string& allowed) const {
+    throw InvalidInput(file_, key, as_given(value), allowed);
+  }
+  [[noreturn]] void refuse(const std::string& key, const std::string& value, const std::string& why) const {
+    throw InvalidInput::sentence(key, value, key + ": " + why).in_file(file_);
+  }
+
+  double number(const std::string& key, const YAML::Node& node, double low, double high) const {
+    const std::optional<double> value = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
+    if (!value || !(*value >= low && *value <= high))
+      refuse(key, node, "a number from " + format_number(low) + " to " + format_number(high));
+    return *value;
+  }
+
+  Vec3 point(const std::string& key, const YAML::Node& node) const {
+    if (!node.IsSequence() || node.size() != 3) refuse(key, node, "a list [x, y, z] in radii of the rod");
+    Vec3 out;
+    for (std::size_t i = 0; i < 3; ++i) out[static_cast<Eigen::Index>(i)] = number(key, node[i], -kFarthest, kFarthest);
+    return out;
+  }
+
+  std::string name(const std::string& key, const YAML::Node& node) const {
+    if (!node.IsScalar() || node.Scalar().empty()) refuse(key, node, "the name of an end");
+    return node.Scalar();
+  }
+
+  KnotDrawing::Strand strand(const std::string& key, const YAML::Node& node) const {
+    Reader reader(node, file_, key, "a knot");
+    KnotDrawing::Strand out;
+    const YAML::Node ends = reader.take("ends"), points = reader.take("points");
+    reader.finish();
+    if (!ends.IsDefined() || !ends.IsSequence() || ends.size() != 2)
+      refuse(key + ".ends", ends, "a list of two names, of the strand's first and last end");
+    for (std::size_t i = 0; i < 2; ++i) out.ends[i] = name(key + ".ends", ends[i]);
+    const bool enough = points.IsDefined() && points.IsSequence() && points.size() >= kFewestPoints;
+    if (!enough || points.size() > kMostPoints)
+      refuse(key + ".points", points, "a list of 3 to 2000 points [x, y, z] in radii of the rod");
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::string at = key + ".points." + std::to_string(i);
+      const Vec3 next = point(at, points[i]);
+      if (i > 0 && (next - out.points.back()).norm() < kLeastStep)
+        refuse(at, one_line(points[i]), "the same point as the one before it; leave it out");
+      out.points.push_back(next);
+    }
+    return out;
+  }
+
+  KnotDrawing::Post post(const std::string& key, const YAML::Node& node) const {
+    Reader reader(node, file_, key, "a knot");
+    const YAML::Node through = reader.take("through"), along = reader.take("along"), radius = reader.take("radius");
+    reader.finish();
+    KnotDrawing::Post out;
+    out.through = point(key + ".through", through);
+    out.along = point(key + ".along", along);
+    if (out.along.norm() < kLeastStep) refuse(key + ".along", along, "a direction");
+    out.along.normalize();
+    out.radius = number(key + ".radius", radius, 0.5, kFarthest);
+    return out;
+  }
+
+ private:
+  std::string file_;
+};
+
+/// The items of a list; of none where the key is left out.
+template <typename Read>
+auto list_of(const KnotReader& reader, const char* key, const YAML::Node& node, const char* what, Read read) {
+  std::vector<decltype(read(std::string(), node))> out;
+  if (!node.IsDefined() || node.IsNull()) return out;
+  if (!node.IsSequence()) reader.refuse(key, node, what);
+  for (std::size_t i = 0; i < node.size(); ++i)
+    out.push_back(read(std::string(key) + "." + std::to_string(i), node[i]));
+  return out;
+}
+
+std::vector<std::string> ends_of(const KnotDrawing& knot) {
+  std::vector<std::string> out;
+  for (const KnotDrawing::Strand& strand : knot.strands) out.insert(out.end(), strand.ends.begin(), strand.ends.end());
+  return out;
+}
+
+/// Names differ, and what is held or pulled is an end of a strand: held by one grip, or pulled and not held.
+void check_names(const KnotReader& reader, const KnotDrawing& knot) {
+  std::set<std::string> known;
+  for (const std::string& end : ends_of(knot))
+    if (!known.insert(end).second) reader.refuse("strands", end, "two ends are called " + shown(end));
+  std::set<std::string> held;
+  const auto take = [&](const std::string& key, const std::string& end) {
+    if (known.count(end) == 0)
+      reader.refuse(key, end, "no end is called " + shown(end) + "; the ends are " + listed(ends_of(knot), ", "));
+    if (!held.insert(end).second) reader.refuse(key, end, shown(end) + " is held or pulled already");
+  };
+  for (const std::string& end : knot.lower) take("lower", end);
+  for (const std::string& end : knot.upper) take("upper", end);
+  for (const std::vector<KnotDrawing::Pull>& together : knot.tie)
+    for (const KnotDrawing::Pull& pull : together) take("tie", pull.end);
+  if (knot.upper.empty()) reader.refuse("upper", "", "the upper grip must hold at least one end");
+  if (knot.lower.empty() && knot.posts.empty())
+    reader.refuse("lower", "", "the lower grip must hold at least one end, or posts must bear the knot");
+}
+
+/// The grips pull along z.
+void check_held_ends(const KnotReader& reader, const KnotDrawing& knot) {
+  for (std::size_t k = 0; k < knot.strands.size(); ++k)
+    for (const bool last : {false, true}) {
+      const KnotDrawing::Strand& strand = knot.strands[k];
+      const std::string& name = strand.ends[last ? 1 : 0];
+      const KnotDrawing::End held = knot.held(name);
+      if (held == KnotDrawing::End::kFree) continue;
+      const std::vector<Vec3>& points = strand.points;
+      const Vec3 way = last ? points.back() - points[points.size() - 2] : points.front() - points[1];
+      const bool up = held == KnotDrawing::End::kUpper;
+      if (way.head<2>().norm() > kOffAxis || (way[2] > 0.0) != up)
+        reader.refuse("strands." + std::to_string(k) + ".points", name,
+                      "the end " + shown(name) + " is held by the " + (up ? "upper" : "lower") +
+                          " grip, so its last two points must lead straight " + (up ? "up" : "down") + " along z");
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& file, const std::string& name) {
+  const YAML::Node root = read_yaml(file);
+  const KnotReader reader(file.string());
+  Reader top(root, file.string(), "", "a knot");
+  KnotDrawing out;
+  out.name = name;
+  out.title = name;
+  top.text("title", out.title);
+  top.text("use", out.use);
+  top.text("source", out.source);
+  const auto names = [&](const std::string& key, const YAML::Node& node) { return reader.name(key, node); };
+  const auto strand = [&](const std::string& key, const YAML::Node& node) { return reader.strand(key, node); };
+  const auto post = [&](const std::string& key, const YAML::Node& node) { return reader.post(key, node); };
+  const auto pulls = [&](const std::string& key, const YAML::Node& node) {
+    if (!node.IsMap() || node.size() == 0) reader.refuse(key, node, "a map such as {tail: 1}");
+    std::vector<KnotDrawing::Pull> together;
+    for (const auto& item : node)
+      together.push_back({reader.name(key, item.first), reader.number(key, item.second, 1e-3, 1e3)});
+    return together;
+  };
+  out.strands = list_of(reader, "strands", top.take("strands"), "a list of strands", strand);
+  out.lower = list_of(reader, "lower", top.take("lower"), "a list of names of ends", names);
+  out.upper = list_of(reader, "upper", top.take("upper"), "a list of names of ends", names);
+  out.posts = list_of(reader, "posts", top.take("posts"), "a list of posts", post);
+  out.tie = list_of(reader, "tie", top.take("tie"), "a list of maps such as {tail: 1}", pulls);
+  top.finish();
+  if (out.strands.empty()) reader.refuse("strands", "", "a knot must have at least one strand");
+  check_names(reader, out);
+  check_held_ends(reader, out);
+  YAML::Node shape = YAML::Clone(root);
+  for (const char* words : {"title", "use", "source"}) shape.remove(words);
+  out.text = YAML::Dump(shape);
+  return std::make_shared<const KnotDrawing>(std::move(out));
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,185 @@
+#include "knot_utm/specimen/knot_drawing.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "knot_utm/contact/sampled_centreline.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/limit_text.hpp"
+#include "path.hpp"
+#include "shape_checks.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kStraightToGrip = 4.0;  // of a held strand, at least, between its last point and its grip [h]
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Where a curve through four points is at `t`, from 0 at the second to 1 at the third (Barry and Goldman's pyramid,
+/// with knots whose distances are the square roots of those of the points).
+Vec3 catmull_rom(const Vec3 (&p)[4], double t) {
+  double knot[4] = {0.0};
+  for (int i = 1; i < 4; ++i) knot[i] = knot[i - 1] + std::sqrt((p[i] - p[i - 1]).norm());
+  const double u = knot[1] + t * (knot[2] - knot[1]);
+  const auto between = [&](const Vec3& a, const Vec3& b, int i, int j) -> Vec3 {
+    return ((knot[j] - u) * a + (u - knot[i]) * b) / (knot[j] - knot[i]);
+  };
+  const Vec3 a = between(p[0], p[1], 0, 1), b = between(p[1], p[2], 1, 2), c = between(p[2], p[3], 2, 3);
+  return between(between(a, b, 0, 2), between(b, c, 1, 3), 1, 2);
+}
+
+/// A drawing in metres, with the lower grip at z = 0.
+class Drawer {
+ public:
+  Drawer(const KnotDrawing& drawing, const DrawnSize& size)
+      : drawing_(drawing), size_(size), origin_(height_of_origin(drawing, size)) {}
+
+  Points strand(const KnotDrawing::Strand& strand) const {
+    const double spacing = drawing_spacing(size_.radius, size_.edge_length);
+    std::vector<Vec3> points;
+    for (const Vec3& point : strand.points) points.push_back(placed(point));
+    const Vec3 begin = run_out(strand.ends[0], points[0], points[1]),
+               end = run_out(strand.ends[1], points.back(), points[points.size() - 2]);
+    Path path(spacing);
+    path.add(begin);
+    const std::size_t last = points.size() - 1;
+    for (std::size_t i = 0; i < last; ++i) {
+      // Beyond its ends the strand runs on straight.
+      const Vec3 p[4] = {i == 0 ? ahead(points[0], begin, points[1]) : points[i - 1], points[i], points[i + 1],
+                         i + 1 == last ? ahead(points[last], end, points[last - 1]) : points[i + 2]};
+      path.add_curve((p[2] - p[1]).norm(), [&](double t) { return catmull_rom(p, t); });
+    }
+    path.add(end);
+    const EdgeGrading even{size_.edge_length, {}};
+    return Resampled(path, smoothed(path, size_.radius, spacing), even).points;
+  }
+
+  Vec3 placed(const Vec3& point) const { return size_.radius * point + origin_ * Vec3::UnitZ(); }
+
+  /// Where an end's strand ends, which comes from `before` to its last point.
+  Vec3 run_out(const std::string& end, const Vec3& last, const Vec3& before) const {
+    switch (drawing_.held(end)) {
+      case KnotDrawing::End::kLower:
+        return {last[0], last[1], 0.0};
+      case KnotDrawing::End::kUpper:
+        return {last[0], last[1], size_.end_to_end};
+      case KnotDrawing::End::kFree:
+        break;
+    }
+    return last + size_.tail * (last - before).normalized();
+  }
+
+ private:
+  /// On the way from `from` to `towards`, as far away as `other` is.
+  static Vec3 ahead(const Vec3& from, const Vec3& towards, const Vec3& other) {
+    return from + (other - from).norm() * (towards - from).normalized();
+  }
+
+  const KnotDrawing& drawing_;
+  const DrawnSize& size_;
+  double origin_;
+};
+
+void check_posts(const KnotDrawing& drawing, const DrawnSize& size, const Centreline& rod) {
+  const double h = size.radius;
+  const Vec3 origin(0.0, 0.0, height_of_origin(drawing, size));
+  for (const KnotDrawing::Post& post : drawing.posts) {
+    const Points away = rod.points.colwise() - (h * post.through + origin);
+    const Eigen::RowVectorXd along = post.along.transpose() * away;
+    const double nearest = std::sqrt((away.colwise().squaredNorm() - along.cwiseAbs2()).minCoeff());
+    const double least = (post.radius + 1.0) * h;
+    if (nearest < 0.99 * least)
+      throw InvalidInput::sentence("specimen.knot", drawing.name,
+                                   "specimen.knot " + shown(drawing.name) + ": a strand comes as near as " +
+                                       text(nearest / h) + " radii to the axis of a post, but must stay " +
+                                       text(least / h) + " radii away from it");
+  }
+}
+
+/// The node of an end, and its neighbour on the strand.
+struct EndNode {
+  int node, next;
+};
+
+}  // namespace
+
+KnotDrawing::End KnotDrawing::held(const std::string& end) const {
+  if (contains(lower, end)) return End::kLower;
+  return contains(upper, end) ? End::kUpper : End::kFree;
+}
+
+double KnotDrawing::bottom() const {
+  if (lower.empty() && !posts.empty()) return posts.front().through[2];
+  double least = std::numeric_limits<double>::infinity();
+  for (const Strand& strand : strands)
+    for (const Vec3& point : strand.points) least = std::min(least, point[2]);
+  return least;
+}
+
+double KnotDrawing::top() const {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Strand& strand : strands)
+    for (const Vec3& point : strand.points) most = std::max(most, point[2]);
+  return most;
+}
+
+double least_end_to_end(const KnotDrawing& drawing, double radius) {
+  const double straight = drawing.lower.empty() ? kStraightToGrip : 2.0 * kStraightToGrip;
+  return (drawing.top() - drawing.bottom() + straight) * radius;
+}
+
+double height_of_origin(const KnotDrawing& drawing, const DrawnSize& size) {
+  if (drawing.lower.empty()) return -drawing.bottom() * size.radius;
+  return 0.5 * (size.end_to_end - (drawing.top() + drawing.bottom()) * size.radius);
+}
+
+Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
+  check_radius(size.radius);
+  check_edge_length(size.edge_length, size.radius);
+  const double least = least_end_to_end(drawing, size.radius);
+  if (!(size.end_to_end >= least))
+    throw InvalidInput("specimen.end_to_end", text(size.end_to_end),
+                       "at least " + least_text(least) + " m for knot: " + drawing.name);
+  const Drawer drawer(drawing, size);
+  std::vector<Points> strands;
+  Eigen::Index nodes = 0;
+  for (const KnotDrawing::Strand& strand : drawing.strands) {
+    strands.push_back(drawer.strand(strand));
+    nodes += strands.back().cols();
+  }
+  Centreline out;
+  out.points.resize(3, nodes);
+  std::vector<std::pair<std::string, EndNode>> ends;
+  int begin = 0;
+  for (std::size_t k = 0; k < strands.size(); ++k) {
+    const int end = begin + static_cast<int>(strands[k].cols());
+    out.points.middleCols(begin, strands[k].cols()) = strands[k];
+    if (k > 0) out.cuts.push_back(begin - 1);
+    ends.push_back({drawing.strands[k].ends[0], {begin, begin + 1}});
+    ends.push_back({drawing.strands[k].ends[1], {end - 1, end - 2}});
+    begin = end;
+  }
+  for (const auto& [name, at] : ends) {
+    if (contains(drawing.lower, name)) out.below.push_back({at.node, at.next});
+    if (contains(drawing.upper, name)) out.above.push_back({at.node, at.next});
+  }
+  for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) {
+    out.tied.emplace_back();
+    for (const KnotDrawing::Pull& pull : together)
+      for (const auto& [name, at] : ends)
+        if (name == pull.end)
+          out.tied.back().push_back(
+              {at.node, (out.points.col(at.node) - out.points.col(at.next)).normalized(), pull.fraction});
+  }
+  check_no_overlap(out, size.radius, "specimen.knot", drawing.name);
+  check_posts(drawing, size, out);
+  return out;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,140 @@
+// Knots from files: what a file says, and each line with which one is refused.
+
+#include "knot_utm/method/knot_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/method/method.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const std::string kBend = std::string(KNOT_UTM_SOURCE_DIR) + "/config/knot.yaml";
+
+const char* const kHooks = R"(title: Two hooks
+use: Holds nothing.
+strands:
+  - ends: [lower, lower_tail]
+    points: [[0, 0, -8], [0, 0, -4], [0, 1, 0], [3, 2, 2], [6, 1, 3], [9, 0, 3]]
+  - ends: [upper_tail, upper]
+    points: [[-6, 5, -6], [-4, 4, -3], [0, 4, -2], [4, -1, -1], [4, -2, 3], [4, -2, 7]]
+lower: [lower]
+upper: [upper]
+tie:
+  - {lower_tail: 1, upper_tail: 0.5}
+)";
+
+class KnotFile : public ::testing::Test {
+ protected:
+  KnotFile() : folder_(fs::path(::testing::TempDir()) / "knot_utm_knot_file") { fs::create_directories(folder_); }
+  ~KnotFile() override { fs::remove_all(folder_); }
+
+  std::string file() const { return (folder_ / "hooks.yaml").string(); }
+  void write(const std::string& text) const { std::ofstream(file()) << text; }
+
+  /// What is said of the file with one text for another.
+  std::string complaint(const std::string& from, const std::string& to) const {
+    std::string text = kHooks;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    write(text.replace(at, from.size(), to));
+    try {
+      read_knot_file(file(), "hooks");
+    } catch (const InvalidInput& refused) {
+      return refused.what();
+    }
+    return "";
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(KnotFile, IsReadAsItSays) {
+  write(kHooks);
+  const auto knot = read_knot_file(file(), "hooks");
+  EXPECT_EQ(knot->name, "hooks");
+  EXPECT_EQ(knot->title, "Two hooks");
+  ASSERT_EQ(knot->strands.size(), 2u);
+  EXPECT_EQ(knot->strands[0].points[3], Vec3(3, 2, 2));
+  EXPECT_EQ(knot->held("upper"), KnotDrawing::End::kUpper);
+  EXPECT_EQ(knot->held("upper_tail"), KnotDrawing::End::kFree);
+  ASSERT_EQ(knot->tie.size(), 1u);
+  EXPECT_EQ(knot->tie[0][1].fraction, 0.5);
+}
+
+TEST_F(KnotFile, ItsTextIsThatOfWhatIsTiedAndNotOfItsWords) {
+  write(kHooks);
+  const std::string text = read_knot_file(file(), "hooks")->text;
+  std::string other = kHooks;
+  write(other.replace(other.find("Two hooks"), 9, "Hooks"));
+  EXPECT_EQ(read_knot_file(file(), "hooks")->text, text);
+  write(other.replace(other.find("0.5"), 3, "0.6"));
+  EXPECT_NE(read_knot_file(file(), "hooks")->text, text);
+}
+
+TEST_F(KnotFile, IsRefusedByOneLineWithFileKeyAndReason) {
+  EXPECT_THAT(complaint("[lower, lower_tail]", "[upper, lower_tail]"),
+              HasSubstr("hooks.yaml: strands: two ends are called upper"));
+  EXPECT_THAT(complaint("[lower, lower_tail]", "[lower]"),
+              HasSubstr("strands.0.ends is [lower], but must be a list of two names"));
+  EXPECT_THAT(complaint("upper: [upper]", "upper: [top]"),
+              HasSubstr("upper: no end is called top; the ends are lower, "));
+  EXPECT_THAT(complaint("upper: [upper]", "upper: [lower]"), HasSubstr("upper: lower is held or pulled already"));
+  EXPECT_THAT(complaint("upper: [upper]\n", ""), HasSubstr("upper: the upper grip must hold at least one end"));
+  EXPECT_THAT(complaint("lower: [lower]\n", ""),
+              HasSubstr("lower: the lower grip must hold at least one end, or posts"));
+  EXPECT_THAT(complaint("lower_tail: 1,", "tail: 1,"), HasSubstr("tie: no end is called tail"));
+  EXPECT_THAT(complaint("lower_tail: 1,", "lower: 1,"), HasSubstr("tie: lower is held or pulled already"));
+  EXPECT_THAT(complaint("lower_tail: 1,", "lower_tail: -1,"), HasSubstr("tie.0 is -1, but must be a number from"));
+  EXPECT_THAT(complaint("[0, 1, 0]", "[0, 1]"), HasSubstr("strands.0.points.2"));
+  EXPECT_THAT(complaint("[0, 1, 0]", "[0, one, 0]"), HasSubstr("strands.0.points.2"));
+  EXPECT_THAT(complaint("[0, 1, 0]", "[0, 0, -4]"), HasSubstr("the same point as the one before it"));
+  EXPECT_THAT(complaint("[0, 0, -8]", "[0, 1, -8]"), HasSubstr("must lead straight down along z"));
+  EXPECT_THAT(complaint("use:", "used:"), HasSubstr("used"));
+}
+
+TEST_F(KnotFile, IsNamedInAMethodByItsPath) {
+  write(kHooks);
+  const Method method = load_method(kBend, {"specimen.knot=" + file()});
+  ASSERT_TRUE(method.specimen.drawing);
+  EXPECT_EQ(method.specimen.drawing->name, file());
+  EXPECT_THAT(method_yaml(method), HasSubstr("knot: " + file()));
+}
+
+TEST(KnotFileName, ThatNobodyKnowsIsRefusedWithThoseThatAreKnown) {
+  try {
+    load_method(kBend, {"specimen.knot=reeff"});
+    FAIL();
+  } catch (const InvalidInput& refused) {
+    EXPECT_THAT(refused.what(), HasSubstr("specimen.knot"));
+    EXPECT_THAT(refused.what(), HasSubstr("fisherman"));
+    EXPECT_THAT(refused.what(), HasSubstr("reef"));
+  }
+}
+
+TEST(ShippedKnots, FitBetweenTheGripsAtTheirDefaults) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knots")) {
+    const std::string name = entry.path().stem().string();
+    for (const char* material : {"nylon", "pink_vps", "dyneema_2mm"}) {
+      const Method method = load_method(kBend, {"specimen.knot=" + name, std::string("material=") + material});
+      EXPECT_EQ(method.specimen.drawing->name, name);
+      EXPECT_FALSE(method.specimen.drawing->use.empty()) << name;
+      EXPECT_NO_THROW(specimen_centreline(method.specimen, method.material, method.machine, method.physics)) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,109 @@
+// A knot that is drawn through points: where its ropes lie, and what is refused.
+
+#include "knot_utm/specimen/knot_drawing.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/specimen/polyline.hpp"
+
+namespace knot_utm {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr DrawnSize kSize{0.003, 0.3, 0.05, 0.003};
+
+/// Two elbows that hang in each other: the simplest bend there is.
+KnotDrawing hooks() {
+  KnotDrawing out;
+  out.name = "hooks";
+  out.strands = {
+      {{"lower", "lower_tail"}, {{0, 0, -8}, {0, 0, -4}, {0, 1, 0}, {3, 2, 2}, {6, 1, 3}, {9, 0, 3}}},
+      {{"upper_tail", "upper"}, {{-6, 5, -6}, {-4, 4, -3}, {0, 4, -2}, {4, -1, -1}, {4, -2, 3}, {4, -2, 7}}}};
+  out.lower = {"lower"};
+  out.upper = {"upper"};
+  out.tie = {{{"lower_tail", 1.0}}, {{"upper_tail", 0.5}}};
+  return out;
+}
+
+TEST(KnotDrawing, RunsFromGripToGripAndItsTailsRunOnStraight) {
+  const Centreline rod = draw(hooks(), kSize);
+  ASSERT_EQ(rod.cuts.size(), 1u);
+  const int cut = rod.cuts[0], last = static_cast<int>(rod.points.cols()) - 1;
+  EXPECT_NEAR(rod.points(2, 0), 0.0, 1e-12);
+  EXPECT_NEAR(rod.points(2, last), kSize.end_to_end, 1e-12);
+  ASSERT_EQ(rod.below.size(), 1u);
+  ASSERT_EQ(rod.above.size(), 1u);
+  EXPECT_EQ(rod.below[0].node, 0);
+  EXPECT_EQ(rod.above[0].node, last);
+  // The last point and the way that leads there, as drawn; the knot lies half-way between the grips.
+  const Vec3 middle(0.0, 0.0, 0.5 * kSize.end_to_end + 0.5 * kSize.radius);
+  const Vec3 end = kSize.radius * Vec3(9, 0, 3) + middle + kSize.tail * Vec3(3, -1, 0).normalized();
+  EXPECT_NEAR((rod.points.col(cut) - end).norm(), 0.0, 1e-9);
+}
+
+TEST(KnotDrawing, PullsItsTailsOutwardsInOrder) {
+  const Centreline rod = draw(hooks(), kSize);
+  ASSERT_EQ(rod.tied.size(), 2u);
+  EXPECT_EQ(rod.tied[0][0].node, rod.cuts[0]);
+  EXPECT_EQ(rod.tied[1][0].node, rod.cuts[0] + 1);
+  EXPECT_EQ(rod.tied[1][0].fraction, 0.5);
+  EXPECT_NEAR(rod.tied[0][0].direction.dot(Vec3(3, -1, 0).normalized()), 1.0, 1e-6);
+}
+
+TEST(KnotDrawing, GoesThroughItsPointsAsFarAsItsBendsAreRoundedOff) {
+  const Centreline rod = draw(hooks(), kSize);
+  for (const KnotDrawing::Strand& strand : hooks().strands)
+    for (const Vec3& point : strand.points) {
+      const Vec3 place = kSize.radius * point + (0.15 + 0.0015) * Vec3::UnitZ();
+      // A Gaussian of one radius moves a bend of four radii by an eighth of a radius, and edges are one radius long.
+      EXPECT_LT((rod.points.colwise() - place).colwise().norm().minCoeff(), 0.8 * kSize.radius);
+    }
+}
+
+TEST(KnotDrawing, HasEdgesOfTheLengthThatIsAskedFor) {
+  const Centreline rod = draw(hooks(), kSize);
+  for (Eigen::Index i = 0; i + 1 < rod.points.cols(); ++i) {
+    if (i == rod.cuts[0]) continue;
+    EXPECT_NEAR((rod.points.col(i + 1) - rod.points.col(i)).norm(), kSize.edge_length, 3e-4);
+  }
+}
+
+TEST(KnotDrawing, IsRefusedWhereStrandsOverlap) {
+  KnotDrawing knot = hooks();
+  for (Vec3& point : knot.strands[1].points) point[1] -= 3.0;
+  try {
+    draw(knot, kSize);
+    FAIL();
+  } catch (const InvalidInput& refused) {
+    EXPECT_THAT(refused.what(), HasSubstr("specimen.knot hooks: strands overlap at "));
+  }
+}
+
+TEST(KnotDrawing, IsRefusedWhereItHasNoRoomBetweenTheGrips) {
+  DrawnSize size = kSize;
+  size.end_to_end = 0.9 * least_end_to_end(hooks(), size.radius);
+  EXPECT_THROW(draw(hooks(), size), InvalidInput);
+  size.end_to_end = least_end_to_end(hooks(), size.radius);
+  EXPECT_NO_THROW(draw(hooks(), size));
+}
+
+TEST(KnotDrawing, StandsOnItsFirstPostWhereTheLowerGripHoldsNoEnd) {
+  KnotDrawing knot;
+  knot.name = "hook";
+  knot.strands = {
+      {{"tail", "upper"}, {{-5, 0, 8}, {-5, 0, 4}, {-5, 0, 0}, {0, 0, -5}, {5, 0, 0}, {5, 0, 4}, {5, 0, 8}}}};
+  knot.upper = {"upper"};
+  knot.posts = {{Vec3(0, 0, 1), Vec3::UnitY(), 2.0}};
+  EXPECT_NEAR(height_of_origin(knot, kSize), -0.003, 1e-12);
+  EXPECT_NO_THROW(draw(knot, kSize));
+  knot.posts[0].radius = 6.0;
+  EXPECT_THROW(draw(knot, kSize), InvalidInput);
+}
+
+}  // namespace
+}  // namespace knot_utm
