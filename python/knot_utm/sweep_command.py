@@ -32,9 +32,6 @@ def main(words):
 
 
 def _tell(work, table):
-    if work.begun:
-        print(f"{len(work.begun)} runs began with tied specimens that they share, {len(set(work.begun))} in all, which saved "
-              f"{work.saved():.1f} s of computing")
     out = os.path.relpath(work.folder.path)
     if out.startswith(os.pardir):
         out = work.folder.path
