@@ -1,7 +1,7 @@
 """A study, run by run, on all cores; and its parts, for those who start the runs in another way."""
 import os
 
-from knot_utm import tool
+from knot_utm import mixed, tool
 from knot_utm.address import Addresses
 from knot_utm.errors import WrongInput
 from knot_utm.plots import require_plottable, write_plots
@@ -95,6 +95,8 @@ class Sweep:
         frame = table.frame()
         with work.stopping():
             table.write(self.folder.path)
+            if study.mixed and table.rows:
+                mixed.write(frame, study, self.folder.path)
             for result in self.plots if table.rows else ():
                 write_plots(frame, study, result, self.folder.path, self.folder)
         return frame
