@@ -2,7 +2,7 @@
 import os
 import sys
 
-from knot_utm import tool
+from knot_utm import mixed, tool
 from knot_utm.command_line import parsed, parser_of, say
 from knot_utm.errors import Interrupted, WrongInput
 from knot_utm.sweeping import Sweep
@@ -32,14 +32,13 @@ def main(words):
 
 
 def _tell(work, table):
-    if work.begun:
-        print(f"{len(work.begun)} runs began with tied specimens that they share, {len(set(work.begun))} in all, which saved "
-              f"{work.saved():.1f} s of computing")
     out = os.path.relpath(work.folder.path)
     if out.startswith(os.pardir):
         out = work.folder.path
     failed = int((table["exit_code"] != 0).sum())
     print(f"{len(table)} runs, {failed} of which failed: the table is in {out}/table.csv and {out}/table.h5")
+    if work.study.mixed:
+        print(f"the means of {work.study.mixed} are in {out}/{mixed.FILE}")
 
 
 def _arguments(words):

@@ -30,16 +30,14 @@ class SweepFolder:
         self.runs = os.path.join(path, "runs")
         if not os.path.isdir(self.runs) and (taken := [name for name in TABLES if os.path.lexists(os.path.join(path, name))]):
             raise WrongInput(f"{os.path.join(path, taken[0])} exists already and is not of a sweep: choose another folder")
-        self._tied = os.path.join(path, "tied")
 
     @contextlib.contextmanager
     def claimed(self):
         """For one sweep alone; what a killed one left is cleared away. Raises WrongInput where others are at work."""
         with self._locked(fcntl.LOCK_EX):
-            for folder in (self.runs, self._tied):
-                for name in os.listdir(folder):
-                    if name.startswith("."):
-                        shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
+            for name in os.listdir(self.runs):
+                if name.startswith("."):
+                    shutil.rmtree(os.path.join(self.runs, name), ignore_errors=True)
             yield
 
     def shared(self):
@@ -49,8 +47,7 @@ class SweepFolder:
     @contextlib.contextmanager
     def _locked(self, kind):
         try:
-            for folder in (self.runs, self._tied):
-                os.makedirs(folder, exist_ok=True)
+            os.makedirs(self.runs, exist_ok=True)
         except (FileExistsError, NotADirectoryError, PermissionError) as error:
             raise WrongInput(f"cannot make the folder {error.filename}: {error.strerror.lower()}") from error
         with open(os.path.join(self.path, ".lock"), "w", encoding="utf-8") as lock:
@@ -62,10 +59,6 @@ class SweepFolder:
 
     def of(self, run):
         return os.path.join(self.runs, run)
-
-    def tied(self, name):
-        """Of a beginning that runs share."""
-        return os.path.join(self._tied, name)
 
     def record(self, run):
         """{exit_code, error, set, version} of a run that has ended, and readings where they are not all; None of any other."""
@@ -101,10 +94,9 @@ class SweepFolder:
         return os.path.join(self.of(run), name)
 
     @contextlib.contextmanager
-    def making(self, place):
-        """A hidden folder beside `place`, that of a run or of a beginning, in which to make it; gone in the end where it was
-        not put there."""
-        part = tempfile.mkdtemp(prefix=f".{os.path.basename(place)}.", dir=os.path.dirname(place))
+    def making(self, run):
+        """A hidden folder in which to make a run; gone in the end where that was not kept."""
+        part = tempfile.mkdtemp(prefix=f".{run}.", dir=self.runs)
         try:
             yield part
         finally:
@@ -114,14 +106,10 @@ class SweepFolder:
         shutil.rmtree(part)
         os.mkdir(part)
 
-    def put(self, part, place):
-        """What was made is whole: it goes where it belongs, instead of what may be there."""
-        os.chmod(part, 0o755)  # mkdtemp's are for nobody else
-        shutil.rmtree(place, ignore_errors=True)
-        os.rename(part, place)
-
     def finish(self, part, run, record):
-        """Keeps a run that was made."""
+        """Keeps a run that was made, instead of one that may be there."""
         with open(os.path.join(part, RECORD), "w", encoding="utf-8") as file:
             yaml.safe_dump(record, file, sort_keys=False, allow_unicode=True)
-        self.put(part, self.of(run))
+        os.chmod(part, 0o755)  # mkdtemp's are for nobody else
+        shutil.rmtree(self.of(run), ignore_errors=True)
+        os.rename(part, self.of(run))

@@ -1,16 +1,14 @@
 """A study, run by run, on all cores; and its parts, for those who start the runs in another way."""
 import os
 
-from knot_utm import tool
+from knot_utm import mixed, tool
 from knot_utm.address import Addresses
 from knot_utm.errors import WrongInput
 from knot_utm.plots import require_plottable, write_plots
-from knot_utm.sharing import beginnings
 from knot_utm.study import load_study
 from knot_utm.sweep_folder import SweepFolder
 from knot_utm.table import Table
 from knot_utm.work import Work
-from knot_utm.yaml_text import load
 
 SPECIMEN = "specimen"  # the column that tells repeats apart
 
@@ -37,11 +35,6 @@ class Sweep:
         addresses = Addresses(self.study.method)
         self.names = [addresses.of(settings) for settings in self.study.settings]
         self.runs = dict(zip(self.names, self.study.settings))
-        # Of a batch every specimen is another one.
-        shared = beginnings(self.study.method, list(self.runs.values())) if self.study.repeat == 1 else []
-        self.beginnings = {run: (addresses.of({**beginning.shared, "--stop-before": beginning.step}), beginning)
-                           for run, beginning in zip(self.runs, shared) if beginning is not None}
-        self.begun = []  # names of the beginnings that runs began with
 
     def all(self, jobs):
         """All parts: checks, runs what is open, writes the table and returns it."""
@@ -76,15 +69,8 @@ class Sweep:
             work.require_all()
         return frame
 
-    def saved(self):
-        """What it saved to compute shared beginnings once: the time they took, for each run that began with one but the first [s]."""
-        return sum((self.begun.count(name) - 1) * load(os.path.join(self.folder.tied(name), "result.yaml"))["wall_time"]
-                   for name in set(self.begun))
-
     def _work(self):
-        work = Work(self.study, self.folder, list(self.runs), self.beginnings, self.readings)
-        self.begun = work.begun
-        return work
+        return Work(self.study, self.folder, list(self.runs), self.readings)
 
     def _require_same_readings(self):
         """Raises WrongInput where the runs that are there were made for other readings: one table has one kind."""
@@ -109,6 +95,8 @@ class Sweep:
         frame = table.frame()
         with work.stopping():
             table.write(self.folder.path)
+            if study.mixed and table.rows:
+                mixed.write(frame, study, self.folder.path)
             for result in self.plots if table.rows else ():
                 write_plots(frame, study, result, self.folder.path, self.folder)
         return frame

@@ -3,7 +3,6 @@ import contextlib
 import os
 import signal
 import threading
-from collections import Counter
 
 from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
@@ -17,13 +16,11 @@ INTERRUPTED = "interrupted"  # the reason of a run that may go on
 class Work(Runner):
     """What is done for a study, until it is done or stopped."""
 
-    def __init__(self, study, folder, runs, beginnings, readings=None):
-        """`runs`: the names of all; `beginnings`: {run: (name, Beginning)} of those that share one; `readings`: the word of
-        tensile_test's option, or None."""
+    def __init__(self, study, folder, runs, readings=None):
+        """`runs`: the names of all; `readings`: the word of tensile_test's option, or None."""
         super().__init__()
-        self.study, self.folder, self.runs, self.beginnings, self.readings = study, folder, runs, beginnings, readings
+        self.study, self.folder, self.runs, self.readings = study, folder, runs, readings
         self._options = ("--readings", readings) if readings else ()
-        self.begun = []  # names of the beginnings that runs began with
         self._handlers = {}
 
     def __enter__(self):
@@ -60,50 +57,23 @@ class Work(Runner):
             raise WrongInput(f"{self.study.file}: the run with {described(point)} would be refused: {why}{more}")
 
     def run(self, points, jobs):
-        """Makes each of them, and before that each beginning that several of them share."""
-        shared = dict(self.beginnings[run] for run in points if run in self.beginnings)
-        wanted = Counter(self.beginnings[run][0] for run in points if run in self.beginnings)
-        self.each(self._tie, [(name, beginning) for name, beginning in shared.items()
-                              if wanted[name] > 1 and not os.path.exists(self.folder.tied(name))], jobs, "tied")
+        """Makes each of them."""
         self.each(self._make, points.items(), jobs, "run")
 
     def _refusal(self, _run, point):
         return None if self.stopped else tool.refusal(self.study.method, point, *self._options)
 
-    def _tie(self, name, beginning):
-        """A beginning, up to the step before which it stops. Where it comes to nothing, the runs say why."""
-        place = self.folder.tied(name)
-        if self.stopped:
-            return
-        with self.stopping(), self.folder.making(place) as part:
-            code, said = self._wait(beginning.point, part, "--stop-before", str(beginning.step))
-            if code > 0 and tool.is_of_a_full_disk(said):
-                self.stop(said.partition(";")[0].replace(part, place))
-            elif code == 0 and not self.stopped and os.path.exists(os.path.join(part, "checkpoint")):
-                self.folder.put(part, place)
-
     def _make(self, run, point):
         """One run, to the end or until it is stopped."""
         if self.stopped:
             return
-        with self.stopping(), self.folder.making(self.folder.of(run)) as part:
-            code, said = self._go_on(run, point, part) or self._wait(point, part, *self._options)
+        with self.stopping(), self.folder.making(run) as part:
+            code, said = self._wait(point, part)
             if not self.stopped:
                 self._keep(part, run, point, code, said.replace(part, self.folder.of(run)))
 
-    def _go_on(self, run, point, part):
-        """The same with the beginning that it shares; None where there is none that suits it."""
-        name = self.beginnings[run][0] if run in self.beginnings else ""
-        if not name or not os.path.exists(self.folder.tied(name)):
-            return None
-        code, said = self._wait(point, part, "--begin-with", self.folder.tied(name), *self._options)
-        if code == tool.REFUSED:
-            return None
-        self.begun.append(name)
-        return code, said
-
-    def _wait(self, point, part, *more):
-        return self.wait(self.study.method, point, part, *more, *(("--jobs", "1") if self.study.repeat > 1 else ()))
+    def _wait(self, point, part):
+        return self.wait(self.study.method, point, part, *self._options, *(("--jobs", "1") if self.study.repeat > 1 else ()))
 
     def _keep(self, part, run, point, code, said):
         """What became of a run that ended by itself, or was ended by another than the sweep."""

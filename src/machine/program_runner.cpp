@@ -92,18 +92,6 @@ double ProgramRunner::time_left() const {
   return left;
 }
 
-void ProgramRunner::state(Archive& archive) {
-  archive.section("PRG7");  // "PRG6" had what each step remembers beside each other
-  archive.same("steps of the program", static_cast<std::int64_t>(program_.size()));
-  int step = static_cast<int>(step_);
-  archive.number("step of the program", step, 0, static_cast<int>(program_.size()) - 1);
-  archive.number("answers of an undone knot", undone_answers_, 0, kUndoneAnswers);
-  step_ = static_cast<std::size_t>(step);
-  program_[step_]->state(archive);
-  archive(course_, break_detector_, reason_);
-  archive.choice("end of the test", ended_by_, EndedBy::kPlateau);
-}
-
 void ProgramRunner::end(EndedBy by, std::string reason) {
   if (ended()) return;
   ended_by_ = by;

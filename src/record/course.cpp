@@ -81,11 +81,4 @@ void CrossheadCourse::accept(const Command& command) {
   balance_next_ = false;
 }
 
-void CrossheadCourse::state(Archive& archive) {
-  archive(last_, begin_, begin_load_, wanted_load, balance_offset_, balance_next_, gain_.extension, gain_.displacement,
-          gain_.value);
-  archive.require(gain_.value >= kLeastGain && gain_.value <= 1.0, "gain of the frame", std::to_string(gain_.value));
-  archive(leg_.begin, leg_.displacement, leg_.velocity, load_control_);
-}
-
 }  // namespace knot_utm

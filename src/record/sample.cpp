@@ -23,7 +23,7 @@ void PerKnot::state(Archive& archive) {
   for (std::size_t k = 0; k < size_; ++k) archive(values_[k]);
 }
 
-// In the order of a checkpoint: another one is another version of it.
+// In the order of a saved state: another one is another version of it.
 void Command::state(Archive& archive) {
   archive(sequence, time, displacement, velocity, step);
   archive.choice("phase", phase, last_of(phase));

@@ -31,10 +31,9 @@ constexpr const char* kSpecimen = "specimen_";  // and a number, the folder of o
 /// What a run writes over when it begins, or leaves to who made it.
 constexpr std::array<const char*, 3> kWritten{"method.yaml", "specimen.csv", "comparison.yaml"};
 /// What it takes away when it begins.
-constexpr std::array<const char*, 15> kOld{"samples.csv",     "shapes.bin",      "curve.csv",  "curve_full.csv",
-                                           "result.yaml",     "final_shape.csv", "shapes.csv", "test.bag",
-                                           "saved.bag",       "report.html",     "report.pdf", kFailedStep,
-                                           "statistics.yaml", "specimens.csv",   "checkpoint"};
+constexpr std::array<const char*, 14> kOld{
+    "samples.csv", "shapes.bin", "curve.csv",   "curve_full.csv", "result.yaml", "final_shape.csv", "shapes.csv",
+    "test.bag",    "saved.bag",  "report.html", "report.pdf",     kFailedStep,   "statistics.yaml", "specimens.csv"};
 
 /// What `compare --report` left; curves a.csv and b.csv without its comparison.yaml are somebody else's.
 void remove_comparison(const fs::path& folder) {

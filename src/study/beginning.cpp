@@ -1,7 +1,6 @@
 #include "knot_utm/study/beginning.hpp"
 
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 namespace {
@@ -14,18 +13,15 @@ std::string bytes_of(Command command) {
 
 }  // namespace
 
-std::string Beginning::follow(ProgramRunner& program) const {
-  std::string why;
+bool Beginning::follow(ProgramRunner& program) const {
+  bool asks = true;
   each_([&](const Record& record) {
-    if (!why.empty()) return;
-    if (bytes_of(record.command) != bytes_of(program.last())) {
-      why = "the programs differ from " + format_number(record.command.time) + " s on, before that run stopped";
-      return;
-    }
+    asks = asks && bytes_of(record.command) == bytes_of(program.last());
+    if (!asks) return;
     program.next(record.answer);
-    if (program.ended()) why = "this test ends before that run stopped";
+    asks = !program.ended();
   });
-  return why;
+  return asks;
 }
 
 double Beginning::replay(SamplesWriter& samples, const Visitor& also) const {

@@ -4,12 +4,10 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "earlier_run.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/twisting.hpp"
-#include "knot_utm/run/checkpoint.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/samples.hpp"
@@ -60,11 +58,6 @@ struct Test {
   std::optional<TiedSpecimen>& ties;          ///< what it ties, where that is to be kept
 };
 
-/// Before this command the test is to stop.
-bool stops_here(const Test& test) {
-  return test.options.stop_before && test.program.last().step >= *test.options.stop_before;
-}
-
 /// The files of the run in a folder, with the margin where the method asks for it and the knots slide.
 MadeResults make_with_margin(const std::string& folder, const Method& method, const HeadlessOptions& options,
                              bool ran_here) {
@@ -99,7 +92,7 @@ void pull(const Test& test, SamplesWriter& samples, EarlyEnd& early, const WallC
       },
       [&] {
         if (test.ties) test.ties->keep(test.bench, test.program);
-        return stops_here(test) || test.options.interrupted();
+        return test.options.interrupted();
       });
 }
 
@@ -113,9 +106,6 @@ HeadlessOutcome run_to_end(const Test& test) {
   HeadlessOutcome out;
   out.folder = test.folder;
   if (test.program.ended()) out.ended = test.program.ended_by();
-  // Before anything that takes long: a second Ctrl-C ends the program.
-  if (!out.ended && stops_here(test))
-    Checkpoint(test.folder, method_file_text(test.method)).write(test.bench, test.program);
   if (!out.ended) test.program.stop();
   out.reason = test.program.reason();
   out.failed = test.program.failed();
@@ -140,13 +130,10 @@ ClaimedFolder RunOptions::claim() const {
 
 namespace {
 
-/// The specimen that the test ties, where a cache may have it. None of a test that begins with another one, or stops
-/// before the specimen is tied.
+/// The specimen that the test ties, where a cache may have it.
 std::optional<TiedSpecimen> tied_by(const Method& method, const HeadlessOptions& options) {
-  if (!options.cache || !options.begin_with.empty()) return std::nullopt;
-  std::optional<TiedSpecimen> tied = TiedSpecimen::of(method, options.writes_shapes(), *options.cache);
-  if (tied && options.stop_before && *options.stop_before < tied->step()) return std::nullopt;
-  return tied;
+  if (!options.cache) return std::nullopt;
+  return TiedSpecimen::of(method, options.writes_shapes(), *options.cache);
 }
 
 }  // namespace
@@ -159,12 +146,8 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   require_no_record_in(options.folder, method);  // before anything is written
   std::optional<Beginning> beginning;
   std::optional<TiedSpecimen> ties = tied_by(method, options);
-  if (!options.begin_with.empty())
-    beginning = begin_with_earlier(options.begin_with, options.folder, method, bench, program);
-  else if (ties)
-    beginning = ties->take_up(method, bench, program);
-  const bool taken_up = ties && beginning;
-  if (taken_up) ties.reset();
+  if (ties) beginning = ties->take_up(method, bench, program);
+  if (beginning) ties.reset();
   const ClaimedFolder claimed = options.claim();
   begin_run_folder(claimed.path(), method, words_of(options.readings));
   // The shape that the last run left in this folder is there no longer, but for its copy.
@@ -172,7 +155,7 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
     method.specimen.file = (std::filesystem::path(claimed.path()) / "specimen.csv").string();
   const Test test{method, options, claimed.path(), bench, program, beginning, ties};
   for (const std::string& warning : foreseen_warnings(method)) options.tell(warning);
-  if (taken_up && options.remark)
+  if (beginning && options.remark)
     options.remark("the tied specimen was taken from the cache (--no-cache ties it anew)");
   try {
     return run_to_end(test);

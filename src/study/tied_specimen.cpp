@@ -66,7 +66,7 @@ std::optional<Beginning> TiedSpecimen::take_up(const Method& method, TestingMach
       for (const Record& record : *records) visit(record);
     });
     ProgramRunner followed = program;
-    if (!beginning.follow(followed).empty() || followed.last().step != step_) return std::nullopt;
+    if (!beginning.follow(followed) || followed.last().step != step_) return std::nullopt;
     begun = true;
     archive(bench);
     archive.end();

@@ -46,7 +46,7 @@ inline std::string command_line_fault(const CLI::App& app, const std::string& to
     return "\"" + shown(unknown.front()) + "\" is one argument too many; see " + program_called(app) + " --help";
   constexpr std::size_t kNone = std::string::npos;
   std::string said = shown(error.what());
-  const std::string number = "Could not convert: ";  // --checkpoint = abc
+  const std::string number = "Could not convert: ";  // --jobs = abc
   if (said.rfind(number, 0) == 0) said = said.substr(number.size());
   const std::string name = said.substr(0, said.find_first_of(": "));
   const CLI::Option* option = app.get_option_no_throw(name);

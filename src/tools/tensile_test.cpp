@@ -57,8 +57,6 @@ struct Arguments {
   std::string out;
   std::string resume;        // the folder of a batch; empty: a new test
   std::string from_samples;  // the folder of a run, whose results are made anew; no test
-  std::string begin_with;    // the folder of a run that stopped; empty: from the start
-  std::string stop_before;   // a step of the program; empty: none
   std::string show;          // a folder, of which the main readings are printed; no test
   std::string readings;      // the word of --readings; empty: all
   int specimens = 0;         // 0: as many as the method says
@@ -122,20 +120,6 @@ void tell_end(const HeadlessOutcome& outcome, const Method& method, const std::s
                  what_keeps_a_knot(method).c_str());
 }
 
-std::optional<int> step_to_stop_before(const Arguments& arguments, const Method& method) {
-  if (arguments.stop_before.empty()) return std::nullopt;
-  const std::optional<int> step = step_called(method.program, arguments.stop_before);
-  if (step && *step > 0) return step;
-  std::vector<std::string> steps;
-  for (std::size_t i = 0; i < method.program.size(); ++i)
-    steps.push_back(std::to_string(i) + " " + method.program[i]->name());
-  throw InvalidInput::sentence("--stop-before", arguments.stop_before,
-                               "--stop-before " + shown(arguments.stop_before) +
-                                   " names no step to stop before: give the number of a step from 1 on, or a name that "
-                                   "stands once in the program, whose steps are " +
-                                   listed(steps, " and "));
-}
-
 /// A batch goes on with the readings that it began with.
 Readings readings_of(const Arguments& arguments) {
   if (!arguments.readings.empty()) return readings_named(arguments.readings);
@@ -165,8 +149,6 @@ HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
   auto options = options_in<HeadlessOptions>(folder_of(arguments, method), arguments, progress);
   options.shapes |= arguments.report;
   options.further = further();
-  options.begin_with = arguments.begin_with;
-  options.stop_before = step_to_stop_before(arguments, method);
   options.progress = [&](const Sample& sample, const ProgramRunner& program, double wall_time) {
     progress.show(sample, program, wall_time);
   };
@@ -269,16 +251,12 @@ int run(const Arguments& arguments) {
   if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);
-  const bool stopped = !outcome.ended && !arguments.stop_before.empty() && stop_asked == 0;
-  const std::string latest = stopped ? "" : point_latest_to(outcome.folder);
+  const std::string latest = point_latest_to(outcome.folder);
   if (outcome.ended)
     tell_end(outcome, method, latest, arguments.quiet);
-  else if (!stopped)
+  else
     tell_interruption(outcome);
-  else if (!arguments.quiet)
-    std::printf("the test stopped before %s, after %.1f s; others can begin with %s\n", arguments.stop_before.c_str(),
-                outcome.results.simulated_time, outcome.folder.c_str());
-  const bool done = report(arguments, outcome.folder) && (stopped || (outcome.ended && !outcome.failed));
+  const bool done = report(arguments, outcome.folder) && outcome.ended && !outcome.failed;
   return done ? kDone : kFailed;
 }
 
@@ -351,18 +329,11 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   app.add_option("--jobs", arguments.jobs,
                  "how many specimens are tested side by side; unless given, one for each processor")
       ->check(CLI::Range(1, kMostSpecimens));
-  CLI::Option* begin_with = app.add_option(
-      "--begin-with", arguments.begin_with,
-      "begin where the test in this folder stopped, which is one of the same specimen with --stop-before");
-  CLI::Option* stop_before =
-      app.add_option("--stop-before", arguments.stop_before,
-                     "stop the test before this step of its program; --begin-with goes on from there");
   app.add_flag("--no-cache", arguments.no_cache,
                "tie the specimen even where an earlier test has tied the same one, and keep none for later tests");
   CLI::Option* readings = app.add_option(
       "--readings", arguments.readings,
       "plateau: end the test of a tied loop as soon as its sliding force is known, and write no test.bag");
-  for (CLI::Option* one : {begin_with, stop_before}) one->excludes(specimens)->excludes(resume);
   resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite)->excludes(specimens)->excludes(readings);
   CLI::Option* from_samples = app.add_option(
       "--from-samples", arguments.from_samples,

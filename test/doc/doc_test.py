@@ -205,6 +205,12 @@ class Ros(unittest.TestCase):
                     self.assertRegex(comment, r"\[[^]]+\]|, in that unit$", f"{file}: {line}")
                     comment = ""
 
+    def test_messages_name_every_end_of_a_test(self):
+        ends = set(re.findall(r'"(\w[\w ]*)"', re.search(r"kEndNames\[\] = \{(.*?)\}", text("src/record/ended_by.cpp"), re.S)[1]))
+        for name in ("TestStatus", "TestOutcome"):
+            told = re.search(r"# how it ended: ([^;\[]*).*\nstring ended_by", text(f"msg/{name}.msg"))[1]
+            self.assertEqual(set(re.findall(r"\w+", told)) - {"or"}, ends - {"not yet", "interrupted"}, name)
+
     def test_has_every_dynamic_parameter(self):
         for file in files("cfg", ".cfg"):
             for name in re.findall(r"\.add\('(\w+)'", text(file)):

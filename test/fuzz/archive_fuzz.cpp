@@ -1,21 +1,23 @@
-// Files that an Archive loads: a time step (failed_step.bin) and a checkpoint. The input as the file itself and, as no
-// random bytes have the right checksum, as the state that a whole file holds; and as bytes that stand in a good state,
-// from the place that the input's first two bytes tell. What could be loaded goes on by a step. "<random>" stands for
-// the load cell's random numbers, which take 6 KB of a checkpoint.
+// What an Archive loads: a time step (failed_step.bin), and the state of a bench, as it stands in a tied specimen. The
+// input as the file itself and, as no random bytes have the right checksum, as the state that a whole file holds; and
+// as bytes that stand in a good state, from the place that the input's first two bytes tell. What could be loaded goes
+// on by a step. "<random>" stands for the load cell's random numbers, which take 6 KB of a bench.
 #include <zlib.h>
 
 #include <cstdint>
 #include <random>
 #include <sstream>
+#include <utility>
 
-#include "fuzz/scratch_folder.hpp"
 #include "fuzz/target.hpp"
+#include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/run/checkpoint.hpp"
-#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 
@@ -73,57 +75,63 @@ void try_step(const std::string& file) {
 }
 
 /// Of a test of a rod a few edges long.
-class Resumed {
- public:
-  Resumed() : checkpoint_(folder_.name(), "method") {}
+namespace bench {
 
-  std::string good() {
-    TestingMachine bench = make_bench();
-    ProgramRunner program = make_program(bench);
-    for (int i = 0; i < 3; ++i) program.next(bench.respond(program.last()));
-    checkpoint_.write(bench, program);
-    return read_whole(checkpoint_.file());
-  }
+constexpr const char* kKind = "bench";
 
-  std::string written(const std::string& file) {
-    write_whole(checkpoint_.file(), file);
-    TestingMachine bench = make_bench();
-    ProgramRunner program = make_program(bench);
-    checkpoint_.load(bench, program);
-    checkpoint_.write(bench, program);
-    return read_whole(checkpoint_.file());
-  }
+TestingMachine make() {
+  SpecimenOptions specimen;
+  specimen.knot = knot_named("straight");
+  specimen.length = 0.008;
+  specimen.edge_length = 0.002;
+  MachineOptions machine;
+  machine.grips = GripKind::kClamps;
+  PhysicsOptions physics;
+  physics.accuracy = Accuracy::kDraft;
+  return TestingMachine(specimen, thread(), machine, physics);
+}
 
-  /// Whatever the state: the next command is answered.
-  void go_on(const std::string& file) {
-    write_whole(checkpoint_.file(), file);
-    TestingMachine bench = make_bench();
-    ProgramRunner program = make_program(bench);
-    checkpoint_.load(bench, program);
-    program.next(bench.respond(program.last()));
-  }
+ProgramRunner program_of(const TestingMachine& bench) {
+  PullStep pull;
+  pull.until.extension = 0.001;
+  return {{pull}, 10.0, bench.longest_step(), {}};
+}
 
- private:
-  static TestingMachine make_bench() {
-    SpecimenOptions specimen;
-    specimen.knot = knot_named("straight");
-    specimen.length = 0.008;
-    specimen.edge_length = 0.002;
-    MachineOptions machine;
-    machine.grips = GripKind::kClamps;
-    PhysicsOptions physics;
-    physics.accuracy = Accuracy::kDraft;
-    return TestingMachine(specimen, thread(), machine, physics);
-  }
-  static ProgramRunner make_program(const TestingMachine& bench) {
-    PullStep pull;
-    pull.until.extension = 0.001;
-    return {{pull}, 10.0, bench.longest_step(), {}};
-  }
+std::string saved(TestingMachine& bench) {
+  Archive archive(kKind);
+  archive(bench);
+  return archive.bytes();
+}
 
-  ScratchFolder folder_;
-  Checkpoint checkpoint_;
-};
+TestingMachine loaded(const std::string& file) {
+  TestingMachine bench = make();
+  Archive archive(kKind, file, kKind);
+  archive(bench);
+  archive.end();
+  return bench;
+}
+
+/// In the middle of its pull, and the command that comes next.
+std::pair<std::string, Command> good() {
+  TestingMachine bench = make();
+  ProgramRunner program = program_of(bench);
+  for (int i = 0; i < 3; ++i) program.next(bench.respond(program.last()));
+  return {saved(bench), program.last()};
+}
+
+std::string written(const std::string& file) {
+  TestingMachine bench = loaded(file);
+  return saved(bench);
+}
+
+/// Whatever the state: a command that comes soon is answered.
+void go_on(const std::string& file, const Command& next) {
+  TestingMachine bench = loaded(file);
+  const double ahead = next.time - bench.time();
+  if (ahead >= 0.0 && ahead <= 2.0 * bench.longest_step()) bench.respond(next);
+}
+
+}  // namespace bench
 
 std::string good_step() {
   const Material material = thread();
@@ -175,24 +183,23 @@ std::string with(const std::string& good, const std::string& text) {
 }
 
 void fuzz_archive(const std::string& text) {
-  static Resumed resumed;
-  static const std::string step = good_step(), checkpoint = resumed.good();
+  static const std::string step = good_step();
+  static const std::pair<std::string, Command> good = bench::good();
   const auto step_written = [](const std::string& file) { return written(file); };
-  const auto checkpoint_written = [&](const std::string& file) { return resumed.written(file); };
-  static const bool loads = step_written(step) == step && checkpoint_written(checkpoint) == checkpoint;
+  static const bool loads = step_written(step) == step && bench::written(good.first) == good.first;
   promise(loads, "what is good is loaded");
 
   const auto hold_step = [&](const std::string& file) { hold(step_written, try_step, file); };
   hold_step(text);
   hold_step(file_of("time step", text));
   hold_step(file_of("time step", with(state_of("time step", step), text)));
-  const auto hold_checkpoint = [&](const std::string& file) {
+  const auto hold_bench = [](const std::string& file) {
     hold(
-        checkpoint_written, [](const std::string& written) { resumed.go_on(written); }, file);
+        bench::written, [](const std::string& written) { bench::go_on(written, good.second); }, file);
   };
-  hold_checkpoint(text);
-  hold_checkpoint(file_of("checkpoint", with_random_numbers(text)));
-  hold_checkpoint(file_of("checkpoint", with(state_of("checkpoint", checkpoint), text)));
+  hold_bench(text);
+  hold_bench(file_of(bench::kKind, with_random_numbers(text)));
+  hold_bench(file_of(bench::kKind, with(state_of(bench::kKind, good.first), text)));
 }
 const FuzzTarget archive("archive", fuzz_archive);
 

@@ -6,7 +6,7 @@
 namespace knot_utm {
 namespace {
 
-/// Checkpoints have the numbers, and files the names.
+/// Saved states have the numbers, and files the names.
 TEST(Phase, KeepsItsNumberAndItsName) {
   std::vector<std::string> names;
   for (const Phase phase : all_phases()) {

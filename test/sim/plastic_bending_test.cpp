@@ -170,7 +170,7 @@ TEST(FrictionalBending, AStripLetGoOfAMandrelKeepsItsFrictionMomentOverItsStiffn
 }
 
 /// What a law remembers besides the bend is part of the state: each node keeps the tension that has compacted it, a
-/// copy of the state goes on from there, and a checkpoint has it. A jerk of a tenth of a millisecond hardly counts.
+/// copy of the state goes on from there, and a saved state has it. A jerk of a tenth of a millisecond hardly counts.
 TEST(FrictionalBending, TheRodRemembersTheLargestTensionThatLasts) {
   Strip strip(with_fibres(0.05));
   strip.state.position = strip.arc(0.0);

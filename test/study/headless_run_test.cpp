@@ -73,52 +73,5 @@ TEST_F(HeadlessRun, KeepsShapesWhereAskedAndChangesNothingElse) {
   EXPECT_GT(std::count(whole.begin(), whole.end(), '\n'), 100);
 }
 
-/// Specimens that are pulled differently are made once.
-TEST_F(HeadlessRun, BegunWithAnEarlierRunItLeavesTheSameBytesAsFromTheStart) {
-  const std::string held = "program=[{balance: {}}, {hold: {duration: 1}}, {pull: {speed: 0.001, until: {extension: ";
-  const auto method_to = [&](const std::string& extension) {
-    return load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml", {held + extension + "}}}]"});
-  };
-  const Method first = method_to("0.002"), other = method_to("0.001");
-  ASSERT_TRUE(run_headless(other, options).ended);
-  const std::string from_the_start = curve() + read_whole(options.folder + "/curve_full.csv");
-
-  HeadlessOptions early = options;
-  early.folder = folder() + "/early";
-  early.stop_before = step_called(first.program, "pull");
-  EXPECT_FALSE(run_headless(first, early).ended);
-  options.folder += "_later";
-  options.begin_with = early.folder;
-  EXPECT_TRUE(run_headless(other, options).ended);
-  EXPECT_EQ(curve() + read_whole(options.folder + "/curve_full.csv"), from_the_start);
-
-  options.folder = early.folder;
-  options.overwrite = true;
-  EXPECT_THROW(run_headless(other, options), InvalidInput) << "it would write over what it begins with";
-}
-
-TEST_F(HeadlessRun, BeginsWithNoRunOfAnotherSpecimenOrProgram) {
-  HeadlessOptions early = options;
-  early.folder = folder() + "/early";
-  early.stop_before = step_called(method.program, "pull");
-  run_headless(method, early);
-  options.begin_with = early.folder;
-  const auto refused = [&](const std::vector<std::string>& changes) -> std::string {
-    try {
-      run_headless(load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml", changes), options);
-    } catch (const InvalidInput& invalid) {
-      return invalid.what();
-    }
-    return "";
-  };
-  EXPECT_THAT(refused({"specimen.length=0.3"}), HasSubstr("specimen.length is 0.25 there, and 0.3 here"));
-  EXPECT_THAT(refused({"machine.load_cell.noise=1"}), HasSubstr("machine.load_cell"));
-  EXPECT_THAT(refused({"program=[{hold: {duration: 3}}, {pull: {until: {extension: 0.01}}}]"}),
-              HasSubstr("the programs differ from"));
-  EXPECT_FALSE(fs::exists(options.folder)) << "nothing was written";
-  options.begin_with = folder() + "/nowhere";
-  EXPECT_THAT(refused({}), HasSubstr("it holds no run"));
-}
-
 }  // namespace
 }  // namespace knot_utm

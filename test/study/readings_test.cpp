@@ -82,17 +82,6 @@ TEST_F(OfThePlateau, ItsSamplesMakeTheSameResultAgainAndWhatElseIsAskedFor) {
   EXPECT_EQ(further, 1);
 }
 
-TEST_F(OfThePlateau, BegunWithAnEarlierRunItHasTheBytesOfTheTestFromTheStart) {
-  const Method method = shipped("tighten", {"material=polypropylene"});
-  run(method, "early", Readings::kPlateau);
-  options.stop_before = step_called(method.program, "pull");
-  run(method, "tied", Readings::kAll);
-  options.stop_before.reset();
-  options.begin_with = in("tied");
-  run(method, "later", Readings::kPlateau);
-  EXPECT_EQ(file("later/curve_full.csv"), file("early/curve_full.csv"));
-}
-
 TEST_F(OfThePlateau, ATestThatHasNoneGoesOnToItsOwnEnd) {
   const Method method = shipped("tighten", {"material=pink_vps"});
   run(method, "whole", Readings::kAll);

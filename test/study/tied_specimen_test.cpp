@@ -107,7 +107,7 @@ TEST_F(Tied, TakenUpItLeavesTheSameBytesAsATestThatTiesIt) {
   EXPECT_TRUE(kept().empty());
 
   options.cache = cache;
-  options.stop_before = 3;
+  options.interrupted = [&] { return !kept().empty(); };
   const std::string stopped = run("stopped", other);
   EXPECT_EQ(kept().size(), 1u);
   EXPECT_EQ(said, "");
@@ -115,7 +115,7 @@ TEST_F(Tied, TakenUpItLeavesTheSameBytesAsATestThatTiesIt) {
   expect_the_same_files(stopped, run("stopped_again", other));
   EXPECT_EQ(computed, 0) << "nothing was left to do";
 
-  options.stop_before.reset();
+  options.interrupted = [] { return false; };
   const std::string taken_up = run("taken_up", method);
   EXPECT_THAT(said, HasSubstr("taken from the cache"));
   EXPECT_GT(computed, 0);
@@ -124,21 +124,25 @@ TEST_F(Tied, TakenUpItLeavesTheSameBytesAsATestThatTiesIt) {
   EXPECT_GT(outcome.wall_time, 0.0);
   expect_the_same_files(alone, taken_up);
   EXPECT_EQ(kept().size(), 1u);
+}
 
-  options.stop_before = 1;
-  run("before_that", method);
-  EXPECT_EQ(said, "") << "it stops before the specimen is released";
-  EXPECT_EQ(kept().size(), 1u);
+TEST_F(Tied, IsNotKeptOfATestThatIsInterruptedBefore) {
+  options.cache = cache;
+  options.interrupted = [&] { return computed > 10; };
+  run("interrupted", quick());
+  EXPECT_FALSE(outcome.ended);
+  EXPECT_TRUE(kept().empty());
 }
 
 TEST_F(Tied, WhatIsDamagedOrForeignIsTiedAnewAndReplaced) {
   options.cache = cache;
   options.shapes = false;
-  options.stop_before = 3;
   const Method method = quick();
+  const std::string file = cache.file_of(tied_from(method, 3, false));
+  options.interrupted = [&] { return fs::is_regular_file(file); };
   const std::string first = run("first", method);
   ASSERT_EQ(kept().size(), 1u);
-  const std::string file = kept().front(), whole = read_whole(file);
+  const std::string whole = read_whole(file);
   const std::optional<TiedSpecimen> tied = TiedSpecimen::of(method, false, cache);
   ASSERT_TRUE(tied);
   const auto take_up = [&] {

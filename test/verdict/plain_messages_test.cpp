@@ -86,9 +86,6 @@ TEST_F(PlainMessages, OfTensileTest) {
       {"tighten.yaml --set",
        "--set needs a value: dotted.key=YAML, instead of what the method says; may be given more than once"},
       {"tighten.yaml --out wrong.bin", "cannot make the folder \"wrong.bin\": not a directory"},
-      {"tighten.yaml --stop-before pul",
-       "--stop-before pul names no step to stop before: give the number of a step from 1 on, or a name "
-       "that stands once in the program, whose steps are 0 tie, 1 release, 2 mount, 3 balance and 4 pull"},
       {"--resume nowhere", "cannot read nowhere/method.yaml: no such file"},
       {"--from-samples nowhere", "there is no samples.csv in nowhere from which results can be made"},
   };

@@ -3,8 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/numeric/archive.hpp"
-
 namespace knot_utm {
 
 struct Sample;
@@ -27,8 +25,6 @@ class BreakDetector {
 
   /// Takes the next sample. Returns the break that it shows, as a message; empty: none.
   std::string judge(const Sample& sample);
-
-  void state(Archive& archive) { archive(peak_); }
 
  private:
   BreakDetection detection_;

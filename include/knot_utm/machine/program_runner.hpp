@@ -74,8 +74,6 @@ class ProgramRunner {
   double progress() const;                            ///< 0..1, fraction of the programmed time that has passed
   double time_left() const;                           ///< programmed time that is left, estimated [s]
 
-  void state(Archive& archive);
-
  private:
   void end(EndedBy by, std::string reason);
   bool end_by_alarm(const Sample& sample);

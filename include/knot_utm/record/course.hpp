@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/load_control.hpp"
 
@@ -66,7 +65,6 @@ class CrossheadCourse {
   void fill(Command& command) const;
   void accept(const Command& command);
   double seconds(std::uint64_t commands) const { return static_cast<double>(commands) / command_rate_; }
-  void state(Archive& archive);
 
  private:
   double command_rate_, most_load_, most_travel_;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "knot_utm/numeric/archive.hpp"
-
 namespace knot_utm {
 
 struct Sample;
@@ -31,10 +29,6 @@ class LoadControl {
 
   /// Takes account of a new zero of the load [N].
   void shift(double load) { last_load_ -= load; }
-
-  void state(Archive& archive) {
-    archive(knows_last_, last_load_, last_displacement_, knows_slope_, slope_, stiffness_);
-  }
 
  private:
   void learn(const Sample& now, double counting_distance);

@@ -61,7 +61,6 @@ struct CycleStep : Step {
   void steer(const Sample& now, CrossheadCourse& course) override;
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;
   double usual_duration(const CrossheadCourse& course) const override;
-  void state(Archive& archive) override { archive(outwards_, turns_); }
 
  private:
   double target() const;  ///< the turning point ahead

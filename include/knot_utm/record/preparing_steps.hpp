@@ -52,7 +52,6 @@ struct PreloadStep : Step {
   void steer(const Sample& now, CrossheadCourse& course) override;
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;
   double usual_duration(const CrossheadCourse&) const override { return kUsualDistance / speed; }
-  void state(Archive& archive) override { archive(balancing_); }
 
  private:
   bool balancing_ = false;  // the load is reached

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/fields.hpp"
 #include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/record/phase.hpp"
@@ -78,8 +77,6 @@ class Step {
   virtual EndedBy ended(const Sample& now, CrossheadCourse& course) = 0;
   /// How long it takes, estimated [s].
   virtual double usual_duration(const CrossheadCourse&) const { return duration; }
-  /// What it remembers while it runs.
-  virtual void state(Archive&) {}
 
  protected:
   static constexpr fields::Range kSpeeds{1e-7, kFastestCrosshead, "m/s"};

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <utility>
 
 #include "knot_utm/machine/program_runner.hpp"
@@ -10,7 +9,7 @@
 
 namespace knot_utm {
 
-/// What was measured by another run, in whose last state a test begins. The test has the same bytes as one from the
+/// What was measured by another run, in whose state after that a test begins. The test has the same bytes as one from the
 /// start, since its program has asked for all that was measured, and the state of the simulated machine is whole.
 class Beginning {
  public:
@@ -19,9 +18,9 @@ class Beginning {
   /// `each`: hands all records of that run to its visitor, in their order, as often as it is called.
   explicit Beginning(std::function<void(const Visitor&)> each) : each_(std::move(each)) {}
 
-  /// The program, which has just been made, sees all answers without any physics. Empty, or why it does not ask for
-  /// them; the program is then unusable.
-  std::string follow(ProgramRunner& program) const;
+  /// The program, which has just been made, sees all answers without any physics. Whether it asks for them; a program
+  /// that does not is then unusable.
+  bool follow(ProgramRunner& program) const;
 
   /// Appends every record to the samples of the new run, and shows it to `also`. Returns the wall time of the other run
   /// up to there [s]. The wall time of the new run begins with it, so that it is that of the whole test wherever the

@@ -39,9 +39,6 @@ struct RunOptions {
 };
 
 struct HeadlessOptions : RunOptions {
-  std::string begin_with;          ///< folder of a run from whose last state this run begins; empty: from the start
-  std::optional<int> stop_before;  ///< step of the program before which the run stops, as if it were interrupted there
-
   /// Makes the writer of a further file in this folder.
   std::function<FurtherWriter(const std::string& folder, const Method& method)> further;
   /// Receives each answer of the simulated machine; `wall_time` since the test began [s].
@@ -51,18 +48,17 @@ struct HeadlessOptions : RunOptions {
 /// How a headless run ended.
 struct HeadlessOutcome {
   std::string folder;            ///< folder that holds what was measured
-  std::optional<EndedBy> ended;  ///< empty: it was interrupted, or stopped before a step
+  std::optional<EndedBy> ended;  ///< empty: it was interrupted
   std::string reason;            ///< reason of the end, one line
   bool failed = false;           ///< the simulation gave up
   std::string failed_step;       ///< file with the time step that could not be solved; empty: there is none
   Results results;               ///< what was measured
-  double wall_time = 0.0;        ///< wall time of the whole test, including that of the run with which it began [s]
+  double wall_time = 0.0;        ///< wall time of the whole test, including that of a tying taken from the cache [s]
 };
 
-/// Runs the test of a method and writes all files of its folder. A run that stops before a step also leaves a
-/// checkpoint. Throws InvalidInput, before anything is written, where method and folder, or method and readings, do not
-/// go together. Throws
-/// std::runtime_error where a file cannot be written; the message says what stands.
+/// Runs the test of a method and writes all files of its folder. Throws InvalidInput, before anything is written, where
+/// method and folder, or method and readings, do not go together. Throws std::runtime_error where a file cannot be
+/// written; the message says what stands.
 HeadlessOutcome run_headless(const Method& method, const HeadlessOptions& options);
 
 /// Makes the files of the run in `options.folder` anew from its samples. Throws InvalidInput (key "--from-samples")

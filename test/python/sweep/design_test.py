@@ -15,7 +15,6 @@ from scipy import special, stats
 from knot_utm import WrongInput, tool
 from knot_utm.design import DRAWS
 from knot_utm.method_keys import require_known
-from knot_utm.sharing import beginnings
 from knot_utm.study import KEYS, load_study
 from knot_utm.yaml_text import load, text_of, value_of
 
@@ -161,44 +160,6 @@ class Designs(Studies):
     def test_repeats_are_batches(self):
         study = self.study("method: straight\nvary: {specimen.length: [0.1, 0.2]}\nrepeat: 3")
         self.assertEqual(study.settings, [{"specimen.length": length, "specimens.count": 3} for length in (0.1, 0.2)])
-
-
-class Shared(Studies):
-    METHOD = """
-        specimen: {knot: fisherman}
-        program: [tie: {}, release: {}, mount: {}, balance: {}, pull: {speed: 0.001}, hold: {duration: 1}, pull: {speed: 0.002}]
-        """
-
-    def beginnings(self, vary, design="grid"):
-        """(step, what is shared) of each run; None of one that shares nothing."""
-        write(self.file + ".method", self.METHOD)
-        study = self.study(f"method: {self.file}.method\ndesign: {design}\nvary: {vary}")
-        return [found and (found.step, found.shared) for found in beginnings(study.method, study.points)]
-
-    def test_runs_are_the_same_up_to_the_first_step_that_differs(self):
-        found = self.beginnings("{material: [nylon, pink_vps], program.hold.duration: [1, 2], physics.accuracy: [draft]}")
-        self.assertEqual(found, [(5, {"material": name, "physics.accuracy": "draft"}) for name in ("nylon", "pink_vps") for _ in "12"])
-        self.assertEqual(self.beginnings("{program.4.pull.speed: [1, 2]}"), [(4, {})] * 2)
-
-    def test_the_latest_step_that_runs_share_counts(self):
-        self.assertEqual(self.beginnings("{program.4.pull.speed: [1, 2], program.hold.duration: [1, 2]}"),
-                         [(5, {"program.4.pull.speed": speed}) for speed in (1, 1, 2, 2)])
-        self.assertEqual(self.beginnings("{program.4.pull.speed: [1, 2], program.hold.duration: [1, 2]}", "list"), [(4, {})] * 2)
-        self.assertEqual(self.beginnings("{material: [a, a, b], program.4.pull.speed: [1, 2, 3]}", "list"),
-                         [(4, {"material": "a"})] * 2 + [None])
-
-    def test_the_first_of_those_that_share_stands_for_them(self):
-        write(self.file + ".method", self.METHOD)
-        study = self.study(f"method: {self.file}.method\nvary: {{material: [a, b], program.hold.duration: [1, 2]}}")
-        found = beginnings(study.method, study.points)
-        self.assertEqual([beginning.point for beginning in found], [study.points[i] for i in (0, 0, 2, 2)])
-
-    def test_where_nothing_is_shared_there_is_none(self):
-        for vary in ("{material: [a, b]}", "{program.tie.speed: [1, 2]}", "{ends.load: [1, 2]}", "{program: [[], [1]]}",
-                     "{program.pull.speed: [1, 2]}", "{program.9.speed: [1, 2]}"):  # two steps pull; there is no tenth
-            self.assertEqual(self.beginnings(vary), [None] * 2, vary)
-        self.METHOD = "program: [balance: {}, pull: {}]"
-        self.assertEqual(self.beginnings("{program.pull.speed: [1, 2]}"), [None] * 2, "a balance takes no time")
 
 
 def keys_of(node):

@@ -116,7 +116,7 @@ class OfThePlateauAlone(Sweeps):
             self.assertEqual((run["exit_code"], run["ended_by"], run["peak_force"]), ("0", "plateau", ""))
             self.assertTrue(run["plateau_force"])
             self.assertEqual(load(self.path("out/runs", run["run"], "run.yaml"))["readings"], "plateau")
-        self.assertEqual(len(self.words()), 2, "both, and not what is tied for them")
+        self.assertEqual(len(self.words()), 2, "both")
         before = self.table("out")
         self.sweep("out", "--readings", "plateau")
         self.assertEqual((self.table("out"), len(self.words())), (before, 2))
@@ -281,49 +281,20 @@ class Repeated(Sweeps):
 
 
 class TiedOnce(Sweeps):
-    PULLED = f"""
-        method: {CONFIG}/tighten.yaml
-        vary:
-          physics.accuracy: [draft]
-          material: [polypropylene]
-          program.pull.until.extension: """
-
-    def started_with(self, option):
-        return content(self.log).decode().count(f" {option} ")
-
-    def test_pulled_often_has_the_bits_of_runs_from_the_start(self):
-        write(self.study, self.PULLED + "[0.004, 0.006, 0.008]")
-        process = self.start("out")
-        told, said = process.communicate()
-        self.assertEqual(process.returncode, 0, said)
-        self.assertRegex(told, r"3 runs began with tied specimens that they share, 1 in all, which saved \d+\.\d s of computing")
-        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
-        _, _, *runs = rows(self.table("out"))
-        for run in runs:
-            self.sweep("alone", "--only", run[-1])
-            for name in ("curve.csv", "curve_full.csv", "final_shape.csv", "method.yaml"):
-                self.assertEqual(content(self.path("out/runs", run[-1]), name), content(self.path("alone/runs", run[-1]), name))
-        self.assertEqual(self.started_with("--begin-with"), 3, "a run alone is one from the start")
-        self.sweep("alone", "--only", "table")
+    def test_runs_that_tie_alike_share_it_and_have_the_bits_of_runs_that_do_not(self):
+        write(self.study, f"""
+            method: {CONFIG}/tighten.yaml
+            vary:
+              physics.accuracy: [draft]
+              material: [polypropylene]
+              program.pull.until.extension: [0.004, 0.006]""")
+        self.sweep("out", KNOT_UTM_CACHE_DIR=self.path("cache"), KNOT_UTM_CACHE_LIMIT="100")
+        self.assertEqual(len(os.listdir(self.path("cache"))), 1)
+        self.sweep("alone")
         self.assertEqual(self.table("out"), self.table("alone"))
-        # Others that are pulled later begin with the same specimen.
-        write(self.study, self.PULLED + "[0.004, 0.006, 0.008, 0.005]")
-        self.sweep("out")
-        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 4))
-
-    def test_what_does_not_suit_begins_at_the_start(self):
-        # The way of the crosshead, which belongs to the machine, is twice the largest extension, at least 1 m.
-        write(self.path("method.yaml"), """
-            specimen: {knot: straight}
-            material: nylon
-            machine: {grips: clamps}
-            program: [hold: {duration: 1}, pull: {speed: 0.01, until: {extension: 0.001, break: true}}]""")
-        write(self.study, "method: method.yaml\nvary: {program.pull.until.extension: [0.001, 0.002, 5]}")
-        self.sweep("out")
-        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
-        names, _, *runs = rows(self.table("out"))
-        self.assertEqual([run[names.index("ended_by")] for run in runs], ["extension", "extension", "break"])
-        self.assertEqual(len(content(self.log).decode().splitlines()), 5, "the third run was started twice")
+        for run in self.whole_runs("alone"):
+            for name in ("curve.csv", "curve_full.csv", "final_shape.csv", "method.yaml"):
+                self.assertEqual(content(self.path("out/runs", run), name), content(self.path("alone/runs", run), name))
 
 
 class Content(Sweeps):

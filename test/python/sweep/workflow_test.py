@@ -50,11 +50,11 @@ def free_ports(count):
 
 
 class Workflow(Sweeps):
-    def snakemake(self, profile, out, code=0, **environment):
-        """What it said."""
+    def snakemake(self, profile, out, *more, code=0, **environment):
+        """What it said; `more`: words of its config."""
         done = subprocess.run(["snakemake", "--snakefile", os.path.join(ROOT, "python/knot_utm/workflow/Snakefile"), "--profile",
                                os.path.join(ROOT, "python/knot_utm/workflow/profiles", profile), "--config", "study=" + self.study,
-                               "out=" + self.path(out)], env={**self.environment, **environment}, cwd=self.folder, check=False,
+                               "out=" + self.path(out), *more], env={**self.environment, **environment}, cwd=self.folder, check=False,
                               text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.assertEqual(done.returncode, code, done.stdout)
         return done.stdout
@@ -79,6 +79,17 @@ class OnThisMachine(Workflow):
         self.snakemake("local", "out", KILL_AT="specimen.length=0.25")
         self.assertEqual(sorted(self.started()), sorted(LENGTHS + [0.25]))
         self.assertIn("killed by SIGSEGV", self.table("out").decode().splitlines()[2])
+
+    def test_ends_each_run_with_its_plateau_where_asked(self):
+        write(self.study, f"""
+            method: {CONFIG}/tighten.yaml
+            vary: {{physics.accuracy: [draft], material: [polypropylene], program.pull.speed: [3.3e-3, 4e-3]}}""")
+        self.assertIn("--readings is locks, but must be plateau", self.snakemake("local", "flow", "readings=locks", code=1))
+        self.assertFalse(os.path.exists(self.log), "nothing was started")
+        self.snakemake("local", "flow", "readings=plateau")
+        self.sweep("alone", "--readings", "plateau")
+        self.assertEqual(content(self.log).decode().count("--readings plateau"), 4)
+        self.assertEqual(self.table("flow"), self.table("alone"))
 
     def test_starts_nothing_of_a_study_that_would_be_refused(self):
         write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2, -1]}}")
