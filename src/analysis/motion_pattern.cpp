@@ -63,6 +63,12 @@ Line fit(const Pull& pull, std::size_t begin, std::size_t end, Value value) {
 
 double unit(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 0.0; }
 
+/// Whether no rope with a free end touches anything any more.
+bool came_apart(const Sample& sample) {
+  const PerKnot& tails = sample.tail_length;
+  return tails.size() > 0 && std::none_of(tails.begin(), tails.end(), [](double tail) { return std::isfinite(tail); });
+}
+
 }  // namespace
 
 const char* motion_pattern_name(MotionPattern pattern) {
@@ -74,7 +80,7 @@ MotionPatternTracker::MotionPatternTracker(bool on_rollers)
     : on_rollers_(on_rollers), turnover_(kTurnover * rigid_sliding(on_rollers)) {}
 
 void MotionPatternTracker::add(const Sample& sample) {
-  if (sample.knot_type == KnotType::kKept)
+  if (sample.knot_type == KnotType::kKept && !came_apart(sample))
     type_lost_.reset();
   else if (!type_lost_)
     type_lost_ = sample.time;

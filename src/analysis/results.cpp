@@ -395,6 +395,18 @@ void read_tied(const Course& course, Results& results) {
   results.tied_knot_distance = known(tied->knot_distance);
 }
 
+/// From the first sample of the pull to the last one in which the rope of a free end touched something.
+void read_tails(const std::vector<Sample>& samples, const Sample* pull_begin, Results& results) {
+  if (pull_begin == nullptr) return;
+  const PerKnot& begin = pull_begin->tail_length;
+  results.tail_slip = PerKnot::unknown(begin.size());
+  for (const Sample& sample : samples) {
+    if (sample.time < pull_begin->time) continue;
+    for (std::size_t k = 0; k < begin.size(); ++k)
+      if (std::isfinite(sample.tail_length.at(k))) results.tail_slip[k] = begin[k] - sample.tail_length.at(k);
+  }
+}
+
 void read_whole_pull(const Course& course, Results& results) {
   const Pull& pull = course.motion().pull();
   if (pull.empty()) return;
@@ -425,6 +437,7 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   read_end(samples.back(), results);
   read_motion(samples, readings, on_rollers, course.motion(), results);
   read_tied(course, results);
+  read_tails(samples, course.pull_begin(), results);
   read_snap(samples, results);
   read_curve(readings, course.at_break(), on_rollers, results);
   course.read_balances();

@@ -11,6 +11,7 @@
 #include "knot_utm/machine/break_watch.hpp"
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/frame.hpp"
+#include "knot_utm/machine/free_ends.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
@@ -61,10 +62,11 @@ struct TestingMachine::Impl {
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
-  std::optional<BreakWatch> breaks;  // where the rod can part
-  bool refused = false;              // by it, the step that was tried last, though it was solved
-  std::unique_ptr<Tying> tying;      // where it can be tied
-  std::optional<KnotWatch> watch;    // where it is knotted
+  std::optional<BreakWatch> breaks;   // where the rod can part
+  bool refused = false;               // by it, the step that was tried last, though it was solved
+  std::unique_ptr<Tying> tying;       // where it can be tied
+  std::optional<KnotWatch> watch;     // where it is knotted
+  std::optional<FreeEnds> free_ends;  // where its file says which they are
   Boundary boundary;
 
   double time = 0.0;
@@ -123,7 +125,8 @@ struct TestingMachine::Impl {
     control = StepControl(options);
     const KnotDescription& knot = knot_of(specimen).about();
     tying = make_tying(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
-    if (is_followed(knot, centreline)) {
+    if (!centreline.free.empty()) free_ends.emplace(centreline, stepper->rod());
+    if (type_is_followed(specimen)) {
       watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points, centreline.windings());
     }
@@ -136,13 +139,6 @@ struct TestingMachine::Impl {
       });
     extension_zero = grips.end_to_end(grip);
     has_weight = !specimen.to_be_tied;
-  }
-
-  /// Whether the type of its knot is followed: that of a rod whose ends are held, or which is a loop. How free ends lie
-  /// would decide how others are closed.
-  static bool is_followed(const KnotDescription& knot, const Centreline& centreline) {
-    const bool held = centreline.above.empty() || centreline.above.size() + centreline.below.size() == 2;
-    return knot.may_hold_a_knot() && centreline.cuts.empty() && held;
   }
 
   /// A loop gets its weight as the rollers take it: all at once, it would swing, and its knots could jump open.
@@ -317,6 +313,7 @@ struct TestingMachine::Impl {
     s.balance_offset = cell.offset();
     s.tail_force = s.excess_length = PerKnot::unknown(static_cast<std::size_t>(knot_of(specimen).about().knots));
     if (tying) tying->read(s);
+    if (free_ends && knows_contacts()) s.tail_length = free_ends->lengths(stepper->readings().normal_forces());
     const ContactReading contact = stepper->readings().contact();
     s.max_penetration = contact.largest_overlap / material.radius;
     s.normal_force = contact.normal_force;

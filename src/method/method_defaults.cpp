@@ -73,8 +73,7 @@ Defaults defaults(const SpecimenOptions& specimen, const Material& material, con
   out.specimen.knot = specimen.knot;
   out.specimen.drawing = specimen.drawing;
   out.machine.roller_diameter = knot.roller_diameter(h).value_or(out.machine.roller_diameter);
-  if (specimen.drawing && !specimen.drawing->posts.empty())
-    out.machine.roller_friction = material.friction_coefficient;
+  if (specimen.drawing && !specimen.drawing->posts.empty()) out.machine.roller_friction = material.friction_coefficient;
   if (known) knot.suit(known->specimen, known->machine.roller_diameter, h, out.specimen);
   out.way = knot.pull(known ? known->specimen : out.specimen, h);
   const double asked = known ? largest(known->program, "m") : out.way;

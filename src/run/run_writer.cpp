@@ -79,6 +79,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   const KnotDescription& knot = knot_of(method.specimen).about();
   known_.strands = knot.loop ? 2 : 1;
   known_.may_hold_a_knot = knot.may_hold_a_knot();
+  known_.follows_type = !knot.may_hold_a_knot() || type_is_followed(method.specimen);
   known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
   if (method.specimen.to_be_tied) known_.knot_distance = method.specimen.knot_distance;
   if (method.machine.roller_rotation == RollerRotation::kTurned)

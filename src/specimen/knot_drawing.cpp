@@ -114,6 +114,8 @@ KnotDrawing::End KnotDrawing::held(const std::string& end) const {
   return contains(upper, end) ? End::kUpper : End::kFree;
 }
 
+bool KnotDrawing::has_free_ends() const { return lower.size() + upper.size() < 2 * strands.size(); }
+
 double KnotDrawing::bottom() const {
   if (lower.empty() && !posts.empty()) return posts.front().through[2];
   double least = std::numeric_limits<double>::infinity();
@@ -168,6 +170,7 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
   for (const auto& [name, at] : ends) {
     if (contains(drawing.lower, name)) out.below.push_back({at.node, at.next});
     if (contains(drawing.upper, name)) out.above.push_back({at.node, at.next});
+    if (drawing.held(name) == KnotDrawing::End::kFree) out.free.push_back(at.node);
   }
   for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) {
     out.tied.emplace_back();

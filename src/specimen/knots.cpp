@@ -26,6 +26,12 @@ const std::vector<const Knot*>& knots() {
 
 const Knot& knot_of(KnotKind kind) { return *knots().at(static_cast<std::size_t>(kind)); }
 
+bool type_is_followed(const SpecimenOptions& specimen) {
+  const KnotDrawing* drawing = specimen.drawing.get();
+  const bool loose = drawing != nullptr && (drawing->strands.size() > 1 || drawing->has_free_ends());
+  return knot_of(specimen).about().may_hold_a_knot() && !loose;
+}
+
 std::vector<std::string> knot_names(const KnotDrawing* drawing) {
   std::vector<std::string> out;
   for (const Knot* knot : knots())

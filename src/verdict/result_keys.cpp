@@ -130,7 +130,9 @@ std::vector<std::string> warnings(const Source& of) { return all_warnings(of.res
 std::vector<std::string> specification_failed(const Source& of) { return of.verdict.failed; }
 Flag specification_passed(const Source& of) { return of.verdict.passed; }
 Flag not_equilibrated(const Source& of) { return !why_not_at_rest(of.results, of.facts).empty(); }
-Flag knot_type_preserved(const Source& of) { return of.results.knot_type == KnotType::kKept; }
+Flag knot_type_preserved(const Source& of) {
+  return of.facts.follows_type ? Flag(of.results.knot_type == KnotType::kKept) : std::nullopt;
+}
 Count seed(const Source& of) { return of.facts.load_cell.seed; }
 Count peak_memory_of(const Source& of) { return of.facts.peak_memory > 0 ? Count(of.facts.peak_memory) : std::nullopt; }
 
@@ -183,6 +185,8 @@ constexpr ResultKey kKeys[] = {
      kNoLoop},
     {"final_excess_length", "m", kKnots, "Length of rod within each knot at the end", of_knots<&R::final_excess_length>,
      kNoLoop},
+    {"tail_slip", "m", kKnots, "Length of each free end that ran into the knot in the pull", of_knots<&R::tail_slip>,
+     "no end of a rope is free that a file describes"},
     {"opened_when_mounted", "m", kKnots,
      "How much nearer the knots came as the loop was mounted and one of them opened", read<&R::opened_when_mounted>,
      "no knot opened as the loop was mounted"},
@@ -267,7 +271,7 @@ constexpr ResultKey kKeys[] = {
     {"untangled_at", "s", kHappened, "Time at which the knot came undone", read<&R::untangled_at>,
      "the knot did not come undone"},
     {"knot_type_preserved", "-", kCertificate, "Whether the knot remained the same knot", knot_type_preserved,
-     kNoReason},
+     "how its free ends lie would decide which knot it is"},
 
     // What the run should be judged by.
     {"max_penetration", "of the radius", kCertificate, "Deepest contact", read<&R::max_penetration>, kNoReason},

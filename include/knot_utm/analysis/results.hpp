@@ -138,6 +138,7 @@ struct Results {
   std::optional<double> tied_knot_distance;  ///< e [m]
   PerKnot tied_excess_length;                ///< of each knot [m]; NaN: not read
   PerKnot final_excess_length;               ///< the same at the end of the test [m]
+  PerKnot tail_slip;                         ///< rod length by which each free end ran into the knot in the pull [m]
   /// Decrease of e between release and pull [m], where it is more than a twentieth of e: a knot opened as the loop was
   /// mounted.
   std::optional<double> opened_when_mounted;

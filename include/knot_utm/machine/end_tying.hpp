@@ -17,8 +17,8 @@ struct Material;
 /// Ties a knot between the machine's grips by pulling at its free ends, as a drawing says (Centreline::tied). The grips
 /// hold the standing ends. The drawn shape first settles under a strong drag that fades. Then each group of ends is
 /// pulled in turn, outwards as it was drawn, by grips that move at a set speed and slip at their part of the pre-load;
-/// earlier groups are held at theirs. A group's turn ends once all of them slip and everything is at rest. A knot without
-/// a free end to pull at only settles, and the crosshead pulls it tight.
+/// earlier groups are held at theirs. A group's turn ends once all of them slip and everything is at rest. A knot
+/// without a free end to pull at only settles, and the crosshead pulls it tight.
 ///
 /// Release: all these loads go to zero linearly, and everything comes to rest. Where the program pulls a knot that it
 /// did not release, they go to zero within a third of a second.

@@ -37,6 +37,7 @@ struct Sample {
   double force_lower = 0.0;
   PerKnot tail_force;
   PerKnot excess_length;
+  PerKnot tail_length;
   double max_penetration = 0.0;
   double normal_force = 0.0;
   int contacts = 0;

@@ -45,6 +45,9 @@ inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(force_lower, "N", "true force on the lower grip"),
     KNOT_UTM_FIELD(tail_force, "N", "of each knot, on its tail's grip while it is tied; NaN: nothing holds its tail"),
     KNOT_UTM_FIELD(excess_length, "m", "of each knot, rod length hidden in it; NaN: not read"),
+    KNOT_UTM_FIELD(tail_length, "m",
+                   "of each free end of a knot that a file describes, rod length outside the knot; NaN: it touches "
+                   "nothing"),
     KNOT_UTM_FIELD(max_penetration, "fraction of the rod's radius", "deepest contact"),
     KNOT_UTM_FIELD(normal_force, "N", "sum over all contacts of rod with rod"),
     KNOT_UTM_FIELD(contacts, "-", "contact points that carry force"),

@@ -56,6 +56,7 @@ struct Centreline {
 
   std::vector<int> cuts;                     ///< edges between one rope and the next (RodProperties::cuts)
   std::vector<HeldNode> below, above;        ///< ends of ropes that the grips hold; empty: the rod's ends
+  std::vector<int> free;                     ///< nodes at the free ends of ropes, in order along the rod
   std::vector<std::vector<PulledEnd>> tied;  ///< ends that are pulled together to tie it, in order
 
   double length() const;                     ///< [m]

@@ -101,6 +101,9 @@ class Knot {
 const std::vector<const Knot*>& knots();
 const Knot& knot_of(KnotKind kind);
 inline const Knot& knot_of(const SpecimenOptions& specimen) { return knot_of(specimen.knot); }
+/// Whether the type of its knot is followed (KnotWatch): of one rod with both ends held, or of a loop. How free ends
+/// lie would decide how any other is closed.
+bool type_is_followed(const SpecimenOptions& specimen);
 /// Throws InvalidInput ("specimen.knot") where no knot has this name.
 KnotKind knot_named(const std::string& name);
 /// What a method may call a knot, in the order of the registry: one that has a drawing by its name.

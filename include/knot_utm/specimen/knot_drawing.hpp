@@ -39,6 +39,7 @@ struct KnotDrawing {
 
   enum class End { kLower, kUpper, kFree };
   End held(const std::string& end) const;
+  bool has_free_ends() const;
   double bottom() const;  ///< the lowest z of all points, or of the first post's axis where that is the lower grip [h]
   double top() const;     ///< the highest z of all points [h]
 };

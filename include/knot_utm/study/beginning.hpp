@@ -9,8 +9,8 @@
 
 namespace knot_utm {
 
-/// What was measured by another run, in whose state after that a test begins. The test has the same bytes as one from the
-/// start, since its program has asked for all that was measured, and the state of the simulated machine is whole.
+/// What was measured by another run, in whose state after that a test begins. The test has the same bytes as one from
+/// the start, since its program has asked for all that was measured, and the state of the simulated machine is whole.
 class Beginning {
  public:
   using Visitor = std::function<void(const Record&)>;

@@ -41,6 +41,7 @@ struct RunFacts {
   Material material;                  ///< material of the rod
   int strands = 1;                    ///< number of strands that bear the load: two of a loop
   bool may_hold_a_knot = false;       ///< as the specimen is made
+  bool follows_type = true;           ///< of its knot
   bool one_knot_in_a_strand = false;  ///< one knot, and the specimen is no loop
   bool ends_with_hold = false;        ///< the crosshead stands at the end, so that a knot could be measured
   std::optional<double> knot_hole;    ///< hole_diameter at the end of the test, of one knot in a strand [m]

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/record/per_knot.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/centreline.hpp"
+
+namespace knot_utm {
+
+/// The tails of a knot: how much of each free end is left outside it. A tail ends where, from its end on, its rope has
+/// borne a twentieth of all normal force on the rope. This place moves along the rod smoothly, which that of the first
+/// contact does not.
+class FreeEnds {
+ public:
+  FreeEnds(const Centreline& centreline, const RodProperties& rod);
+
+  /// Of each free end, in the order along the rod [m]; unknown where its rope touches nothing. `normal_force`: on each
+  /// node [N].
+  PerKnot lengths(const Eigen::VectorXd& normal_force) const;
+
+  bool empty() const { return tails_.empty(); }
+
+ private:
+  /// From an end at `begin` to the other end of its rope.
+  struct Tail {
+    int begin, end, step;
+  };
+  double length(const Tail& tail, const Eigen::VectorXd& normal_force) const;
+
+  std::vector<Tail> tails_;
+  Eigen::VectorXd arclength_;  // of the nodes [m]
+};
+
+}  // namespace knot_utm
