@@ -123,7 +123,6 @@ struct TestingMachine::Impl {
     options.slip = kAimedSlip * material.radius;
     options.shortest = std::min(options.shortest, kShortestStep * bending_time);
     control = StepControl(options);
-    const KnotDescription& knot = knot_of(specimen).about();
     tying = make_tying(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
     if (!centreline.free.empty()) free_ends.emplace(centreline, stepper->rod());
     if (type_is_followed(specimen)) {
