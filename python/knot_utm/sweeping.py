@@ -5,7 +5,7 @@ from knot_utm import mixed, tool
 from knot_utm.address import Addresses
 from knot_utm.errors import WrongInput
 from knot_utm.plots import require_plottable, write_plots
-from knot_utm.study import load_study
+from knot_utm.study import Study, load_study
 from knot_utm.sweep_folder import SweepFolder
 from knot_utm.table import Table
 from knot_utm.work import Work
@@ -24,11 +24,11 @@ def sweep(study, out=None, jobs=None, plots=(), readings=None):
 
 
 class Sweep:
-    """A study in its folder. `runs`: {name: {key: value}}, each once."""
+    """A study, or the file of one, in its folder. `runs`: {name: {key: value}}, each once."""
 
     def __init__(self, study, out=None, plots=(), readings=None):
         require_plottable(plots)
-        self.study = load_study(os.fspath(study))
+        self.study = study if isinstance(study, Study) else load_study(os.fspath(study))
         self.plots = plots
         self.readings = readings  # the word of tensile_test's --readings; None: all
         self.folder = SweepFolder(os.path.abspath(out or os.path.join("out", self.study.name)))

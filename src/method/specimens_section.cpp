@@ -84,6 +84,9 @@ std::vector<Scatter> default_scatter(const Method& method) {
   if (knot.has("knot_distance")) {
     add("specimen.knot_distance", kByRuler);
     add("specimen.tail", kByEye);
+  } else if (knot.about().tied_by_ends) {
+    add("specimen.end_to_end", kByRuler);
+    add("specimen.tail", kByEye);
   } else if (knot.about().knots > 0 && knot.has("end_to_end")) {
     add("specimen.end_to_end", kByRuler);
   }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStrandToGrip = 20.0;  // of straight strand between a knot and each grip [h]
 constexpr double kDrawnTail = 30.0;     // [h]
-constexpr double kDrawnPull = 40.0;     // of a pull: by then a drawn knot is tight, and slides if it does [h]
+constexpr double kDrawnPull = 80.0;     // of a pull: by then a drawn knot is tight, and slides if it does [h]
 constexpr double kDrawnCoil = 4.0;      // radius of the bends of a drawn knot [h]
 
 KnotDescription describe_drawn_knot() {

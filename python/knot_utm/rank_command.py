@@ -1,0 +1,69 @@
+"""The command line of a ranking of knots; scripts/rank has its words."""
+import os
+import sys
+
+from knot_utm import tool
+from knot_utm.command_line import parsed, parser_of, say
+from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.ranking import rank
+from knot_utm.yaml_text import value_of
+
+PROGRAM = tool.program("rank")
+FILE = "rank.csv"
+
+
+def main(words):
+    asked = _arguments(words)
+    out = asked.out or os.path.join("out", "rank")
+    try:
+        table = rank(asked.knots, asked.material, asked.specimens, out, asked.jobs, asked.method, _settings(asked.set))
+    except WrongInput as wrong:
+        return say(PROGRAM, wrong, 2)
+    except (Interrupted, OSError) as error:
+        return say(PROGRAM, f"{error}; the same command goes on: {tool.command_to_paste('rank', words)}", 1)
+    except RuntimeError as error:
+        return say(PROGRAM, error, 1)
+    table.to_csv(os.path.join(out, FILE), index=False)
+    print(_told(table))
+    print(f"the table is in {os.path.join(out, FILE)}")
+    return 0
+
+
+def _told(table):
+    """The table for people: each mean with its standard error."""
+    def cell(row, name, form):
+        mean, error = row[name], row[name + "_error"]
+        if mean != mean:
+            return "-"
+        return form % mean + (" ± " + form % error if error == error else "")
+
+    lines = [["knot", "broke", "slip load [N]", "break load [N]", "efficiency", "tail slip [h]"]]
+    for _, row in table.iterrows():
+        lines.append([row["knot"], f"{row['broke']} of {row['specimens']}", cell(row, "slip_load", "%.3g"),
+                      cell(row, "break_load", "%.4g"), cell(row, "efficiency", "%.2f"), cell(row, "tail_slip", "%.2g")])
+    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
+    return "\n".join("  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip() for line in lines)
+
+
+def _settings(words):
+    settings = {}
+    for word in words:
+        key, separator, value = word.partition("=")
+        if not separator or not key:
+            raise WrongInput(f"--set {word} sets no key: write key=value, such as specimen.preload=20")
+        settings[key] = value_of(value)
+    return settings
+
+
+def _arguments(words):
+    parser = parser_of(PROGRAM)
+    parser.add_argument("knots", nargs="+")
+    parser.add_argument("--material", default="nylon")
+    parser.add_argument("--specimens", type=int, default=3)
+    parser.add_argument("--method", default="knot")
+    parser.add_argument("--set", action="append", default=[])
+    return parsed(parser, words)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,70 @@
+"""Knots in one rope, pulled alike, and what each of them bears: one table, the strongest first."""
+import os
+
+import numpy as np
+import pandas as pd
+
+from knot_utm import tool
+from knot_utm.errors import WrongInput
+from knot_utm.groups import rod_of
+from knot_utm.study import Study
+from knot_utm.sweeping import Sweep
+from knot_utm.yaml_text import text_of, value_of
+
+METHOD = "knot"
+KNOT, MATERIAL = "specimen.knot", "material"
+COLUMNS = {"knot": "-", "specimens": "-", "failed": "-", "broke": "-", "slip_load": "N", "slip_load_error": "N", "break_load": "N",
+           "break_load_error": "N", "efficiency": "of the strength without a knot", "efficiency_error": "of the strength without a knot",
+           "tail_slip": "h", "tail_slip_error": "h"}
+
+
+def rank(knots, material, specimens=3, out=None, jobs=None, method=METHOD, settings=None):
+    """A pandas.DataFrame with a row for each knot, in the order of the largest load that it bore, and its units in
+    `.attrs["units"]`.
+
+    `knots`: names of config/knots/, or paths of files. `material`: a name, or a map. `specimens`: of each knot, which differ as
+    tied ones do (specimens.scatter of the method). `out`: the folder of the runs, unless given out/rank; what is there is not run
+    again. `settings`: {key: value} of the method besides. Raises WrongInput where the method, a knot or a setting is refused.
+
+    slip_load          largest load of the specimens that did not break, within the pull; not a number where all broke
+    break_load         that of those that broke; efficiency is their knot_efficiency, where the material's law of breaking predicts it
+    tail_slip          the most that ran into the knot from a free end, in radii of the rod
+    ..._error          standard errors of these means; not a number of fewer than two specimens
+    """
+    out = os.path.abspath(out or os.path.join("out", "rank"))
+    sweep = Sweep(_study(knots, material, specimens, method, settings or {}), out)
+    table = sweep.all(jobs or len(os.sched_getaffinity(0)))
+    _, radius = rod_of(value_of(tool.resolved(sweep.study.method, sweep.study.points[0])))
+    ranked = pd.DataFrame([_row(knot, table[table[KNOT] == knot], radius) for knot in knots], columns=list(COLUMNS))
+    best = ranked[["slip_load", "break_load"]].max(axis=1)
+    ranked = ranked.loc[best.sort_values(ascending=False).index].reset_index(drop=True)
+    ranked.attrs["units"] = COLUMNS
+    return ranked
+
+
+def _study(knots, material, specimens, method, settings):
+    """The study that these runs are."""
+    if len(set(knots)) < len(knots) or not knots:
+        raise WrongInput(f"knots is {text_of(list(knots))}, but must be a list of different knots")
+    if not isinstance(specimens, int) or specimens < 2:
+        raise WrongInput(f"specimens is {text_of(specimens)}, but must be at least 2: one start is no reading")
+    points = [{KNOT: knot, MATERIAL: material, **settings} for knot in knots]
+    return Study("rank", tool.find_method(method, os.getcwd()), points, specimens, (), "list", {}, None)
+
+
+def _row(knot, runs, radius):
+    done = runs[runs["exit_code"] == 0]
+    broke = done["ended_by"] == "break"
+    row = {"knot": knot, "specimens": len(runs), "failed": len(runs) - len(done), "broke": int(broke.sum())}
+    slips = [np.nanmax(_list(tails), initial=-np.inf) / radius for tails in done["tail_slip"]]
+    for name, values in (("slip_load", done["peak_force"][~broke]), ("break_load", done["peak_force"][broke]),
+                         ("efficiency", done["knot_efficiency"][broke]), ("tail_slip", pd.Series(slips, dtype=float))):
+        values = pd.to_numeric(values, errors="coerce").replace([np.inf, -np.inf], np.nan).dropna()
+        row[name] = values.mean() if len(values) else np.nan
+        row[name + "_error"] = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else np.nan
+    return row
+
+
+def _list(text):
+    """A list of result.yaml as a table has it; none where there is no such reading."""
+    return [float(value) for value in text.strip("[]").split(",")] if isinstance(text, str) and text.strip("[]") else []
