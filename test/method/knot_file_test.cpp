@@ -7,12 +7,15 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <utility>
 
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
+#include "knot_utm/topology/knot_invariants.hpp"
 
 namespace knot_utm {
 namespace {
@@ -124,15 +127,72 @@ TEST(KnotFileName, ThatNobodyKnowsIsRefusedWithThoseThatAreKnown) {
   }
 }
 
+/// What each shipped knot is made of. A new one is a file and a line here.
+struct Shipped {
+  const char* name;
+  std::size_t ropes, free_ends, posts;
+};
+const Shipped kShipped[] = {
+    {"bowline", 1, 1, 1},
+    {"butterfly_bend", 2, 2, 0},
+    {"butterfly_loop", 1, 0, 0},
+    {"carrick", 2, 2, 0},
+    {"clove_hitch", 1, 1, 1},
+    {"double_sheet_bend", 2, 2, 0},
+    {"dropper_loop", 1, 0, 0},
+    {"figure_eight", 1, 0, 0},
+    {"figure_eight_bend", 2, 2, 0},
+    {"flat_overhand", 2, 2, 0},
+    {"granny", 2, 2, 0},
+    {"grief", 2, 2, 0},
+    {"overhand_tied", 1, 0, 0},
+    {"prusik", 2, 1, 0},
+    {"reef", 2, 2, 0},
+    {"round_turn", 1, 1, 1},
+    {"sheet_bend", 2, 2, 0},
+    {"shoelace_bow", 2, 2, 0},
+    {"simple_simon_crossover", 2, 2, 0},
+    {"simple_simon_over", 2, 2, 0},
+    {"simple_simon_under", 2, 2, 0},
+    {"surgeon", 2, 2, 0},
+    {"thief", 2, 2, 0},
+    {"zeppelin", 2, 2, 0},
+};
+
+TEST(ShippedKnots, AreThoseOfTheListAndWhatItSays) {
+  std::size_t files = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knots"))
+    files += entry.path().extension() == ".yaml" ? 1 : 0;
+  EXPECT_EQ(files, std::size(kShipped));
+  for (const Shipped& shipped : kShipped) {
+    const Method method = load_method(kBend, {std::string("specimen.knot=") + shipped.name});
+    const KnotDrawing& knot = *method.specimen.drawing;
+    EXPECT_EQ(knot.name, shipped.name);
+    EXPECT_EQ(knot.strands.size(), shipped.ropes) << shipped.name;
+    EXPECT_EQ(2 * knot.strands.size() - knot.lower.size() - knot.upper.size(), shipped.free_ends) << shipped.name;
+    EXPECT_EQ(knot.posts.size(), shipped.posts) << shipped.name;
+    EXPECT_FALSE(knot.title.empty() || knot.use.empty() || knot.source.empty()) << shipped.name;
+  }
+}
+
 TEST(ShippedKnots, FitBetweenTheGripsAtTheirDefaults) {
-  for (const fs::directory_entry& entry : fs::directory_iterator(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knots")) {
-    const std::string name = entry.path().stem().string();
+  for (const Shipped& shipped : kShipped)
     for (const char* material : {"nylon", "pink_vps", "dyneema_2mm"}) {
-      const Method method = load_method(kBend, {"specimen.knot=" + name, std::string("material=") + material});
-      EXPECT_EQ(method.specimen.drawing->name, name);
-      EXPECT_FALSE(method.specimen.drawing->use.empty()) << name;
-      EXPECT_NO_THROW(specimen_centreline(method.specimen, method.material, method.machine, method.physics)) << name;
+      const Method method =
+          load_method(kBend, {std::string("specimen.knot=") + shipped.name, std::string("material=") + material});
+      EXPECT_NO_THROW(specimen_centreline(method.specimen, method.material, method.machine, method.physics))
+          << shipped.name;
     }
+}
+
+/// The knots of one rope with both ends held are told by their Alexander polynomials at -1.
+TEST(ShippedKnots, OfOneRopeBetweenTheGripsAreWhatTheyAreCalled) {
+  const std::pair<const char*, std::int64_t> kDeterminants[] = {
+      {"overhand_tied", 3}, {"figure_eight", 5}, {"butterfly_loop", 1}, {"dropper_loop", 1}};
+  for (const auto& [name, determinant] : kDeterminants) {
+    const Method method = load_method(kBend, {std::string("specimen.knot=") + name});
+    const Points rod = specimen_centreline(method.specimen, method.material, method.machine, method.physics).points;
+    EXPECT_EQ(knot_determinant(alexander_polynomial(closed_far_away(rod, Vec3::UnitZ()))), determinant) << name;
   }
 }
 

@@ -1,0 +1,124 @@
+// A knot from a file on the machine: its free ends tie it, are let go, and are read while it is pulled.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/method/method.hpp"
+#include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
+
+namespace knot_utm {
+namespace {
+
+/// The shipped method at draft, with a knot whose two ends may be pulled with different loads.
+struct Bench {
+  Method method;
+  TestingMachine machine;
+  ProgramRunner program;
+  Sample last;
+
+  explicit Bench(const Method& method_)
+      : method(method_),
+        machine(method.specimen, method.material, method.machine, method.physics),
+        program(method.program, method.machine.load_cell.sampling_rate, machine.longest_step(), {}) {}
+
+  /// Runs on until a step of the program has ended, or to the end.
+  void run_past(Phase phase) {
+    bool in_it = false;
+    while (!program.ended()) {
+      const Command command = program.last();
+      if (in_it && command.phase != phase) return;
+      in_it = command.phase == phase;
+      last = machine.respond(command);
+      program.next(last);
+    }
+  }
+};
+
+Method knot_method(const std::string& knot) {
+  return load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knot.yaml",
+                     {"specimen.knot=" + knot, "physics.accuracy=draft", "program.pull.until.extension=0.02"});
+}
+
+std::vector<PulledEnd> pulled_ends(const Method& method) {
+  const Centreline rod = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
+  std::vector<PulledEnd> out;
+  for (const std::vector<PulledEnd>& together : rod.tied) out.insert(out.end(), together.begin(), together.end());
+  return out;
+}
+
+/// Tension of the edge at a free end.
+double tension_at(const TestingMachine& machine, int node) {
+  const Eigen::VectorXd tension = machine.tension();
+  const auto edge = [&](int j) { return machine.rod().is_cut(j) ? 0.0 : tension[j]; };
+  return std::max(node > 0 ? edge(node - 1) : 0.0, node < tension.size() ? edge(node) : 0.0);
+}
+
+TEST(TiedByEnds, EachFreeEndIsPulledToItsPartOfThePreload) {
+  Method method = knot_method("reef");
+  KnotDrawing drawing = *method.specimen.drawing;
+  drawing.tie = {{{"lower_tail", 1.0}}, {{"upper_tail", 0.5}}};
+  method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
+  Bench bench(method);
+  bench.run_past(Phase::kTie);
+  for (const PulledEnd& end : pulled_ends(method)) {
+    const double load = end.fraction * *method.specimen.preload;
+    // A grip slips at 0.999 of its load; at rest the drag holds less than a thousandth back.
+    EXPECT_NEAR(tension_at(bench.machine, end.node), load, 3e-3 * load);
+  }
+  bench.run_past(Phase::kRelease);
+  for (const PulledEnd& end : pulled_ends(method))
+    EXPECT_NEAR(tension_at(bench.machine, end.node), 0.0, 1e-3 * *method.specimen.preload);
+}
+
+TEST(TiedByEnds, AKnotWithoutAFreeEndOnlySettles) {
+  Bench bench(knot_method("figure_eight"));
+  bench.run_past(Phase::kRelease);
+  EXPECT_NE(bench.program.last().phase, Phase::kTie);
+  EXPECT_EQ(bench.last.tail_length.size(), 0u);
+  bench.run_past(Phase::kPull);
+  EXPECT_GT(bench.last.force_upper, 0.0);
+}
+
+TEST(TiedByEnds, ReadsHowMuchOfEachFreeEndIsLeft) {
+  const Method method = knot_method("grief");
+  Bench bench(method);
+  bench.run_past(Phase::kRelease);
+  const PerKnot tied = bench.last.tail_length;
+  ASSERT_EQ(tied.size(), 2u);
+  for (const double length : tied) EXPECT_GT(length, 0.8 * method.specimen.tail);
+  bench.run_past(Phase::kPull);
+  // Both ropes run through a knot that slips: the crosshead's way comes out of the tails, but for what the knot still
+  // takes up.
+  const double slipped = tied[0] - bench.last.tail_length[0] + tied[1] - bench.last.tail_length[1];
+  EXPECT_GT(slipped, 0.25 * 0.02);
+  EXPECT_LT(slipped, 2.0 * 0.02);
+}
+
+TEST(TiedByEnds, GoesOnToTheSameBitsFromASavedState) {
+  const Method method = knot_method("grief");
+  Bench bench(method);
+  for (int i = 0; i < 20; ++i) bench.last = bench.machine.respond(bench.program.last()), bench.program.next(bench.last);
+  Archive saved("test");
+  saved(bench.machine);
+  Bench other(method);
+  Archive loaded("test", saved.bytes(), "here");
+  loaded(other.machine);
+  other.program = bench.program;
+  for (int i = 0; i < 20 && !bench.program.ended(); ++i) {
+    const Command command = bench.program.last();
+    bench.last = bench.machine.respond(command);
+    EXPECT_EQ(other.machine.respond(command).grip_work, bench.last.grip_work);
+    bench.program.next(bench.last);
+  }
+  EXPECT_EQ(other.machine.state().position, bench.machine.state().position);
+}
+
+}  // namespace
+}  // namespace knot_utm
