@@ -56,15 +56,16 @@ def _row(knot, runs, radius):
     done = runs[runs["exit_code"] == 0]
     broke = done["ended_by"] == "break"
     row = {"knot": knot, "specimens": len(runs), "failed": len(runs) - len(done), "broke": int(broke.sum())}
-    slips = [np.nanmax(_list(tails), initial=-np.inf) / radius for tails in done["tail_slip"]]
+    slips = [max(_list(tails), default=np.nan) / radius for tails in done["tail_slip"]]
     for name, values in (("slip_load", done["peak_force"][~broke]), ("break_load", done["peak_force"][broke]),
                          ("efficiency", done["knot_efficiency"][broke]), ("tail_slip", pd.Series(slips, dtype=float))):
-        values = pd.to_numeric(values, errors="coerce").replace([np.inf, -np.inf], np.nan).dropna()
+        values = pd.to_numeric(values, errors="coerce").dropna()
         row[name] = values.mean() if len(values) else np.nan
         row[name + "_error"] = values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else np.nan
     return row
 
 
 def _list(text):
-    """A list of result.yaml as a table has it; none where there is no such reading."""
-    return [float(value) for value in text.strip("[]").split(",")] if isinstance(text, str) and text.strip("[]") else []
+    """The numbers of a list of result.yaml as a table has it."""
+    values = text.strip("[]").split(",") if isinstance(text, str) else []
+    return [float(value) for value in values if value and value.strip() not in ("nan", ".nan", "None")]

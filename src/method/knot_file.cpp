@@ -125,6 +125,7 @@ void check_names(const KnotReader& reader, const KnotDrawing& knot) {
   for (const std::string& end : knot.upper) take("upper", end);
   for (const std::vector<KnotDrawing::Pull>& together : knot.tie)
     for (const KnotDrawing::Pull& pull : together) take("tie", pull.end);
+  for (const KnotDrawing::Pull& weight : knot.weights) take("weights", weight.end);
   if (knot.upper.empty()) reader.refuse("upper", "", "the upper grip must hold at least one end");
   if (knot.lower.empty() && knot.posts.empty())
     reader.refuse("lower", "", "the lower grip must hold at least one end, or posts must bear the knot");
@@ -175,6 +176,7 @@ std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& f
   out.upper = list_of(reader, "upper", top.take("upper"), "a list of names of ends", names);
   out.posts = list_of(reader, "posts", top.take("posts"), "a list of posts", post);
   out.tie = list_of(reader, "tie", top.take("tie"), "a list of maps such as {tail: 1}", pulls);
+  if (const YAML::Node weights = top.take("weights"); weights.IsDefined()) out.weights = pulls("weights", weights);
   top.finish();
   if (out.strands.empty()) reader.refuse("strands", "", "a knot must have at least one strand");
   check_names(reader, out);

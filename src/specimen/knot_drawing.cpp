@@ -172,14 +172,16 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
     if (contains(drawing.upper, name)) out.above.push_back({at.node, at.next});
     if (drawing.held(name) == KnotDrawing::End::kFree) out.free.push_back(at.node);
   }
-  for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) {
-    out.tied.emplace_back();
-    for (const KnotDrawing::Pull& pull : together)
+  const auto pulled = [&](const std::vector<KnotDrawing::Pull>& pulls) {
+    std::vector<PulledEnd> found;
+    for (const KnotDrawing::Pull& pull : pulls)
       for (const auto& [name, at] : ends)
         if (name == pull.end)
-          out.tied.back().push_back(
-              {at.node, (out.points.col(at.node) - out.points.col(at.next)).normalized(), pull.fraction});
-  }
+          found.push_back({at.node, (out.points.col(at.node) - out.points.col(at.next)).normalized(), pull.fraction});
+    return found;
+  };
+  for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) out.tied.push_back(pulled(together));
+  out.weights = pulled(drawing.weights);
   check_no_overlap(out, size.radius, "specimen.knot", drawing.name);
   check_posts(drawing, size, out);
   return out;
