@@ -103,6 +103,10 @@ Number over_straight_strands(const Source& of, const Number& force) {
   return *force / (of.facts.strands * *of.facts.material.breaking_force);
 }
 Number knot_efficiency(const Source& of) { return over_straight_strands(of, of.results.true_peak_force); }
+Number knot_efficiency_error(const Source& of) { return over_straight_strands(of, of.errors.peak_force); }
+std::string why_no_efficiency_error(const Source& of) {
+  return knot_efficiency(of) ? why_no_peak_error(of) : why_no_efficiency(of);
+}
 
 Number knotability(const Source& of) {
   return of.facts.knot_hole ? Number(*of.facts.knot_hole / (2.0 * of.facts.material.radius)) : std::nullopt;
@@ -255,6 +259,8 @@ constexpr ResultKey kKeys[] = {
     {"knot_efficiency", "of the strength without a knot", kCurve,
      "Knot efficiency, the strength with the knot over that of as many straight strands", knot_efficiency,
      why_no_efficiency},
+    {"knot_efficiency_error", "of the strength without a knot", kBeside,
+     "Estimated numerical error of the knot efficiency", knot_efficiency_error, why_no_efficiency_error},
     {"knot_inner_diameter", "m", kKnots, "Inner diameter of the knot at the end, that of the thickest straight pin",
      read<&F::knot_hole>, why_no_hole},
     {"knotability", "-", kKnots, "Knotability, the inner diameter of the knot over the diameter of the rod",

@@ -176,9 +176,12 @@ TEST_F(ResultYaml, SaysHowMuchOfItsStrengthAKnotLeaves) {
   EXPECT_TRUE(says("knot_efficiency: null  # the rod did not break"));
   results.break_extension = 0.1;
   EXPECT_TRUE(says("knot_efficiency: 0.5\n"));
+  EXPECT_TRUE(says("knot_efficiency_error: null  # unknown: "));
+  facts.errors.break_in_bend = 0.04;
+  EXPECT_TRUE(says("knot_efficiency_error: 0.02\n"));
   facts.strands = 2;
   EXPECT_TRUE(says("knot_efficiency: 0.25\n"));
-  facts.material.breaking.law = static_cast<BreakingLaw>(0);  // which is reached as in a straight rod
+  facts.material.breaking.law = static_cast<BreakingLaw>(0);  // whose force is reached as in a straight rod
   EXPECT_TRUE(says("knot_efficiency: null  # not predicted: "));
 }
 
