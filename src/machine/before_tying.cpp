@@ -140,11 +140,10 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
   check_stretch(preload, material);
   const double exposed = exposed_by(strain_under(material, preload), 1.0 / drawn_coil(specimen), material);
   if (exposed >= 1.0)
-    throw InvalidInput("material.breaking.bending_share",
-                       short_number(material.breaking.number(FibreBreaking::kBendingShare)),
-                       "so small that the loose coil from which a knot is tied bears specimen.preload, " +
-                           short_number(preload) + " N: it strains the outermost fibre by " + short_number(exposed) +
-                           " times what parts it");
+    throw InvalidInput(
+        "material.breaking.bending_share", short_number(material.breaking.number(FibreBreaking::kBendingShare)),
+        "so small that the loose coil from which a knot is tied bears specimen.preload, " + short_number(preload) +
+            " N: it strains the outermost fibre by " + short_number(exposed) + " times what parts it");
 }
 
 std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const Material& material,

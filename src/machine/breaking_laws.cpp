@@ -13,15 +13,12 @@ FibreBreaking FibreBreaking::of(const Material& material) {
           WeakestLink(keys.number(kWeibullModulus), keys.number(kTestedLength), keys.number(kWeakerShare))};
 }
 
-BreakingLaws breaking_law_of(const Material& material) {
-  return BreakingRegistry::of(material.breaking.law, material);
-}
+BreakingLaws breaking_law_of(const Material& material) { return BreakingRegistry::of(material.breaking.law, material); }
 
 bool can_part(const Material& material) { return material.breaking_force.has_value(); }
 
 bool parts_by_bending(const Material& material) {
-  return can_part(material) &&
-         std::visit([](const auto& law) { return law.kBends; }, breaking_law_of(material));
+  return can_part(material) && std::visit([](const auto& law) { return law.kBends; }, breaking_law_of(material));
 }
 
 }  // namespace knot_utm

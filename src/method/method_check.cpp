@@ -71,8 +71,8 @@ void check_breaking(const Material& material) {
                                 "a number of newtons, which material.breaking.law: " + law + " needs");
   const bool scatters = std::isfinite(material.breaking.number(FibreBreaking::kWeibullModulus));
   for (const LawKey& key : {FibreBreaking::kTestedLength, FibreBreaking::kWeakerShare})
-    has_effect(scatters, ("material.breaking." + std::string(key.name)).c_str(), material.breaking.number(key), key.plain,
-               "with material.breaking.weibull_modulus");
+    has_effect(scatters, ("material.breaking." + std::string(key.name)).c_str(), material.breaking.number(key),
+               key.plain, "with material.breaking.weibull_modulus");
 }
 
 /// The keys of a specimen, each with its value as a message shows it.

@@ -41,9 +41,7 @@ double slowest_pull(const Program& program, double scale) {
 
 /// The tension that one strand bears at most; of a material that says nothing about it, that at which it is twice as
 /// long.
-double strength(const Material& material) {
-  return material.breaking_force.value_or(material.stretching_stiffness);
-}
+double strength(const Material& material) { return material.breaking_force.value_or(material.stretching_stiffness); }
 
 /// The next larger of 1, 2, 5, 10, 20 ..., as cells are sold.
 double next_cell(double load) {
@@ -70,8 +68,7 @@ Defaults defaults(const SpecimenOptions& specimen, const Material& material, con
   out.specimen.knot = specimen.knot;
   out.specimen.drawing = specimen.drawing;
   out.machine.roller_diameter = knot.roller_diameter(h).value_or(out.machine.roller_diameter);
-  if (specimen.drawing && !specimen.drawing->posts.empty())
-    out.machine.roller_friction = material.friction_coefficient;
+  if (specimen.drawing && !specimen.drawing->posts.empty()) out.machine.roller_friction = material.friction_coefficient;
   if (known) knot.suit(known->specimen, known->machine.roller_diameter, h, out.specimen);
   out.way = knot.pull(known ? known->specimen : out.specimen, h);
   const double asked = known ? largest(known->program, "m") : out.way;

@@ -269,8 +269,8 @@ TEST(Fracture, NoRodPartsWhereItIsCut) {
   EXPECT_NEAR(found.value, 0.02, 1e-12);
 }
 
-/// A straight rod of length l has F = f Gamma(1 + 1/m) (l/(l_t E))^(1/m). The mean strength of rods of the tested length,
-/// of which u is drawn evenly, is the breaking force.
+/// A straight rod of length l has F = f Gamma(1 + 1/m) (l/(l_t E))^(1/m). The mean strength of rods of the tested
+/// length, of which u is drawn evenly, is the breaking force.
 TEST(WeakestLink, LongRodsAreWeakerAndThoseOfTheTestedLengthHaveTheBreakingForceInTheMean) {
   constexpr double kModulus = 8.0, kTested = 0.25;
   const auto strength = [&](double share, double length) {
@@ -284,7 +284,8 @@ TEST(WeakestLink, LongRodsAreWeakerAndThoseOfTheTestedLengthHaveTheBreakingForce
   for (int i = 0; i < kDrawn; ++i) mean += strength((i + 0.5) / kDrawn, kTested) / kDrawn;
   EXPECT_NEAR(mean, 1.0, 1e-4);
   EXPECT_NEAR(strength(0.5, 4.0 * kTested) / strength(0.5, kTested), std::pow(4.0, -1.0 / kModulus), 1e-12);
-  EXPECT_NEAR(strength(0.3, kTested), std::pow(-std::log(0.7), 1.0 / kModulus) / std::tgamma(1.0 + 1.0 / kModulus), 1e-12);
+  EXPECT_NEAR(strength(0.3, kTested), std::pow(-std::log(0.7), 1.0 / kModulus) / std::tgamma(1.0 + 1.0 / kModulus),
+              1e-12);
 }
 
 TEST(WeakestLink, WithoutScatterItIsTheLargestFraction) {

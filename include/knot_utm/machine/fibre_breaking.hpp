@@ -27,9 +27,12 @@ struct FibreBreaking {
   static constexpr const char* kName = "tension_and_bending";
   static constexpr LawKey kBendingShare{
       "bending_share", 0.0, 1.0, "-", LawDefault::kNone, std::numeric_limits<double>::quiet_NaN()};
-  static constexpr LawKey kWeibullModulus{
-      "weibull_modulus", 1.0, std::numeric_limits<double>::infinity(), "-", LawDefault::kPlain,
-      std::numeric_limits<double>::infinity()};
+  static constexpr LawKey kWeibullModulus{"weibull_modulus",
+                                          1.0,
+                                          std::numeric_limits<double>::infinity(),
+                                          "-",
+                                          LawDefault::kPlain,
+                                          std::numeric_limits<double>::infinity()};
   static constexpr LawKey kTestedLength{"tested_length", 1e-4, 100.0, "m", LawDefault::kPlain, 0.25};
   static constexpr LawKey kWeakerShare{"weaker_share", 1e-6, 1.0 - 1e-6, "-", LawDefault::kPlain, 0.5};
   static constexpr std::array kKeys{kBendingShare, kWeibullModulus, kTestedLength, kWeakerShare};

@@ -12,8 +12,8 @@ namespace knot_utm {
 ///   f_0  1/Gamma(1 + 1/m), so that this mean is 1 [-]
 ///   m    `weibull_modulus` [-]; l_t  `tested_length` [m]
 ///
-/// A specimen has its u = `weaker_share`, the share of all specimens that are weaker, and parts where P reaches u. It is
-/// as near to that as says the fraction, which is of first degree in f,
+/// A specimen has its u = `weaker_share`, the share of all specimens that are weaker, and parts where P reaches u. It
+/// is as near to that as says the fraction, which is of first degree in f,
 ///
 ///   F = Gamma(1 + 1/m) (sum_j f_j^m l_j/(l_t E))^(1/m),   E = -ln(1 - u)
 ///
