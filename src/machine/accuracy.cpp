@@ -105,7 +105,7 @@ double coarseness(const Tolerances& own, const Tolerances& normal, double edge) 
 /// The mesh resolves a knot's sharpest bend, and friction decides how the tension falls along it.
 std::optional<double> error_of_break_in_bend(const SpecimenOptions& specimen, const Material& material,
                                              const PhysicsOptions& physics) {
-  const bool studied = knot_of(specimen).about().knots > 0 && parts_by_bending(material) &&
+  const bool studied = knot_of(specimen).about().may_hold_a_knot() && parts_by_bending(material) &&
                        physics.contact_law == ContactLaw::kSmooth &&
                        FrictionRegistry::entry(physics.friction.law).studied;
   if (!studied) return {};
