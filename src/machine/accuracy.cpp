@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
@@ -101,6 +102,18 @@ double coarseness(const Tolerances& own, const Tolerances& normal, double edge) 
          kFractionOfResidual * own.residual / normal.residual;
 }
 
+/// The mesh resolves a knot's sharpest bend, and friction decides how the tension falls along it.
+std::optional<double> error_of_break_in_bend(const SpecimenOptions& specimen, const Material& material,
+                                             const PhysicsOptions& physics) {
+  const bool studied = knot_of(specimen).about().may_hold_a_knot() && parts_by_bending(material) &&
+                       physics.contact_law == ContactLaw::kSmooth &&
+                       FrictionRegistry::entry(physics.friction.law).studied;
+  if (!studied) return {};
+  return kBreakInBend * coarseness(tolerances(physics, specimen, material),
+                                   of(Accuracy::kNormal, answer(physics, specimen, material)),
+                                   specimen.edge_length / material.radius);
+}
+
 }  // namespace
 
 Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& specimen, const Material& material) {
@@ -120,6 +133,7 @@ bool hardly_closed(double plateau_force, const Material& material) {
 
 RelativeErrors errors_of_hardly_closed(const RelativeErrors& errors) {
   RelativeErrors out;
+  out.break_in_bend = errors.break_in_bend;
   if (!errors.rolls) return out;
   out.rolls = true;
   if (errors.plateau_force) out.plateau_force = kHardlyClosedPlateau * *errors.plateau_force;
@@ -133,6 +147,7 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   RelativeErrors out;
   if (!StretchingRegistry::entry(material.stretching.law).studied) return out;
   if (study == ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
+  out.break_in_bend = error_of_break_in_bend(specimen, material, physics);
   const bool studied = study == ErrorStudy::kFisherman && specimen.to_be_tied &&
                        physics.contact_law == ContactLaw::kSmooth &&
                        FrictionRegistry::entry(physics.friction.law).studied && studied_section(material, physics) &&

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
@@ -60,23 +61,30 @@ std::string automatic_warning(double preload, double stretch, const Material& ma
          " to " + short_number(kVeryTightly * force) + " N" + set;
 }
 
+/// Strain of the outermost fibre over the one that parts it, of a rod that is stretched and bent; 0: bending does not
+/// part it.
+double exposed_by(double stretch, double bend, const Material& material) {
+  if (!parts_by_bending(material)) return 0.0;
+  return std::get<FibreBreaking>(breaking_law_of(material)).fraction({0.0, stretch, bend});
+}
+
 /// Warns of a strain that the outermost fibre of a tied knot may not bear. It is empty where nothing is known to fail.
-std::string strain_warning(double strain, const Material& material) {
+std::string strain_warning(double stretch, const Material& material) {
+  const double strain = stretch + kSharpestBend, exposed = exposed_by(stretch, kSharpestBend, material);
   const std::string needed = "tied knots strain the outermost fibre by up to " + short_number(strain);
-  if (material.breaking_strain && *material.breaking_strain < strain)
-    return needed + ", and the rod parts at a strain of " + short_number(*material.breaking_strain) +
-           " (material.breaking_strain), so it may part while it is tied";
+  if (exposed > 1.0)
+    return "tied knots strain their fibres by up to " + short_number(exposed) +
+           " times what parts them (material.breaking), so the rod may part while it is tied";
   if (remembers_bends(material)) return "";
   if (material.yield_strain && *material.yield_strain < strain)
     return needed + ", and the material yields at a strain of " + short_number(*material.yield_strain) +
            " (material.yield_strain), which only material.bending_law: plastic simulates";
-  if (material.breaking_strain || material.yield_strain || !is_solid(material)) return "";
+  if (parts_by_bending(material) || material.yield_strain || !is_solid(material)) return "";
   const double modulus = material.stretching_stiffness / (M_PI * material.radius * material.radius);
   if (modulus < kMetal) return "";
   return needed + ", but a solid rod with a modulus of " + short_number(1e-9 * modulus) +
          " GPa yields or breaks at a much smaller strain, which is not simulated; set material.yield_strain or "
-         "material.breaking_strain if "
-         "you know them";
+         "material.breaking if you know them";
 }
 
 /// Warns of edges that are too long for the bends of a tied rope. Knots of solid rods were the same with edges of 2 h.
@@ -130,11 +138,12 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
                            ": a smaller one does not move the coils, which close only at " +
                            short_number(closing_preload(material)) + " N");
   check_stretch(preload, material);
-  const double strain = strain_under(material, preload) + 1.0 / drawn_coil(specimen);
-  if (material.breaking_strain && *material.breaking_strain <= strain)
-    throw InvalidInput("material.breaking_strain", short_number(*material.breaking_strain),
-                       "more than " + least_text(strain, 3) +
-                           ", the strain of the outermost fibre in the loose coil from which a knot is tied");
+  const double exposed = exposed_by(strain_under(material, preload), 1.0 / drawn_coil(specimen), material);
+  if (exposed >= 1.0)
+    throw InvalidInput(
+        "material.breaking.bending_share", short_number(material.breaking.number(FibreBreaking::kBendingShare)),
+        "so small that the loose coil from which a knot is tied bears specimen.preload, " + short_number(preload) +
+            " N: it strains the outermost fibre by " + short_number(exposed) + " times what parts it");
 }
 
 std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const Material& material,
@@ -154,7 +163,7 @@ std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const M
     all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " + short_number(1.0 + stretch) +
                   " times its length");
   const double edge = specimen.edge_length / tolerances(physics, specimen, material).refinement;
-  for (const std::string& found : {strain_warning(stretch + kSharpestBend, material), mesh_warning(edge, material)})
+  for (const std::string& found : {strain_warning(stretch, material), mesh_warning(edge, material)})
     if (!found.empty()) all.push_back(found);
   return all;
 }

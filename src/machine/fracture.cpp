@@ -13,37 +13,81 @@ namespace {
 constexpr double kTouching = 2.2;   // [h]
 constexpr double kNeighbour = 5.0;  // along the rod [h]
 
-/// kappa of an inner node.
-double curvature(const RodProperties& rod, const Points& position, Eigen::Index node) {
-  if (node < 1 || node + 1 >= rod.nodes()) return 0.0;
+bool turns(const RodProperties& rod, Eigen::Index node) {
+  return node >= 1 && node + 1 < rod.nodes() && !rod.is_cut(node - 1) && !rod.is_cut(node);
+}
+
+/// The angle by which a rod turns at a node, along the axis of the turn [rad].
+Vec3 turn(const Points& position, Eigen::Index node) {
   const Vec3 e = (position.col(node) - position.col(node - 1)).normalized();
   const Vec3 f = (position.col(node + 1) - position.col(node)).normalized();
-  return turning_angle(e, f) / rod.voronoi_length[node];
+  const Vec3 axis = e.cross(f);
+  const double sine = axis.norm();
+  return sine > 0.0 ? Vec3(axis * (turning_angle(e, f) / sine)) : Vec3(Vec3::Zero());
+}
+
+/// kappa of a node: that of the turn within h to either side of it. Nodes turn evenly along their Voronoi lengths.
+double curvature(const RodProperties& rod, const Points& position, Eigen::Index node) {
+  if (!turns(rod, node)) return 0.0;
+  const double h = rod.material.radius;
+  const auto half = [&](Eigen::Index i) { return 0.5 * rod.voronoi_length[i]; };
+  Vec3 sum = turn(position, node) * std::min(1.0, h / half(node));
+  for (const int step : {-1, 1}) {
+    double begin = half(node);  // of the next node's length, from here
+    for (Eigen::Index i = node + step; begin < h && turns(rod, i); i += step) {
+      const double length = rod.voronoi_length[i];
+      sum += turn(position, i) * std::min(1.0, (h - begin) / length);
+      begin += length;
+    }
+  }
+  return sum.norm() / (2.0 * h);
+}
+
+/// Calls use(j, LoadedEdge) for all edges that are not cut.
+template <class Law, class Use>
+void each_edge(const Law& law, const RodProperties& rod, const Points& position, const Use& use) {
+  const double h = rod.material.radius;
+  double bend_before = 0.0;
+  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+    const double bend = law.kBends ? h * curvature(rod, position, j + 1) : 0.0;
+    const StretchedEdge stretched = stretched_edge(rod, position, j);
+    if (!rod.is_cut(j))
+      use(j, LoadedEdge{respond(rod, stretched).tension, stretched.stretch - 1.0, std::max(bend, bend_before)});
+    bend_before = bend;
+  }
+}
+
+template <class Law>
+Exposure worst_edge(const Law& law, const RodProperties& rod, const Points& position) {
+  Exposure out;
+  each_edge(law, rod, position, [&](Eigen::Index j, const LoadedEdge& edge) {
+    const double fraction = law.fraction(edge);
+    if (fraction > out.fraction) out = {fraction, static_cast<int>(j), Law::kLimit, law.limited(edge)};
+  });
+  return out;
+}
+
+Exposure exposure(const TensionBreaking& law, const RodProperties& rod, const Points& position) {
+  return worst_edge(law, rod, position);
+}
+
+Exposure exposure(const FibreBreaking& law, const RodProperties& rod, const Points& position) {
+  Exposure out = worst_edge(law, rod, position);
+  WeakestLink::Sum sum(law.link);
+  each_edge(law, rod, position,
+            [&](Eigen::Index j, const LoadedEdge& edge) { sum.add(law.fraction(edge), rod.rest_length[j]); });
+  out.fraction = sum.fraction();
+  return out;
 }
 
 }  // namespace
 
-bool can_part(const Material& material) { return material.breaking_force || material.breaking_strain; }
+Exposure most_exposed(const BreakingLaws& law, const RodProperties& rod, const Points& position) {
+  return std::visit([&](const auto& of) { return exposure(of, rod, position); }, law);
+}
 
 Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position) {
-  Exposure out;
-  double bend_before = 0.0;
-  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
-    const StretchedEdge stretched = stretched_edge(rod, position, j);
-    const double tension = respond(rod, stretched).tension;
-    Exposure edge;
-    if (material.breaking_force)
-      edge = {tension / *material.breaking_force, static_cast<int>(j), BreakLimit::kForce, tension};
-    if (material.breaking_strain) {
-      const double bend = curvature(rod, position, j + 1);
-      const double strain = stretched.stretch - 1.0 + material.radius * std::max(bend, bend_before);
-      const double fraction = strain / *material.breaking_strain;
-      if (fraction > edge.fraction) edge = {fraction, static_cast<int>(j), BreakLimit::kStrain, strain};
-      bend_before = bend;
-    }
-    if (edge.fraction > out.fraction) out = edge;
-  }
-  return out;
+  return most_exposed(breaking_law_of(material), rod, position);
 }
 
 double transit_time(const RodMaterial& material, double length) {

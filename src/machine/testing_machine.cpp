@@ -62,6 +62,7 @@ struct TestingMachine::Impl {
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
+  BreakingLaws breaking;              // of a rod that can part
   std::optional<BreakWatch> breaks;   // where the rod can part
   bool refused = false;               // by it, the step that was tried last, though it was solved
   std::unique_ptr<Tying> tying;       // where it can be tied
@@ -225,14 +226,15 @@ struct TestingMachine::Impl {
   bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
   void watch_for_break(double shortest) {
-    breaks.emplace(shortest, most_exposed(material, stepper->rod(), stepper->state().position));
+    breaking = breaking_law_of(material);
+    breaks.emplace(shortest, most_exposed(breaking, stepper->rod(), stepper->state().position));
   }
 
   /// Why a step that was solved is none that the rod and the machine make. Empty: it is.
   std::string refuse(const Points& end, double dt) const {
     if (parted()) return "";
     if (breaks)
-      if (std::string why = breaks->refuse(most_exposed(material, stepper->rod(), end), dt); !why.empty()) return why;
+      if (std::string why = breaks->refuse(most_exposed(breaking, stepper->rod(), end), dt); !why.empty()) return why;
     const double least = kLeastPassed * material.bending_stiffness / (material.radius * material.radius);
     const bool passed =
         frame.passed_balance(grip_tried - grip, grip_tried, travel_tried, grips.tried_force_upper(*stepper),
@@ -243,7 +245,7 @@ struct TestingMachine::Impl {
   /// After an accepted step: does the rod part? The next step ends where at this pace it will.
   void judge_break(double dt) {
     if (!breaks || parted()) return;
-    const Exposure now = most_exposed(material, stepper->rod(), stepper->state().position);
+    const Exposure now = most_exposed(breaking, stepper->rod(), stepper->state().position);
     if (!breaks->judge(now, dt)) return control.at_most(breaks->next());
     message = not_by_tension(now, grips.force_upper(*stepper), grips.force_lower(*stepper));
     if (message.empty()) return part(now);
@@ -258,7 +260,8 @@ struct TestingMachine::Impl {
                   : grips.hold(grip, middle(edge), material.radius) ? BreakPlace::kGrip
                                                                     : BreakPlace::kStrand;
     std::ostringstream text;
-    text << "the rod parted " << break_arclength(edge) << " m along its length (" << break_place_name(break_place)
+    text << "the rod parted " << break_arclength(edge) << " m along its length" << which_rope(edge) << " ("
+         << break_place_name(break_place)
          << (reached.limit == BreakLimit::kForce ? ") at a tension of " : ") at a strain of its outermost fibre of ")
          << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
     status = BenchStatus::kBroken;
@@ -276,7 +279,18 @@ struct TestingMachine::Impl {
 
   double break_arclength(int edge) const {
     const RodProperties& rod = stepper->rod();
-    return rod.rest_length.head(edge).sum() + 0.5 * rod.rest_length[edge];
+    double before = rod.rest_length.head(edge).sum();
+    for (const int cut : rod.cuts)
+      if (cut < edge) before -= rod.rest_length[cut];
+    return before + 0.5 * rod.rest_length[edge];
+  }
+
+  /// Ropes that follow each other count from 1, as their knot's file lists them.
+  std::string which_rope(int edge) const {
+    const std::vector<int>& cuts = stepper->rod().cuts;
+    if (cuts.empty()) return "";
+    const auto before = std::count_if(cuts.begin(), cuts.end(), [&](int cut) { return cut < edge; });
+    return ", in rope " + std::to_string(before + 1);
   }
 
   /// Whether the specimen cannot be tied or mounted.

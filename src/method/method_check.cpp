@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "knot_utm/machine/before_tying.hpp"
-#include "knot_utm/machine/fracture.hpp"
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/method/method.hpp"
@@ -62,6 +62,19 @@ void check_law(const LawOptions<Number>& given, const std::string& section, cons
   }
 }
 
+/// A breaking law needs the strength of a straight rod, and a specimen is one of many only where they scatter.
+void check_breaking(const Material& material) {
+  check_law<BreakingRegistry>(material.breaking, "material.breaking.", "law");
+  const std::string law = BreakingRegistry::entry(material.breaking.law).name;
+  if (law != TensionBreaking::kName && !material.breaking_force)
+    throw InvalidInput::missing("material.breaking_force",
+                                "a number of newtons, which material.breaking.law: " + law + " needs");
+  const bool scatters = std::isfinite(material.breaking.number(FibreBreaking::kWeibullModulus));
+  for (const LawKey& key : {FibreBreaking::kTestedLength, FibreBreaking::kWeakerShare})
+    has_effect(scatters, ("material.breaking." + std::string(key.name)).c_str(), material.breaking.number(key),
+               key.plain, "with material.breaking.weibull_modulus");
+}
+
 /// The keys of a specimen, each with its value as a message shows it.
 YAML::Node keys_of(SpecimenOptions specimen) {
   fields::Writer writer;
@@ -105,7 +118,7 @@ void check_effects(const Method& m) {
              "for knot: " + loops() + ", with grips: rollers");
   const bool follows = machine.after_break == AfterBreak::kFollow;
   has_effect(can_part(m.material), "machine.after_break", std::string(follows ? "follow" : "stop"), std::string("stop"),
-             "with material.breaking_force or material.breaking_strain");
+             "with material.breaking_force");
 
   const Material& material = m.material;
   const bool rolls = friction_couple(material, m.physics) > 0.0;
@@ -117,6 +130,7 @@ void check_effects(const Method& m) {
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
   check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
   check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");
+  check_breaking(m.material);
 }
 
 void check_specimen(const Method& m) {

@@ -41,12 +41,7 @@ double slowest_pull(const Program& program, double scale) {
 
 /// The tension that one strand bears at most; of a material that says nothing about it, that at which it is twice as
 /// long.
-double strength(const Material& material) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  const double by_strain = material.breaking_strain.value_or(kNone) * material.stretching_stiffness;
-  const double least = std::min(material.breaking_force.value_or(kNone), by_strain);
-  return std::isfinite(least) ? least : material.stretching_stiffness;
-}
+double strength(const Material& material) { return material.breaking_force.value_or(material.stretching_stiffness); }
 
 /// The next larger of 1, 2, 5, 10, 20 ..., as cells are sold.
 double next_cell(double load) {

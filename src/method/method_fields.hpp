@@ -5,6 +5,7 @@
 #include <string>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/fields.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
@@ -78,7 +79,7 @@ inline void material(Fields& f, Material& o) {
   f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
   f.optional_number("tying_preload", o.tying_preload, Range{1e-9, 1e9, "N"}, "auto");
   f.optional_number("breaking_force", o.breaking_force, Range{1e-6, 1e8, "N"}, "none");
-  f.optional_number("breaking_strain", o.breaking_strain, Range{1e-6, 100.0, "-"}, "none");
+  f.section("breaking", [&o](Fields& breaking) { chosen_law<BreakingRegistry>(breaking, "law", o.breaking); });
   f.optional_number("yield_strain", o.yield_strain, Range{1e-6, 100.0, "-"}, "none");
   f.text("load_cell", o.load_cell);
   f.text("notes", o.notes);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
@@ -39,6 +40,7 @@ void keep_own_keys(Method& method) {
   keep_own_keys<FrictionRegistry>(method.physics.friction);
   keep_own_keys<StretchingRegistry>(method.material.stretching);
   keep_own_keys<BendingRegistry>(method.material.bending);
+  keep_own_keys<BreakingRegistry>(method.material.breaking);
 }
 
 void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>& overrides, Method& method) {
@@ -46,6 +48,7 @@ void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>
   Material& material = method.material;
   drop_keys_of_former_law<StretchingRegistry>("material.", "stretching_law", by, material.stretching);
   drop_keys_of_former_law<BendingRegistry>("material.", "bending_law", by, material.bending);
+  drop_keys_of_former_law<BreakingRegistry>("material.breaking.", "law", by, material.breaking);
   drop_keys_of_former_law<FrictionRegistry>("physics.friction.", "law", by, method.physics.friction);
   const GivenBy rolls = std::max({by("material.friction_couple"), by("physics.friction.at"), by("compatibility")});
   if (friction_couple(material, method.physics) > 0.0) return;

@@ -125,13 +125,13 @@ void add_never_reached(const Method& method, std::vector<std::string>& all) {
             "the crosshead is at the end of machine.travel after " + short_number(longest) + " s at " +
                 short_number(pull->speed) + " m/s");
     const Material& rod = method.material;
-    if (until.broken && !until.extension && !until.load && !until.time && !rod.breaking_force && !rod.breaking_strain &&
+    if (until.broken && !until.extension && !until.load && !until.time && !rod.breaking_force &&
         !ends.break_at_fraction_of_peak)
       all.push_back(key +
                     ".break is the only end of the pull, but nothing breaks this rod, so that the pull goes on to "
                     "machine.travel, " +
                     short_number(travel) +
-                    " m: give material.breaking_force, material.breaking_strain, a fall of the load in ends, or "
+                    " m: give material.breaking_force, a fall of the load in ends, or "
                     "until.extension");
   }
 }

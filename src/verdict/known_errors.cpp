@@ -38,10 +38,13 @@ double noise_of_stiffness(const Results& results, double noise) {
 }
 
 /// The relative error of the largest load. Where the rod parts in a knot, friction in the knot decides at which load,
-/// as it decides the plateau; so it does where knots slide to the end. A straight strand parts at the force that was
+/// as it decides the plateau; so it does where knots slide to the end. Where its bend helps to part it, the mesh of the
+/// bend decides, too. A straight strand parts at the force that was
 /// given. Behind a lock the load depends on where the lock is, and how steep it rises.
 std::optional<double> error_of_peak(const Results& results, const RunFacts& facts, const RelativeErrors& errors) {
   if (!results.true_peak_force || results.motion_pattern == MotionPattern::kUntangling) return {};
+  if (results.break_extension && errors.break_in_bend)
+    return *errors.break_in_bend + errors.plateau_force.value_or(0.0);
   constexpr double kBreakOfAStrand = 2e-3;  // twice the scatter of nylon's loop
   const bool in_a_strand = results.break_place == BreakPlace::kStrand || results.break_place == BreakPlace::kGrip;
   if (in_a_strand && facts.material.breaking_force) {

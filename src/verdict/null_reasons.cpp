@@ -1,5 +1,6 @@
 #include "null_reasons.hpp"
 
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/verdict/known_errors.hpp"
@@ -140,9 +141,9 @@ std::string why_no_break(const ResultSource& source) {
 std::string why_no_efficiency(const ResultSource& source) {
   if (!source.facts.may_hold_a_knot) return "there is no knot";
   if (!source.results.break_extension) return why_no_break(source);
-  if (source.facts.material.breaking_force)
+  if (!parts_by_bending(source.facts.material))
     return "not predicted: the rod parts where its tension is material.breaking_force, which was given";
-  return of_the_pull(source, "the material has no breaking strain");
+  return of_the_pull(source, "the load fell before the rod parted");
 }
 
 std::string why_no_hole(const ResultSource& source) {

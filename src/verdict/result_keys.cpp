@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/machine/load_cell.hpp"
-#include "knot_utm/machine/straight_strength.hpp"
 #include "knot_utm/numeric/yaml_lines.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
@@ -95,15 +95,17 @@ std::string why_no_force_ratio(const Source& of) {
                                  : "the force is not steady: the strand does not slide all along the post yet";
 }
 
-/// The largest load over what as many straight rods would bear. A breaking force parts a knotted rod at the tension of
-/// a straight one, so that it predicts nothing; a breaking strain is that of the outermost fibre, also where the knot
-/// bends it.
-Number knot_efficiency(const Source& of) {
-  const Number strength = straight_strength(of.facts.material);
-  if (!of.facts.may_hold_a_knot || !of.results.break_extension || !of.results.true_peak_force || !strength ||
-      of.facts.material.breaking_force)
+/// The largest load over what as many straight rods would bear. Where tension alone parts the rod, it parts at the
+/// tension of a straight one, which predicts nothing.
+Number over_straight_strands(const Source& of, const Number& force) {
+  if (!force || !of.facts.may_hold_a_knot || !of.results.break_extension || !parts_by_bending(of.facts.material))
     return std::nullopt;
-  return *of.results.true_peak_force / (of.facts.strands * *strength);
+  return *force / (of.facts.strands * *of.facts.material.breaking_force);
+}
+Number knot_efficiency(const Source& of) { return over_straight_strands(of, of.results.true_peak_force); }
+Number knot_efficiency_error(const Source& of) { return over_straight_strands(of, of.errors.peak_force); }
+std::string why_no_efficiency_error(const Source& of) {
+  return knot_efficiency(of) ? why_no_peak_error(of) : why_no_efficiency(of);
 }
 
 Number knotability(const Source& of) {
@@ -261,6 +263,8 @@ constexpr ResultKey kKeys[] = {
     {"knot_efficiency", "of the strength without a knot", kCurve,
      "Knot efficiency, the strength with the knot over that of as many straight strands", knot_efficiency,
      why_no_efficiency},
+    {"knot_efficiency_error", "of the strength without a knot", kBeside,
+     "Estimated numerical error of the knot efficiency", knot_efficiency_error, why_no_efficiency_error},
     {"knot_inner_diameter", "m", kKnots, "Inner diameter of the knot at the end, that of the thickest straight pin",
      read<&F::knot_hole>, why_no_hole},
     {"knotability", "-", kKnots, "Knotability, the inner diameter of the knot over the diameter of the rod",

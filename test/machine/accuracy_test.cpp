@@ -134,5 +134,25 @@ TEST(RelativeErrors, AreNotGivenWhereNoStudySays) {
   }
 }
 
+/// With the square of the edges, as the mesh of a bend goes.
+TEST(Errors, OfABreakInABendAreThoseOfAKnotThatItsBendHelpsToPart) {
+  Loop knot;
+  knot.specimen.knot = knot_named("overhand");
+  knot.material.breaking_force = 2500.0;
+  EXPECT_FALSE(knot.errors().break_in_bend) << "tension alone parts it";
+  knot.material.breaking.law = static_cast<BreakingLaw>(1);
+  knot.material.breaking.set("bending_share", 0.1);
+  const double normal = knot.errors().break_in_bend.value();
+  EXPECT_GT(normal, 0.03);
+  EXPECT_LT(normal, 0.1);
+  knot.specimen.edge_length *= 0.5;
+  EXPECT_LT(knot.errors().break_in_bend.value(), 0.85 * normal);
+  knot.physics.contact_law = ContactLaw::kEdge;
+  EXPECT_FALSE(knot.errors().break_in_bend);
+  knot.physics.contact_law = ContactLaw::kSmooth;
+  knot.specimen.knot = knot_named("straight");
+  EXPECT_FALSE(knot.errors().break_in_bend) << "it has no knot";
+}
+
 }  // namespace
 }  // namespace knot_utm

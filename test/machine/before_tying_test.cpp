@@ -113,12 +113,17 @@ TEST(BeforeTying, AnAutomaticPreloadIsLittleForARopeOfLittleFriction) {
 
 TEST(BeforeTying, AStrainThatTheLooseCoilHasAlreadyIsRefusedAndThatOfATiedOneIsAWarning) {
   Loop loop;
-  loop.material.breaking_strain = 0.2;
-  EXPECT_EQ(loop.refused(), "material.breaking_strain");
-  loop.material.breaking_strain = 0.3;
+  loop.material.breaking.law = static_cast<BreakingLaw>(1);
+  loop.material.breaking.set("bending_share", 1.0);
+  const auto parts_at = [&](double strain) {
+    loop.material.breaking_force = strain * loop.material.stretching_stiffness;
+  };
+  parts_at(0.2);
+  EXPECT_EQ(loop.refused(), "material.breaking.bending_share");
+  parts_at(0.3);
   EXPECT_EQ(loop.refused(), "");
-  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("up to 0.502, and the rod parts at a strain of 0.3")));
-  loop.material.breaking_strain = 0.6;
+  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("up to 1.67 times what parts them (material.breaking)")));
+  parts_at(0.6);
   EXPECT_THAT(loop.warnings(), IsEmpty());
 }
 

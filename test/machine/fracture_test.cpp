@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/straight_strength.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/machine/weakest_link.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -164,54 +165,148 @@ INSTANTIATE_TEST_SUITE_P(Every, FractureOfAnOverhand,
                                   (std::get<1>(test.param) == TwistMode::kOn ? "WithTwist" : "");
                          });
 
-/// A polygon that turns by phi at every node has the curvature of an arc of radius R whose length at phi is an edge's.
-TEST(Fracture, StrainOfTheOutermostFibreIsThatOfTensionAndOfBending) {
-  constexpr double kTurn = 0.1, kRadius = 0.05, kStretch = 1.02;
-  const double edge = kRadius * kTurn;
-  Material material = nylon();
-  material.breaking_strain = 0.2;
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(20, edge / kStretch));
-  RodState state;
-  state.position = Points::Zero(3, 21);
-  for (int i = 0; i < 20; ++i)
-    state.position.col(i + 1) = state.position.col(i) + edge * Vec3(std::cos(kTurn * i), std::sin(kTurn * i), 0.0);
-  const double strain = (kStretch - 1.0) + material.radius * kStretch / kRadius;  // kappa is over the length at rest
-  EXPECT_NEAR(most_exposed(material, rod, state.position).fraction, strain / 0.2, 1e-12);
-  EXPECT_TRUE(can_part(material));
-  EXPECT_FALSE(can_part(nylon()));
+/// Parts at a strain of 0.2 where it is straight.
+Material bent(double share) {
+  Material out = nylon();
+  out.breaking_force = 0.2 * out.stretching_stiffness;
+  out.breaking.law = static_cast<BreakingLaw>(1);
+  out.breaking.set("bending_share", share);
+  return out;
 }
 
-TEST(Fracture, OfTwoLimitsTheNearerOneCounts) {
+/// A polygon that turns by phi at every node has the curvature of an arc of radius R whose length at phi is an edge's.
+TEST(Fracture, StrainOfTheOutermostFibreIsThatOfTensionAndOfItsShareOfBending) {
+  constexpr double kTurn = 0.1, kRadius = 0.05, kStretch = 1.02;
+  const double edge = kRadius * kTurn;
+  for (const double share : {0.0, 0.3, 1.0}) {
+    const Material material = bent(share);
+    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(20, edge / kStretch));
+    Points position = Points::Zero(3, 21);
+    for (int i = 0; i < 20; ++i)
+      position.col(i + 1) = position.col(i) + edge * Vec3(std::cos(kTurn * i), std::sin(kTurn * i), 0.0);
+    // kappa is over the length at rest.
+    const double strain = (kStretch - 1.0) + share * material.radius * kStretch / kRadius;
+    const Exposure found = most_exposed(material, rod, position);
+    EXPECT_NEAR(found.fraction, strain / 0.2, 1e-12);
+    EXPECT_NEAR(found.value, strain, 1e-12);
+    EXPECT_EQ(found.limit, BreakLimit::kStrain);
+  }
+  EXPECT_TRUE(can_part(bent(0.3)));
+  EXPECT_FALSE(can_part(nylon()));
+  EXPECT_TRUE(parts_by_bending(bent(0.3)));
+  EXPECT_FALSE(parts_by_bending(nylon()));
+}
+
+Points along_z(const std::vector<double>& edges) {
+  Points out = Points::Zero(3, static_cast<Eigen::Index>(edges.size()) + 1);
+  for (std::size_t j = 0; j < edges.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    out.col(i + 1) = out.col(i) + Vec3(0.0, 0.0, edges[j]);
+  }
+  return out;
+}
+
+TEST(Fracture, ByTensionItIsTheEdgeWithTheLargestOne) {
   Material material = nylon();
   material.breaking_force = 100.0;
   const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(4, 0.01));
-  RodState state;
-  state.position = Points::Zero(3, 5);
-  for (int i = 1; i < 5; ++i) state.position(2, i) = state.position(2, i - 1) + (i == 3 ? 0.01001 : 0.01);
+  Points position = along_z({0.01, 0.01, 0.01001, 0.01});
   const double tension = material.stretching_stiffness * 1e-3;
-  const Exposure by_force = most_exposed(material, rod, state.position);
-  EXPECT_EQ(by_force.edge, 2);
-  EXPECT_NEAR(by_force.fraction, tension / 100.0, 1e-9);
-  EXPECT_EQ(by_force.limit, BreakLimit::kForce);
-  EXPECT_NEAR(by_force.value, tension, 1e-7);
-  material.breaking_strain = 1e-4;
-  EXPECT_NEAR(most_exposed(material, rod, state.position).fraction, 10.0, 1e-9);
-  EXPECT_EQ(most_exposed(material, rod, state.position).limit, BreakLimit::kStrain);
-  EXPECT_NEAR(most_exposed(material, rod, state.position).value, 1e-3, 1e-12);
-  state.position.row(2) *= 0.9;  // nothing is under tension
-  EXPECT_EQ(most_exposed(material, rod, state.position).edge, -1);
+  const Exposure found = most_exposed(material, rod, position);
+  EXPECT_EQ(found.edge, 2);
+  EXPECT_NEAR(found.fraction, tension / 100.0, 1e-9);
+  EXPECT_EQ(found.limit, BreakLimit::kForce);
+  EXPECT_NEAR(found.value, tension, 1e-7);
+  position.row(2) *= 0.9;
+  EXPECT_EQ(most_exposed(material, rod, position).edge, -1) << "nothing is under tension";
 }
 
-TEST(StraightStrength, IsTheFirstLimitThatAStraightRodReaches) {
-  Material material;
-  material.stretching_stiffness = 1000.0;
-  EXPECT_FALSE(straight_strength(material));
-  material.breaking_force = 300.0;
-  EXPECT_EQ(straight_strength(material), 300.0);
-  material.breaking_strain = 0.2;
-  EXPECT_NEAR(*straight_strength(material), 200.0, 1e-9);
-  material.breaking_strain = 0.4;
-  EXPECT_EQ(straight_strength(material), 300.0);
+/// The strain of a straight rod under its breaking force is the stretching law's own: lambda - lambda^-2 = 3 T/k_s.
+TEST(Fracture, ARodOfRubberPartsStraightAtItsBreakingForceToo) {
+  Material rubber = bent(0.5);
+  rubber.stretching.law = static_cast<StretchingLaw>(1);
+  const double lambda = 1.6;
+  rubber.breaking_force = rubber.stretching_stiffness / 3.0 * (lambda - 1.0 / (lambda * lambda));
+  const RodProperties rod = make_rod(rubber, Eigen::VectorXd::Constant(4, 0.01));
+  EXPECT_NEAR(most_exposed(rubber, rod, along_z(std::vector<double>(4, 0.016))).fraction, 1.0, 1e-12);
+}
+
+/// A strand that lies around a frictionless post of radius R, with its centreline at R + h, parts at
+/// T = k_s (eps_b - b h/(R + h)). The strand is light and limp, so that its bend is that of the post.
+TEST(Fracture, AStrandAroundAPostPartsByTheBendOfThePost) {
+  constexpr double kPost = 0.04, kTension = 400.0, kShare = 0.1;  // diameter [m], [N]
+  Material material = nylon();
+  const double h = material.radius, bend = kShare * h / (0.5 * kPost + h);
+  SpecimenOptions specimen;
+  specimen.knot = knot_named("capstan");
+  const SpecimenOptions known = knot_of(specimen).defaults(h);
+  specimen = known;
+  specimen.knot = knot_named("capstan");
+  specimen.wrap = M_PI;
+  specimen.post_diameter = kPost;
+  specimen.tail_load = kTension;
+  knot_of(specimen).suit(SpecimenOptions(specimen), 0.0, h, specimen);
+  HoldStep settle;
+  settle.duration = 2.0;
+  for (const double edge : {h, 0.5 * h}) {
+    specimen.edge_length = edge;
+    const Pulled held = run(specimen, material, PhysicsOptions(), {settle});
+    Material weak = bent(kShare);
+    weak.breaking_force = weak.stretching_stiffness * bend + kTension;
+    const Exposure found = most_exposed(weak, held.bench.rod(), held.bench.state().position);
+    EXPECT_NEAR(found.fraction, 1.0, 0.02) << edge / h;
+  }
+}
+
+/// What joins two ropes is no part of them: neither its length nor the bend at its ends counts.
+TEST(Fracture, NoRodPartsWhereItIsCut) {
+  const Material material = bent(1.0);
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(5, 0.01), {2});
+  Points position = along_z({0.0101, 0.0101, 0.0, 0.0102, 0.0101});
+  for (int i = 3; i < 6; ++i) position.col(i) += Vec3(0.3, 0.0, 0.0);
+  const Exposure found = most_exposed(material, rod, position);
+  EXPECT_EQ(found.edge, 3);
+  EXPECT_NEAR(found.value, 0.02, 1e-12);
+}
+
+/// A straight rod of length l has F = f Gamma(1 + 1/m) (l/(l_t E))^(1/m). The mean strength of rods of the tested
+/// length, of which u is drawn evenly, is the breaking force.
+TEST(WeakestLink, LongRodsAreWeakerAndThoseOfTheTestedLengthHaveTheBreakingForceInTheMean) {
+  constexpr double kModulus = 8.0, kTested = 0.25;
+  const auto strength = [&](double share, double length) {
+    const WeakestLink link(kModulus, kTested, share);
+    WeakestLink::Sum sum(link);
+    for (int j = 0; j < 10; ++j) sum.add(0.5, 0.1 * length);
+    return 0.5 / sum.fraction();
+  };
+  double mean = 0.0;
+  constexpr int kDrawn = 20000;
+  for (int i = 0; i < kDrawn; ++i) mean += strength((i + 0.5) / kDrawn, kTested) / kDrawn;
+  EXPECT_NEAR(mean, 1.0, 1e-4);
+  EXPECT_NEAR(strength(0.5, 4.0 * kTested) / strength(0.5, kTested), std::pow(4.0, -1.0 / kModulus), 1e-12);
+  EXPECT_NEAR(strength(0.3, kTested), std::pow(-std::log(0.7), 1.0 / kModulus) / std::tgamma(1.0 + 1.0 / kModulus),
+              1e-12);
+}
+
+TEST(WeakestLink, WithoutScatterItIsTheLargestFraction) {
+  for (const double modulus : {1e9, std::numeric_limits<double>::infinity()}) {
+    const WeakestLink link(modulus, 0.25, 0.5);
+    WeakestLink::Sum sum(link);
+    for (const double fraction : {0.2, -0.1, 0.7, 0.0, 0.7, 0.3}) sum.add(fraction, 0.01);
+    EXPECT_NEAR(sum.fraction(), 0.7, 1e-7);
+    EXPECT_EQ(WeakestLink::Sum(link).fraction(), 0.0);
+  }
+}
+
+/// Of a fraction that is five times as large in a hundredth of the length, the integral is known.
+TEST(WeakestLink, AShortPieceCountsByItsLength) {
+  constexpr double kModulus = 3.0;
+  const WeakestLink link(kModulus, 1.0, 1.0 - std::exp(-1.0));
+  WeakestLink::Sum sum(link);
+  sum.add(0.1, 0.99);
+  sum.add(0.5, 0.01);
+  const double integral = 0.99 * 1e-3 + 0.01 * 0.125;
+  EXPECT_NEAR(sum.fraction(), std::tgamma(1.0 + 1.0 / kModulus) * std::cbrt(integral), 1e-12);
 }
 
 }  // namespace

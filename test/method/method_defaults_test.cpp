@@ -152,7 +152,6 @@ TEST(MethodDefaults, ALoadCellSuitsTheStrength) {
   };
   EXPECT_EQ(capacity(""), 10e3);                        // twice its stretching stiffness and more
   EXPECT_EQ(capacity(", breaking_force: 6000"), 20e3);  // two strands and more
-  EXPECT_EQ(capacity(", breaking_strain: 0.05"), 500.0);
   EXPECT_EQ(capacity("", {"ends.load=45000"}), 50e3);
   EXPECT_EQ(capacity("", {"machine.load_cell.noise=0.1"}), 10e3);
   EXPECT_EQ(capacity(", load_cell: 20N"), 20.0);

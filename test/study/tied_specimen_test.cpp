@@ -227,10 +227,10 @@ std::vector<std::string> other_values(const std::string& now) {
     for (const double factor : {1.0009, 0.9991, 1.1, 0.9, 2.0}) values.push_back(format_yaml_number(*number * factor));
   values.insert(
       values.end(),
-      {"1",    "2",     "3",        "0.5",        "0.01",        "100",  "true",          "false",
-       "on",   "off",   "opposite", "free",       "follow",      "edge", "smoothed",      "centreline",
-       "fine", "nodes", "elastic",  "frictional", "neo_hookean", "20N",  "[0, 0, -9.81]", "multiple_fisherman",
-       "lbf",  "mm",    "in",       "words",      "2020-01-01"});
+      {"1",    "2",     "3",        "0.5",        "0.01",        "100",    "true",          "false",
+       "on",   "off",   "opposite", "free",       "follow",      "edge",   "smoothed",      "centreline",
+       "fine", "nodes", "elastic",  "frictional", "neo_hookean", "20N",    "[0, 0, -9.81]", "multiple_fisherman",
+       "lbf",  "mm",    "in",       "words",      "2020-01-01",  "tension"});
   return values;
 }
 
@@ -256,7 +256,8 @@ TEST(TiedFrom, ChangesWithEveryKeyThatTheSpecimenDependsOnAndWithNoOther) {
   const std::vector<std::vector<std::string>> bases = {
       {"material=suture_3-0_nylon", "specimen.edge_length=auto", "machine.roller_friction=0.2"},
       {},
-      {"material=nylon", "machine.roller_friction=0.2", "machine.roller_rotation=turned", "machine.roller_rate=1"}};
+      {"material=nylon", "machine.roller_friction=0.2", "machine.roller_rotation=turned", "machine.roller_rate=1",
+       "material.breaking={law: tension_and_bending, bending_share: 0.01, weibull_modulus: 20}"}};
   std::set<std::string> changed, all;
   for (const std::vector<std::string>& base : bases) {
     const Method method = quick(base);

@@ -103,7 +103,7 @@ TEST(Foreseen, AFractureOfARodThatNothingBreaks) {
   const std::vector<std::string> set{"program=[{pull: {until: {break: true}}}]", "material=pink_vps"};
   EXPECT_THAT(warnings_of("straight", set),
               ElementsAre(HasSubstr("program.0.pull.until.break is the only end of the pull, but nothing breaks")));
-  EXPECT_THAT(warnings_of("straight", {set[0], set[1], "material.breaking_strain=2"}), IsEmpty());
+  EXPECT_THAT(warnings_of("straight", {set[0], set[1], "material.breaking_force=2"}), IsEmpty());
   EXPECT_THAT(warnings_of("straight", {set[0], set[1], "ends.break_at_fraction_of_peak=0.5"}), IsEmpty());
 }
 

@@ -170,15 +170,18 @@ TEST_F(ResultYaml, SaysHowMuchOfItsStrengthAKnotLeaves) {
   facts.may_hold_a_knot = true;
   results.true_peak_force = 64.0;
   facts.material.stretching_stiffness = 1024.0;
-  facts.material.breaking_strain = 0.125;  // so that a straight rod parts at 128 N
+  facts.material.breaking_force = 128.0;
+  facts.material.breaking.law = static_cast<BreakingLaw>(1);
+  facts.material.breaking.set("bending_share", 0.5);
   EXPECT_TRUE(says("knot_efficiency: null  # the rod did not break"));
   results.break_extension = 0.1;
   EXPECT_TRUE(says("knot_efficiency: 0.5\n"));
+  EXPECT_TRUE(says("knot_efficiency_error: null  # "));
+  facts.errors.break_in_bend = 0.04;
+  EXPECT_TRUE(says("knot_efficiency_error: 0.02\n"));
   facts.strands = 2;
   EXPECT_TRUE(says("knot_efficiency: 0.25\n"));
-  facts.material.breaking_force = 100.0;  // given, and reached as in a straight rod
-  EXPECT_TRUE(says("knot_efficiency: null  # not predicted: "));
-  facts.material.breaking_strain.reset();
+  facts.material.breaking.law = static_cast<BreakingLaw>(0);  // whose force is reached as in a straight rod
   EXPECT_TRUE(says("knot_efficiency: null  # not predicted: "));
 }
 

@@ -31,6 +31,7 @@ struct RelativeErrors {
   std::optional<double> lock_extension;
   std::optional<double> locked_stiffness;
   bool rolls = false;  ///< strands roll on each other: then knots that are hardly closed were studied, too
+  std::optional<double> break_in_bend{};  ///< of the load at which a knot parts where its bend helps to part it
 };
 
 /// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long, a quarter of

@@ -1,32 +1,31 @@
 #pragma once
 
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 
-enum class BreakLimit { kForce, kStrain };  ///< breaking force, breaking strain
-
 /// How near a rod is to parting, and at which edge. It parts there when the fraction reaches 1.
-///
-/// Symbols: T tension [N], F_b breaking force [N], lambda stretch of the edge [-], h radius [m], kappa curvature at its
-/// more bent end, the angle it turns by over lbar [1/m], eps_b breaking strain [-]. The exposure of edge j is
-///
-///   fraction_j = max(T_j/F_b, (lambda_j - 1 + h kappa_j)/eps_b),
-///
-/// with those of the two terms whose limit the material gives: tension, and strain of the outermost fibre. The strain
-/// of bending counts in a solid rod. In a rope fibres slip past each other as it bends, so it has a breaking force
-/// only.
 struct Exposure {
-  double fraction = 0.0;  ///< largest of all edges [-]
-  int edge = -1;          ///< that edge; -1: no fraction is positive, because no edge is under tension or bent
-  BreakLimit limit = BreakLimit::kForce;  ///< the limit that is nearest
+  double fraction = 0.0;  ///< that of the breaking law (tension_breaking.hpp, fibre_breaking.hpp) [-]
+  int edge = -1;          ///< where it is largest; -1: nowhere positive, because no edge is under tension or bent
+  BreakLimit limit = BreakLimit::kForce;
   double value = 0.0;  ///< the quantity that is limited: tension [N] or strain of the outermost fibre [-]
 };
 
-bool can_part(const Material& material);  ///< it has a limit
-
+/// The curvature kappa of an edge is that at its more bent end, there the mean along a diameter of rod:
+///
+///   kappa = |sum_i phi_i w_i|/(2 h)
+///
+///   phi_i  the turn at node i, as a vector along its axis [rad]
+///   w_i    the share of its Voronoi length that lies within h of the end, along the rod at rest [-]
+///
+/// A rod bends no sharper than its section is wide. Without the mean, a limp rope would be bent over a length of
+/// (k_b/T)^1/2 where a strand presses on it, some hundredths of h at the loads that part it, so that the largest
+/// curvature would grow as edges get shorter. Cut edges, and ends of ropes, bear nothing.
+Exposure most_exposed(const BreakingLaws& law, const RodProperties& rod, const Points& position);
 Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position);
 
 /// Time that a wave of tension takes along a length [m] of the rod: length sqrt(rho pi h^2/k_s) [s].

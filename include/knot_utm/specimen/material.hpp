@@ -1,12 +1,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 
 #include "knot_utm/rod/material.hpp"
 
 namespace knot_utm {
+
+/// Number of a breaking law in its registry (machine/breaking_laws.hpp).
+enum class BreakingLaw : std::size_t {};
 
 /// The `material` section of a method: what the rod is made of, and how it rubs, is tied and parts.
 struct Material : RodMaterial {
@@ -18,8 +22,8 @@ struct Material : RodMaterial {
   double bending_set = 0.0;                 ///< fraction of the bend in its tied knots that the rod keeps at rest [-]
   std::optional<double> contact_stiffness;  ///< K [N/m^2], of the pressure law; unset: default_contact_stiffness
   std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
-  std::optional<double> breaking_force;     ///< F_b, tension at which it parts [N]; unset: it does not
-  std::optional<double> breaking_strain;    ///< eps_b of its outermost fibre (machine/fracture.hpp) [-]; unset: none
+  std::optional<double> breaking_force;     ///< F_b, tension at which it parts straight [N]; unset: it does not
+  LawOptions<BreakingLaw> breaking;         ///< breaking.law and the keys of that law
   std::string load_cell;                    ///< name of the load cell that suits it
   std::string notes;
 };

@@ -64,12 +64,14 @@ OF_THE_BREAK = ("peak_force", "true_peak_force", "break_extension", "elongation_
 
 
 def repeats_what_was_given(folder, key):
-    """Whether the readings follow from material.breaking_force, at which the rod parts."""
+    """Whether the readings follow from material.breaking_force, because tension alone parts the rod."""
     file = os.path.join(folder, "method.yaml")
     if key not in OF_THE_BREAK or not os.path.isfile(file):
         return False
     parted = any(one.ended_by == "break" and not one.rejected for one in read_specimens(folder)[0])
-    return parted and is_number((read_yaml(file).get("material") or {}).get("breaking_force"))
+    material = read_yaml(file).get("material") or {}
+    law = (material.get("breaking") or {}).get("law", "tension")
+    return parted and law == "tension" and is_number(material.get("breaking_force"))
 
 
 def line(name, of):

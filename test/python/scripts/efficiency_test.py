@@ -85,7 +85,8 @@ class TheScript(unittest.TestCase):
 
     def test_predicts_nothing_of_a_rod_that_parts_at_a_force_that_was_given(self):
         one = self.batch("one", [("false", "break", 10, 1), ("false", "break", 12, 2)])
-        for material, predicted in (("{breaking_force: 31}", False), ("{breaking_strain: 0.2}", True)):
+        for material, predicted in (("{breaking_force: 31}", False), ("{breaking_force: 31, breaking: {law: tension}}", False),
+                                    ("{breaking_force: 31, breaking: {law: tension_and_bending, bending_share: 0.1}}", True)):
             with open(os.path.join(one, "method.yaml"), "w", encoding="utf-8") as file:
                 file.write(f"material: {material}\n")
             done = self.run_script(one, one)

@@ -1,0 +1,24 @@
+#include "knot_utm/machine/breaking_laws.hpp"
+
+#include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/material.hpp"
+
+namespace knot_utm {
+
+TensionBreaking TensionBreaking::of(const Material& material) { return {*material.breaking_force}; }
+
+FibreBreaking FibreBreaking::of(const Material& material) {
+  const auto& keys = material.breaking;
+  return {strain_under(material, *material.breaking_force), keys.number(kBendingShare),
+          WeakestLink(keys.number(kWeibullModulus), keys.number(kTestedLength), keys.number(kWeakerShare))};
+}
+
+BreakingLaws breaking_law_of(const Material& material) { return BreakingRegistry::of(material.breaking.law, material); }
+
+bool can_part(const Material& material) { return material.breaking_force.has_value(); }
+
+bool parts_by_bending(const Material& material) {
+  return can_part(material) && std::visit([](const auto& law) { return law.kBends; }, breaking_law_of(material));
+}
+
+}  // namespace knot_utm
