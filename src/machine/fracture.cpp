@@ -13,9 +13,9 @@ namespace {
 constexpr double kTouching = 2.2;   // [h]
 constexpr double kNeighbour = 5.0;  // along the rod [h]
 
-/// kappa of an inner node.
+/// kappa of an inner node of a rope.
 double curvature(const RodProperties& rod, const Points& position, Eigen::Index node) {
-  if (node < 1 || node + 1 >= rod.nodes()) return 0.0;
+  if (node < 1 || node + 1 >= rod.nodes() || rod.is_cut(node - 1) || rod.is_cut(node)) return 0.0;
   const Vec3 e = (position.col(node) - position.col(node - 1)).normalized();
   const Vec3 f = (position.col(node + 1) - position.col(node)).normalized();
   return turning_angle(e, f) / rod.voronoi_length[node];
@@ -29,6 +29,7 @@ Exposure most_exposed(const Material& material, const RodProperties& rod, const 
   Exposure out;
   double bend_before = 0.0;
   for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+    if (rod.is_cut(j)) continue;
     const StretchedEdge stretched = stretched_edge(rod, position, j);
     const double tension = respond(rod, stretched).tension;
     Exposure edge;
@@ -56,7 +57,7 @@ bool lies_in_knot(const RodProperties& rod, const Points& position, int edge) {
   const auto middle = [&](Eigen::Index j) -> Vec3 { return 0.5 * (position.col(j) + position.col(j + 1)); };
   const double h = rod.material.radius;
   for (Eigen::Index j = 0; j < rod.edges(); ++j) {
-    if (std::abs(arclength[j] - arclength[edge]) <= kNeighbour * h) continue;
+    if (rod.is_cut(j) || std::abs(arclength[j] - arclength[edge]) <= kNeighbour * h) continue;
     const double reach = kTouching * h + 0.5 * rod.rest_length[j];
     if ((middle(j) - middle(edge)).squaredNorm() < reach * reach) return true;
   }

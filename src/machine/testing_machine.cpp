@@ -279,10 +279,7 @@ struct TestingMachine::Impl {
     return 0.5 * (position.col(edge) + position.col(edge + 1));
   }
 
-  double break_arclength(int edge) const {
-    const RodProperties& rod = stepper->rod();
-    return rod.rest_length.head(edge).sum() + 0.5 * rod.rest_length[edge];
-  }
+  double break_arclength(int edge) const { return stepper->rod().place(edge, 0.5); }
 
   /// Whether the specimen cannot be tied or mounted.
   bool give_up_tying() {
