@@ -6,6 +6,7 @@ std::vector<Piece> pieces_between(Eigen::Index nodes, const std::vector<int>& mi
   std::vector<Piece> out;
   Eigen::Index begin = 0;
   for (const int edge : missing) {
+    if (edge + 1 >= nodes) break;
     out.push_back({begin, edge + 1});
     begin = edge + 1;
   }

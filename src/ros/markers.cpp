@@ -181,7 +181,7 @@ Eigen::VectorXd curvature_at_nodes(const Points& points, double radius, const st
     const double angle = turning_angle(before / length_before, after / length_after);
     out[i] = radius * 2.0 * angle / (length_before + length_after);
   }
-  for (const int cut : cuts) out.segment(cut, 2).setZero();
+  for (const Piece& rope : pieces_between(points.cols(), cuts)) out[rope.begin] = out[rope.end - 1] = 0.0;
   return out;
 }
 

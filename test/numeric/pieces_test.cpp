@@ -14,6 +14,7 @@ TEST(Pieces, LieBetweenTheMissingEdges) {
     EXPECT_EQ(pieces[i].end, ends[i]);
   }
   EXPECT_EQ(pieces_between(10, {}).size(), 1u);
+  EXPECT_EQ(pieces_between(10, {9, 12}).size(), 1u);
 }
 
 TEST(Pieces, AreAsLongAsTheirEdges) {

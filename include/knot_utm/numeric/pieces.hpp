@@ -14,7 +14,8 @@ struct Piece {
 };
 
 /// The pieces of a polyline of so many nodes between those of its edges that are missing, ascending: the ropes of a rod
-/// between its cuts (RodProperties::cuts), for example. A piece may be a single node.
+/// between its cuts (RodProperties::cuts), for example. A piece may be a single node. Edges that it does not have count
+/// as none.
 std::vector<Piece> pieces_between(Eigen::Index nodes, const std::vector<int>& missing);
 
 /// Length of all pieces [m].
