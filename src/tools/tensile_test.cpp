@@ -313,6 +313,16 @@ void settle(Arguments& arguments) {
   arguments.report |= std::filesystem::exists(arguments.resume + "/report.html");
 }
 
+/// --draw, which does no test, and so does not go with `others`.
+const CLI::Option* add_draw(CLI::App& app, Arguments& arguments, const std::vector<CLI::Option*>& others) {
+  CLI::Option* draw = app.add_option(
+      "--draw", arguments.draw,
+      "only show this knot, one that comes with the package or a file: its facts, and a picture, KNOT.svg, in --out or "
+      "the present folder");
+  for (CLI::Option* one : others) draw->excludes(one);
+  return draw;
+}
+
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Runs the whole test that a method describes, as fast as the computer can.");
@@ -356,12 +366,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
                                         "only say which keys of the method are numbers, with their units");
   CLI::Option* show =
       app.add_option("--show", arguments.show, "only print the main readings of the test or batch in this folder");
-  CLI::Option* draw = app.add_option(
-      "--draw", arguments.draw,
-      "only show this knot, one that comes with the package or a file: its facts, and a picture, KNOT.svg, in --out or "
-      "the present folder");
-  for (CLI::Option* one : {method, set, resume, specimens, readings, from_samples, check, list_keys, show})
-    draw->excludes(one);
+  const CLI::Option* draw =
+      add_draw(app, arguments, {method, set, resume, specimens, readings, from_samples, check, list_keys, show});
   for (CLI::Option* one : {check, list_keys}) one->excludes(resume);
   for (CLI::Option* one : {show, from_samples}) one->excludes(method)->excludes(resume)->excludes(readings);
   from_samples->excludes(show)->excludes(out);
