@@ -100,7 +100,7 @@ bool lies_in_knot(const RodProperties& rod, const Points& position, int edge) {
   const auto middle = [&](Eigen::Index j) -> Vec3 { return 0.5 * (position.col(j) + position.col(j + 1)); };
   const double h = rod.material.radius;
   for (Eigen::Index j = 0; j < rod.edges(); ++j) {
-    if (std::abs(arclength[j] - arclength[edge]) <= kNeighbour * h) continue;
+    if (rod.is_cut(j) || std::abs(arclength[j] - arclength[edge]) <= kNeighbour * h) continue;
     const double reach = kTouching * h + 0.5 * rod.rest_length[j];
     if ((middle(j) - middle(edge)).squaredNorm() < reach * reach) return true;
   }

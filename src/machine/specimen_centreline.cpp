@@ -2,6 +2,7 @@
 
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 
@@ -23,14 +24,11 @@ double slack_of(const SpecimenOptions& specimen, const Centreline& centreline) {
   const Points& x = centreline.points;
   const std::vector<double> at = arclengths(x);
   double slack = 0.0;
-  Eigen::Index begin = 0;
-  const auto add_rope = [&](Eigen::Index end) {
-    slack +=
-        at[static_cast<std::size_t>(end)] - at[static_cast<std::size_t>(begin)] - (x.col(end) - x.col(begin)).norm();
-    begin = end + 1;
-  };
-  for (const int cut : centreline.cuts) add_rope(cut);
-  add_rope(x.cols() - 1);
+  for (const Piece& rope : pieces_between(x.cols(), centreline.cuts)) {
+    const Eigen::Index last = rope.end - 1;
+    slack += at[static_cast<std::size_t>(last)] - at[static_cast<std::size_t>(rope.begin)] -
+             (x.col(last) - x.col(rope.begin)).norm();
+  }
   return slack;
 }
 

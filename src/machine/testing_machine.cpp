@@ -277,13 +277,7 @@ struct TestingMachine::Impl {
     return 0.5 * (position.col(edge) + position.col(edge + 1));
   }
 
-  double break_arclength(int edge) const {
-    const RodProperties& rod = stepper->rod();
-    double before = rod.rest_length.head(edge).sum();
-    for (const int cut : rod.cuts)
-      if (cut < edge) before -= rod.rest_length[cut];
-    return before + 0.5 * rod.rest_length[edge];
-  }
+  double break_arclength(int edge) const { return stepper->rod().place(edge, 0.5); }
 
   /// Ropes that follow each other count from 1, as their knot's file lists them.
   std::string which_rope(int edge) const {

@@ -14,6 +14,7 @@
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"
 #include "method_overrides.hpp"
@@ -186,7 +187,9 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   fields::compatibility(top, method.compatibility);
   method.material = read_material(top.take("material"), root, file, library);
   Reader specimen = top.in("specimen");
-  method.specimen.drawing = read_drawing(specimen.take("knot"), library);
+  YAML::Node knot = specimen.take("knot");
+  method.specimen.drawing = read_drawing(knot, library);
+  if (method.specimen.drawing) knot = method.specimen.drawing->name;  // a path may be given in many ways
   fields::knot(specimen, method.specimen);
   const fields::Defaults defaults = fields::defaults(method.specimen, method.material, known);
   method.specimen = defaults.specimen;

@@ -58,6 +58,17 @@ Eigen::VectorXd RodProperties::arclength() const {
   return out;
 }
 
+double RodProperties::place(double arclength) const {
+  double out = arclength;
+  for (const int cut : cuts)
+    if (arclength > rest_length.head(cut).sum()) out -= rest_length[cut];
+  return out;
+}
+
+double RodProperties::place(Eigen::Index edge, double fraction) const {
+  return place(rest_length.head(edge).sum() + fraction * rest_length[edge]);
+}
+
 void RodMaterial::state(Archive& archive) {
   archive(radius, density, stretching_stiffness, bending_stiffness, twisting_stiffness);
 }

@@ -67,7 +67,7 @@ void KnotNode::begin_specimen() {
   kept_.clear();
   sample_ = Sample();
   motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine));
-  show_.begin(method_, machine_.lower_grip(), machine_.state().position);
+  show_.begin(method_, machine_.lower_grip(), machine_.state().position, machine_.rod().cuts);
   set_on_master(node_.resolveName(names::kRobotDescription),
                 machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip()));
 

@@ -39,12 +39,15 @@ std::vector<Row> rows_of_nodes(const Points& points) {
 }
 
 /// For each node, whether another strand lies against it.
-std::vector<bool> touched(const Points& points, double radius) {
+std::vector<bool> touched(const Points& points, double radius, const std::vector<int>& cuts) {
   std::vector<double> along(static_cast<std::size_t>(points.cols()), 0.0);
   for (std::size_t i = 1; i < along.size(); ++i)
     along[i] = along[i - 1] + (node(points, i) - node(points, i - 1)).norm();
   std::vector<bool> out(along.size(), false);
   const double touching = kTouching * radius, apart = kApart * radius;
+  // No place of one rope is near one of the next along the rod.
+  for (const int cut : cuts)
+    for (auto i = static_cast<std::size_t>(cut) + 1; i < along.size(); ++i) along[i] += 1.01 * apart;
   const std::vector<Row> rows = rows_of_nodes(points);
   for (std::size_t first = 0; first < rows.size(); ++first) {
     for (std::size_t second = first; second < rows.size(); ++second) {
@@ -90,13 +93,13 @@ std::pair<Vec3, Vec3> two_middles(const Points& points, const Eigen::VectorXd& w
 
 }  // namespace
 
-std::optional<KnotPlaces> find_knots(const Points& points, double radius, bool two) {
-  const std::vector<bool> touching = touched(points, radius);
+std::optional<KnotPlaces> find_knots(const Points& points, double radius, bool two, const std::vector<int>& cuts) {
+  const std::vector<bool> touching = touched(points, radius, cuts);
   const auto first = std::find(touching.begin(), touching.end(), true) - touching.begin();
   if (first == static_cast<std::ptrdiff_t>(touching.size())) return {};
   const auto last = static_cast<std::ptrdiff_t>(touching.size()) - 1 -
                     (std::find(touching.rbegin(), touching.rend(), true) - touching.rbegin());
-  Eigen::VectorXd weight = curvature_at_nodes(points, radius).cwiseAbs2();
+  Eigen::VectorXd weight = curvature_at_nodes(points, radius, cuts).cwiseAbs2();
   for (Eigen::Index i = 1; i + 1 < points.cols(); ++i) {
     const double length = 0.5 * (points.col(i + 1) - points.col(i - 1)).norm();
     weight[i] *= touching[static_cast<std::size_t>(i)] ? length : 0.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/ros/base_marker.hpp"
@@ -159,17 +160,19 @@ Marker gauge_marker(const Points& points, const std::vector<Eigen::Index>& nodes
 
 }  // namespace
 
-Eigen::VectorXd tension_at_nodes(const Eigen::VectorXd& tension) {
+Eigen::VectorXd tension_at_nodes(const Eigen::VectorXd& tension, const std::vector<int>& cuts) {
   const Eigen::Index edges = tension.size();
   if (edges == 0) return {};
   Eigen::VectorXd out(edges + 1);
-  out[0] = tension[0];
-  out[edges] = tension[edges - 1];
-  for (Eigen::Index i = 1; i < edges; ++i) out[i] = 0.5 * (tension[i - 1] + tension[i]);
+  for (const Piece& rope : pieces_between(edges + 1, cuts))
+    for (Eigen::Index i = rope.begin; i < rope.end; ++i) {
+      const double before = tension[std::max(i - 1, rope.begin)], after = tension[std::min(i, rope.end - 2)];
+      out[i] = 0.5 * (before + after);
+    }
   return out;
 }
 
-Eigen::VectorXd curvature_at_nodes(const Points& points, double radius) {
+Eigen::VectorXd curvature_at_nodes(const Points& points, double radius, const std::vector<int>& cuts) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(points.cols());
   for (Eigen::Index i = 1; i + 1 < points.cols(); ++i) {
     const Vec3 before = points.col(i) - points.col(i - 1), after = points.col(i + 1) - points.col(i);
@@ -178,6 +181,7 @@ Eigen::VectorXd curvature_at_nodes(const Points& points, double radius) {
     const double angle = turning_angle(before / length_before, after / length_after);
     out[i] = radius * 2.0 * angle / (length_before + length_after);
   }
+  for (const Piece& rope : pieces_between(points.cols(), cuts)) out[rope.begin] = out[rope.end - 1] = 0.0;
   return out;
 }
 
@@ -187,18 +191,16 @@ Marker tube_marker(const Points& points, const Colors& colors, double radius, co
   const std::size_t corners = 6 * static_cast<std::size_t>(options.sides) * static_cast<std::size_t>(points.cols());
   m.points.reserve(corners);
   m.colors.reserve(corners);
-  const auto piece = [&](Eigen::Index first, Eigen::Index end) {
-    if (end - first < 2) return;
-    Tube(m, points.middleCols(first, end - first), radius, options.sides).draw([&](std::size_t node) {
-      return colors[static_cast<std::size_t>(first) + node];
+  for (const Piece& piece : pieces_between(points.cols(), options.missing)) {
+    if (piece.nodes() < 2) continue;
+    Tube(m, points.middleCols(piece.begin, piece.nodes()), radius, options.sides).draw([&](std::size_t node) {
+      return colors[static_cast<std::size_t>(piece.begin) + node];
     });
-  };
-  piece(0, options.parted + 1);
-  piece(options.parted + 1, points.cols());
+  }
   return m;
 }
 
-Marker spheres_marker(const Points& points, const Colors& colors, double radius, Eigen::Index parted) {
+Marker spheres_marker(const Points& points, const Colors& colors, double radius, const std::vector<int>& missing) {
   Marker m = base_marker(names::kBaseFrame, "rod", 0, Marker::SPHERE_LIST);
   m.scale.x = m.scale.y = m.scale.z = 2.0 * radius;
   m.color = color(1.0, 1.0, 1.0);
@@ -206,7 +208,7 @@ Marker spheres_marker(const Points& points, const Colors& colors, double radius,
     const std_msgs::ColorRGBA& here = colors[static_cast<std::size_t>(i)];
     m.points.push_back(to_point(points.col(i)));
     m.colors.push_back(here);
-    if (i + 1 == points.cols() || i == parted) continue;
+    if (i + 1 == points.cols() || std::binary_search(missing.begin(), missing.end(), i)) continue;
     const Vec3 edge = points.col(i + 1) - points.col(i);
     const int between = std::min(static_cast<int>(edge.norm() / (kSphereDistance * radius)), kMostBetween);
     for (int k = 1; k <= between; ++k) {
@@ -237,26 +239,38 @@ ScenePicture::ScenePicture(const SpecimenOptions& specimen, const MachineOptions
       tension_(ColorScale::of_tension(material, machine.load_cell)),
       curvature_(ColorScale::of_curvature()) {}
 
-void ScenePicture::begin(const Points& points) {
+void ScenePicture::begin(const Points& points, const std::vector<int>& cuts) {
   gauge_.clear();
+  cuts_ = cuts;
   arclength_ = Eigen::VectorXd::Zero(points.cols());
+  const auto is_cut = [&](Eigen::Index edge) { return std::binary_search(cuts.begin(), cuts.end(), edge); };
   for (Eigen::Index i = 1; i < points.cols(); ++i)
-    arclength_[i] = arclength_[i - 1] + (points.col(i) - points.col(i - 1)).norm();
+    arclength_[i] = arclength_[i - 1] + (is_cut(i - 1) ? 0.0 : (points.col(i) - points.col(i - 1)).norm());
   for (Eigen::Index i = 1; i < points.cols(); ++i) {
+    if (is_cut(i - 1) || is_cut(i)) continue;
     const double next = arclength_[points.cols() - 1] * static_cast<double>(gauge_.size() + 1) / (kGaugeMarks + 1.0);
     if (gauge_.size() < kGaugeMarks && arclength_[i] >= next) gauge_.push_back(i);
   }
 }
 
-Eigen::Index ScenePicture::parted_edge(const Sample& sample) const {
-  if (std::isnan(sample.break_arclength)) return -1;
+Eigen::Index ScenePicture::parted_edge(const SceneView& view) const {
+  if (std::isnan(view.sample.break_arclength)) return -1;
   const double* end = arclength_.data() + arclength_.size();
-  return std::upper_bound(arclength_.data(), end, sample.break_arclength) - arclength_.data() - 1;
+  const Eigen::Index edge =
+      std::upper_bound(arclength_.data(), end, view.sample.break_arclength) - arclength_.data() - 1;
+  return std::min(edge, view.points.cols() - 2);
+}
+
+std::vector<int> ScenePicture::missing(Eigen::Index parted) const {
+  std::vector<int> out = cuts_;
+  if (parted >= 0) out.insert(std::upper_bound(out.begin(), out.end(), parted), static_cast<int>(parted));
+  return out;
 }
 
 Colors ScenePicture::colors(const SceneView& view, Eigen::Index parted) const {
   const bool by_tension = color_by_ == ColorBy::kTension;
-  Eigen::VectorXd value = by_tension ? tension_at_nodes(view.tension) : curvature_at_nodes(view.points, radius_);
+  Eigen::VectorXd value =
+      by_tension ? tension_at_nodes(view.tension, cuts_) : curvature_at_nodes(view.points, radius_, cuts_);
   value.conservativeResizeLike(Eigen::VectorXd::Constant(view.points.cols(), Sample::kNone));
   if (parted >= 0 && by_tension) value.setConstant(Sample::kNone);
   if (parted >= 0 && !by_tension) value.segment(parted, 2).setZero();  // no bend is there any more
@@ -267,9 +281,10 @@ Colors ScenePicture::colors(const SceneView& view, Eigen::Index parted) const {
 }
 
 Marker ScenePicture::rod_marker(const SceneView& view) const {
+  const Eigen::Index parted = parted_edge(view);
   TubeOptions tube;
-  tube.parted = std::min(parted_edge(view.sample), view.points.cols() - 2);
-  return tube_marker(view.points, colors(view, tube.parted), radius_, tube);
+  tube.missing = missing(parted);
+  return tube_marker(view.points, colors(view, parted), radius_, tube);
 }
 
 void ScenePicture::add_bodies(const SceneView& view, std::vector<Marker>& markers) const {
@@ -302,11 +317,11 @@ visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view, const 
 }
 
 visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view, const ros::Time& stamp) const {
-  const Eigen::Index parted = parted_edge(view.sample);
-  Colors shown = colors(view, std::min(parted, view.points.cols() - 2));
+  const Eigen::Index parted = parted_edge(view);
+  Colors shown = colors(view, parted);
   for (const Eigen::Index node : gauge_)
     if (node < view.points.cols()) shown[static_cast<std::size_t>(node)] = kInk;
-  std::vector<Marker> markers{spheres_marker(view.points, shown, radius_, parted)};
+  std::vector<Marker> markers{spheres_marker(view.points, shown, radius_, missing(parted))};
   add_bodies(view, markers);
   return stamped(std::move(markers), stamp);
 }

@@ -74,7 +74,7 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
   method_.publish(text);
   set_on_master(node_.resolveName(names::kRobotDescription),
                 machine_urdf(method, machine_.lower_grip(), machine_.upper_grip()));
-  show_.begin(tested_, machine_.lower_grip(), Points(3, 0));
+  show_.begin(tested_, machine_.lower_grip(), Points(3, 0), machine_.rod().cuts);
   begin_ = Clock::now();
 }
 
@@ -169,7 +169,7 @@ void ReplayNode::publish_clock() {
 
 void ReplayNode::show(const KnotShape& shape) {
   const Points points = points_from_message(shape);
-  if (moment_.points.cols() == 0) show_.begin(tested_, machine_.lower_grip(), points);
+  if (moment_.points.cols() == 0) show_.begin(tested_, machine_.lower_grip(), points, machine_.rod().cuts);
   const Eigen::VectorXd tension =
       Eigen::Map<const Eigen::VectorXd>(shape.tension.data(), static_cast<Eigen::Index>(shape.tension.size()));
   // On a compliant frame the grip goes less far than the crosshead.

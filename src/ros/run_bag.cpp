@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -20,22 +19,18 @@ constexpr std::uint32_t kRun = 1;
 
 constexpr char kTf[] = "tf";
 
-Grips grips_of(const Method& method) {
-  return {method.specimen, method.machine,
-          specimen_centreline(method.specimen, method.material, method.machine, method.physics), method.material};
-}
-
 }  // namespace
 
-RunBag::RunBag(const std::string& file, const Method& method)
+RunBag::RunBag(const std::string& file, const Method& method, const Centreline& drawn)
     : bag_(file),
       method_(method_yaml(method)),
       radius_(method.material.radius),
-      grips_(grips_of(method)),
+      cuts_(drawn.cuts),
+      grips_(method.specimen, method.machine, drawn, method.material),
       frames_(grips_.lower(), method.specimen.end_to_end),
       picture_(method.specimen, method.machine, method.material),
       panel_((method.material.name.empty() ? "" : method.material.name + ", ") + knot_of(method.specimen).about().name),
-      views_(method.specimen, method.machine, method.material),
+      views_(method.specimen, method.machine, method.material, cuts_),
       motion_(rollers_hold(method.specimen, method.machine)) {}
 
 void RunBag::add(const Record& record) {
@@ -74,7 +69,7 @@ void RunBag::add_reading(const Sample& reading, const ros::Time& answered) {
 
 void RunBag::begin(const ros::Time& stamp, const Points& shape) {
   begun_ = true;
-  picture_.begin(shape);
+  picture_.begin(shape, cuts_);
   std_msgs::String text;
   text.data = method_;
   bag_.write_latched(names::kMethod, stamp, text);

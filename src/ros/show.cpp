@@ -70,13 +70,13 @@ void Show::apply() {
   is_old_ = true;
 }
 
-void Show::begin(const Method& method, const Vec3& lower_grip, const Points& points) {
+void Show::begin(const Method& method, const Vec3& lower_grip, const Points& points, const std::vector<int>& cuts) {
   lower_grip_ = lower_grip;
   frames_.emplace(lower_grip, method.specimen.end_to_end);
   fixed_.sendTransform(frames_->fixed(ros::TIME_MIN));
   picture_.emplace(method.specimen, method.machine, method.material);
-  if (points.cols() > 0) picture_->begin(points);
-  views_.emplace(method.specimen, method.machine, method.material);
+  if (points.cols() > 0) picture_->begin(points, cuts);
+  views_.emplace(method.specimen, method.machine, method.material, cuts);
   shown_.begin();
   apply();
 }

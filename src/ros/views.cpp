@@ -68,7 +68,7 @@ Looks Views::look(const Points& points, const Vec3& lower_grip, const Vec3& uppe
   }
   Looks now;
   now.machine = now.knots = now.lower_knot = now.upper_knot = look_at(all_);
-  if (const std::optional<KnotPlaces> found = find_knots(points, radius_, std::isfinite(sample.knot_distance))) {
+  if (const std::optional<KnotPlaces> found = find_knots(points, radius_, std::isfinite(sample.knot_distance), cuts_)) {
     const Vec3 close = Vec3::Constant(kClose * radius_);
     now.knots = look_at(found->all);
     now.lower_knot = look_at(Box::around(found->lower, close));

@@ -9,6 +9,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/numeric/text_rows.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/run/cannot_write.hpp"
@@ -154,13 +155,16 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   return rows;
 }
 
-void write_centreline(const std::string& file, const Points& points) {
+void write_centreline(const std::string& file, const Points& points, const std::vector<int>& cuts) {
   std::ofstream out;
   open(out, file);
-  out << "x,y,z\nm,m,m\n";
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    out << format_number(points(0, i)) << ',' << format_number(points(1, i)) << ',' << format_number(points(2, i))
-        << '\n';
+  out << (cuts.empty() ? "x,y,z\nm,m,m\n" : "x,y,z,rope\nm,m,m,-\n");
+  int rope = 0;
+  for (const Piece& piece : pieces_between(points.cols(), cuts)) {
+    const std::string end = cuts.empty() ? "\n" : ',' + std::to_string(++rope) + '\n';
+    for (Eigen::Index i = piece.begin; i < piece.end; ++i)
+      out << format_number(points(0, i)) << ',' << format_number(points(1, i)) << ',' << format_number(points(2, i))
+          << end;
   }
   out.close();
   if (!out) throw CannotWrite(file);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/samples.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 
 namespace knot_utm {
 namespace {
@@ -29,7 +31,7 @@ constexpr const char* kFailedStep = "failed_step.bin";
 constexpr const char* kSpecimen = "specimen_";  // and a number, the folder of one
 
 /// What a run writes over when it begins, or leaves to who made it.
-constexpr std::array<const char*, 3> kWritten{"method.yaml", "specimen.csv", "comparison.yaml"};
+constexpr std::array<const char*, 4> kWritten{"method.yaml", "specimen.csv", "knot.yaml", "comparison.yaml"};
 /// What it takes away when it begins.
 constexpr std::array<const char*, 14> kOld{
     "samples.csv", "shapes.bin", "curve.csv",   "curve_full.csv", "result.yaml", "final_shape.csv", "shapes.csv",
@@ -48,6 +50,11 @@ void put_copy(const fs::path& file, const fs::path& copy) {
   if (fs::equivalent(file, copy, error)) return;
   fs::copy_file(file, copy, fs::copy_options::overwrite_existing, error);
   if (error) throw CannotWrite(copy.string(), error.value());
+}
+
+/// Of a user's file. Knots that come with the package go by their names.
+bool is_own_knot(const Method& method) {
+  return method.specimen.drawing && fs::path(method.specimen.drawing->name).is_absolute();
 }
 
 std::string logo_beside(const Method& method) { return "logo" + fs::path(method.report.logo).extension().string(); }
@@ -93,6 +100,11 @@ void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); 
 std::string method_file_text(const Method& method) {
   Method own = method;
   if (knot_of(own.specimen).has("file")) own.specimen.file = "specimen.csv";
+  if (is_own_knot(own)) {
+    auto beside = std::make_shared<KnotDrawing>(*own.specimen.drawing);
+    beside->name = "knot.yaml";
+    own.specimen.drawing = beside;
+  }
   if (!own.report.logo.empty()) own.report.logo = logo_beside(method);
   return kResolved + method_yaml(own);
 }
@@ -120,6 +132,7 @@ void begin_run_folder(const std::string& folder, const Method& method, const std
   std::error_code error;
   require_no_record_in(folder, method);
   if (knot_of(method.specimen).has("file")) put_copy(method.specimen.file, fs::path(folder) / "specimen.csv");
+  if (is_own_knot(method)) put_copy(method.specimen.drawing->name, fs::path(folder) / "knot.yaml");
   if (!method.report.logo.empty()) put_copy(method.report.logo, fs::path(folder) / logo_beside(method));
   // Not before the specimen has been read: it may be the shape that the last run left here.
   for (const char* old : kOld) fs::remove(fs::path(folder) / old, error);

@@ -8,6 +8,7 @@
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/shape_series.hpp"
@@ -23,12 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The accelerated mass over the rod's own.
-double inertia_of(const Method& method) {
-  const Centreline centreline = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
-  return inertia_factor(method.material, method.physics, slack_of(method.specimen, centreline));
-}
-
 /// A loop that turned further around its rollers is told. The limit is half of the default roller's diameter, by choice
 /// [h].
 constexpr double kLargestLoopTurn = 6.0;
@@ -40,7 +35,9 @@ bool holds_its_knot(const Results& results) {
 /// What becomes of the records of a run.
 class RunWriter {
  public:
-  RunWriter(const std::string& folder, const Method& method);
+  RunWriter(const std::string& folder, const Method& method)
+      : RunWriter(folder, method,
+                  specimen_centreline(method.specimen, method.material, method.machine, method.physics)) {}
 
   /// Adds one record. If the simulation failed, only the time steps that it still made are added.
   void add(const Record& record);
@@ -55,12 +52,15 @@ class RunWriter {
   std::size_t full_rows() const { return full_curve_.rows(); }
 
  private:
+  RunWriter(const std::string& folder, const Method& method, const Centreline& drawn);
+
   fs::path folder_;
+  std::vector<int> cuts_;  // edges between one rope and the next
   RunFacts known_;
   std::vector<Sample> samples_;              // all accepted time steps; the last one of a command is its answer
   std::vector<Sample> readings_;             // readings of the load cell: the rows of curve.csv
   double weight_per_length_ = 0.0;           // weight of the rod per length [N/m]
-  double length_ = 0.0;                      // length of the rod in the last known shape [m]
+  double length_ = 0.0;                      // length of all ropes in the last known shape [m]
   LoopTurn turn_;                            // turning of a loop on rollers since it was mounted
   std::optional<double> radius_on_rollers_;  // radius of the rod [m]; empty: the specimen is not a loop on rollers
   bool far_side_held_ = false;
@@ -68,10 +68,12 @@ class RunWriter {
   ShapeSeries shapes_;
 };
 
-RunWriter::RunWriter(const std::string& folder, const Method& method)
+RunWriter::RunWriter(const std::string& folder, const Method& method, const Centreline& drawn)
     : folder_(folder),
+      cuts_(drawn.cuts),
       curve_((folder_ / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
-      full_curve_((folder_ / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
+      full_curve_((folder_ / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)),
+      shapes_(drawn.cuts) {
   known_.errors = relative_errors(method.specimen, method.material, method.machine, method.physics);
   known_.material = method.material;
   for (const NodeForce& load : knot_of(method.specimen).supports(method.specimen, method.material).loads)
@@ -95,7 +97,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   if (method.analysis.margin)
     known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
-  known_.inertia = inertia_of(method);
+  known_.inertia = inertia_factor(method.material, method.physics, slack_of(method.specimen, drawn));
   for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
   for (const ProgramStep& step : method.program)
     if (pulls(step->phase())) known_.pull_speed = std::max(known_.pull_speed, step->speed);
@@ -115,11 +117,7 @@ void RunWriter::add(const Record& record) {
   const bool mounted = sample.phase != Phase::kIdle && !forms(sample.phase);
   const bool whole = sample.status != BenchStatus::kBroken;
   if (mounted && record.shape.cols() > 0 && whole) turn_.add(record.shape);
-  if (record.shape.cols() > 1 && whole)
-    length_ = (record.shape.rightCols(record.shape.cols() - 1) - record.shape.leftCols(record.shape.cols() - 1))
-                  .colwise()
-                  .norm()
-                  .sum();
+  if (record.shape.cols() > 1 && whole) length_ = length_of_pieces(record.shape, cuts_);
   shapes_.add(record);
   const Sample* reading = cell_reading(record);
   if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
@@ -149,7 +147,7 @@ RunFacts RunWriter::facts() const {
 }
 
 void RunWriter::finish(const Results& results, RunFacts facts, const Points& final_shape) {
-  if (final_shape.cols() > 0) write_centreline((folder_ / "final_shape.csv").string(), final_shape);
+  if (final_shape.cols() > 0) write_centreline((folder_ / "final_shape.csv").string(), final_shape, cuts_);
   if (!shapes_.empty()) {
     if (samples_.back().status == BenchStatus::kBroken) shapes_.add_parted(samples_.back().time, final_shape);
     write_whole((folder_ / "shapes.csv").string(), shapes_.csv());

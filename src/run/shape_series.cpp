@@ -4,13 +4,14 @@
 #include <charconv>
 #include <utility>
 
+#include "knot_utm/numeric/pieces.hpp"
+
 namespace knot_utm {
 namespace {
 
 constexpr int kDigits = 7;  // a tenth of a micrometre of a place less than a metre away
-constexpr const char* kHead =
-    "time,node,x,y,z,tension,twist,contact_force\n"
-    "s,-,m,m,m,N,rad/m,N/m\n";
+constexpr const char* kNames = "time,node,x,y,z,tension,twist,contact_force";
+constexpr const char* kUnits = "s,-,m,m,m,N,rad/m,N/m";
 
 /// A number behind a comma.
 void put(std::string& text, double value) {
@@ -45,23 +46,29 @@ void ShapeSeries::add(const Record& record) {
 void ShapeSeries::add_parted(double time, const Points& shape) { at_the_end_.push_back({time, shape, {}, {}}); }
 
 std::string ShapeSeries::csv() const {
-  std::string text(kHead);
+  const bool several = !cuts_.empty();
+  std::string text = kNames + std::string(several ? ",rope\n" : "\n") + kUnits + (several ? ",-\n" : "\n");
   for (const std::vector<Shape>* shapes : {&kept_, &at_the_end_})
     for (const Shape& shape : *shapes) write(shape, text);
   return text;
 }
 
-void ShapeSeries::write(const Shape& shape, std::string& text) {
+void ShapeSeries::write(const Shape& shape, std::string& text) const {
   std::string time;
   put(time, shape.time);
-  for (Eigen::Index i = 0; i < shape.points.cols(); ++i) {
-    text.append(time, 1);
-    text += ',' + std::to_string(i);
-    for (Eigen::Index k = 0; k < 3; ++k) put(text, shape.points(k, i));
-    put(text, at(shape.tension, i));
-    put(text, at(shape.readings.twist_rate, i - 1));
-    put(text, at(shape.readings.contact_load, i));
-    text += '\n';
+  int rope = 0;
+  for (const Piece& piece : pieces_between(shape.points.cols(), cuts_)) {
+    const std::string end = cuts_.empty() ? "\n" : ',' + std::to_string(++rope) + '\n';
+    for (Eigen::Index i = piece.begin; i < piece.end; ++i) {
+      const bool first = i == piece.begin, last = i + 1 == piece.end;
+      text.append(time, 1);
+      text += ',' + std::to_string(i);
+      for (Eigen::Index k = 0; k < 3; ++k) put(text, shape.points(k, i));
+      put(text, last ? Sample::kNone : at(shape.tension, i));
+      put(text, first || last ? Sample::kNone : at(shape.readings.twist_rate, i - 1));
+      put(text, at(shape.readings.contact_load, i));
+      text += end;
+    }
   }
 }
 

@@ -7,15 +7,15 @@ namespace knot_utm {
 namespace {
 
 /// The deepest contact that the node of the diagnosis has a part in.
-void find_contact(const std::vector<ContactPoint>& contacts, StepDiagnosis& out) {
+void find_contact(const RodProperties& rod, const std::vector<ContactPoint>& contacts, StepDiagnosis& out) {
   for (const ContactPoint& contact : contacts) {
     const auto stands_on = [&](int first) { return out.node >= first && out.node < first + 3; };
     const bool part = stands_on(contact.a0) || (!contact.on_roller() && stands_on(contact.b0));
     if (!part || !contact.touches() || (out.in_contact && contact.overlap <= out.overlap)) continue;
     out.in_contact = true;
     out.roller = contact.roller;
-    out.contact_arclengths[0] = contact.arclength_a;
-    out.contact_arclengths[1] = contact.arclength_b;
+    out.contact_arclengths[0] = rod.place(contact.arclength_a);
+    out.contact_arclengths[1] = rod.place(contact.arclength_b);
     out.overlap = contact.overlap;
     out.slides = contact.z.squaredNorm() > 0.99;
   }
@@ -27,10 +27,10 @@ StepDiagnosis diagnose(const RodProperties& rod, const SolvedStep& step, int nod
                        const ContactLists& contacts) {
   StepDiagnosis out;
   out.node = node;
-  out.arclength = rod.rest_length.head(node).sum();
+  out.arclength = rod.place(rod.rest_length.head(node).sum());
   out.residual = residual;
   out.motion = step.increment.col(node).norm();
-  for (const std::vector<ContactPoint>& list : contacts) find_contact(list, out);
+  for (const std::vector<ContactPoint>& list : contacts) find_contact(rod, list, out);
   return out;
 }
 

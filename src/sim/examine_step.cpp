@@ -22,12 +22,9 @@ Vec3 slip(const ContactPoint& contact, const Points& increment) {
 }
 
 std::string reason(const RodProperties& rod, const Tunnelling& tunnelling) {
-  auto arclength = [&](int edge, double fraction) {
-    return rod.rest_length.head(edge).sum() + fraction * rod.rest_length[edge];
-  };
   std::ostringstream out;
-  out << "strands would pass through each other at " << arclength(tunnelling.edge_a, tunnelling.on_a) << " m and "
-      << arclength(tunnelling.edge_b, tunnelling.on_b) << " m along the rod";
+  out << "strands would pass through each other at " << rod.place(tunnelling.edge_a, tunnelling.on_a) << " m and "
+      << rod.place(tunnelling.edge_b, tunnelling.on_b) << " m along the rod";
   return out.str();
 }
 

@@ -16,8 +16,8 @@ inline void report_contacts(const RodProperties& rod, const std::vector<ContactP
     out.in_contact = true;
     out.overlap = contact.overlap;
     out.roller = contact.roller;
-    out.arclengths[0] = contact.on_roller() ? rod.arclength()[contact.a0 + 1] : contact.arclength_a;
-    out.arclengths[1] = contact.arclength_b;
+    out.arclengths[0] = rod.place(contact.on_roller() ? rod.arclength()[contact.a0 + 1] : contact.arclength_a);
+    out.arclengths[1] = rod.place(contact.arclength_b);
   }
 }
 

@@ -50,7 +50,7 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
   TunnellingSearch search(points.cols());
   for (const int cut : centreline.cuts) search.part(cut);
   if (const std::optional<Tunnelling> passage = search.find(points, points)) {
-    const std::vector<double> at = arclengths(points);
+    const std::vector<double> at = arclengths(points, centreline.cuts);
     auto place = [&](int edge, double fraction) {
       const auto i = static_cast<std::size_t>(edge);
       return text(at[i] + fraction * (at[i + 1] - at[i]));

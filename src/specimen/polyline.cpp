@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "knot_utm/contact/closest_points.hpp"
+#include "knot_utm/numeric/pieces.hpp"
 
 namespace knot_utm {
 
@@ -52,10 +53,14 @@ class ChordWalk {
 
 }  // namespace
 
-std::vector<double> arclengths(const Points& points) {
-  std::vector<double> out{0.0};
-  for (Eigen::Index i = 1; i < points.cols(); ++i)
-    out.push_back(out.back() + (points.col(i) - points.col(i - 1)).norm());
+std::vector<double> arclengths(const Points& points, const std::vector<int>& cuts) {
+  std::vector<double> out;
+  double along = 0.0;
+  for (const Piece& piece : pieces_between(points.cols(), cuts))
+    for (Eigen::Index i = piece.begin; i < piece.end; ++i) {
+      if (i > piece.begin) along += (points.col(i) - points.col(i - 1)).norm();
+      out.push_back(along);
+    }
   return out;
 }
 
@@ -126,25 +131,31 @@ NearestPlaces nearest_places(const Points& points, double exclusion, bool closed
   const Points edge = points.rightCols(edges) - points.leftCols(edges);
   const Points middle = 0.5 * (points.rightCols(edges) + points.leftCols(edges));
   const Eigen::VectorXd length = edge.colwise().norm();
-  std::vector<char> cut(static_cast<std::size_t>(edges), 0);
-  for (const int at : cuts) cut[static_cast<std::size_t>(at)] = 1;
-  Eigen::VectorXd begin(edges + 1);
-  begin[0] = 0.0;
-  for (Eigen::Index i = 0; i < edges; ++i) begin[i + 1] = begin[i] + length[i];
+  const std::vector<double> along = arclengths(points, cuts);
+  const Eigen::Map<const Eigen::VectorXd> begin(along.data(), edges + 1);
   const double total = begin[edges];
-  NearestPlaces best{std::numeric_limits<double>::infinity(), 0.0, 0.0};
+  Eigen::VectorXi piece(edges);  // of each edge; -1: it is cut
+  int number = 0;
+  for (const Piece& one : pieces_between(points.cols(), cuts)) {
+    piece.segment(one.begin, one.nodes() - 1).setConstant(number++);
+    if (one.end <= edges) piece[one.end - 1] = -1;
+  }
+  NearestPlaces best;
+  best.distance = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < edges; ++i) {
-    if (cut[static_cast<std::size_t>(i)] != 0) continue;
+    if (piece[i] < 0) continue;
     for (Eigen::Index j = i + 1; j < edges; ++j) {
-      if (cut[static_cast<std::size_t>(j)] != 0) continue;
-      if (begin[j] - begin[i + 1] < exclusion) continue;
+      if (piece[j] < 0) continue;
+      if (piece[i] == piece[j] && begin[j] - begin[i + 1] < exclusion) continue;
       if (closed && total - begin[j + 1] + begin[i] < exclusion) continue;
       const double reach = best.distance + 0.5 * (length[i] + length[j]);
       if ((middle.col(i) - middle.col(j)).squaredNorm() >= reach * reach) continue;
       const ClosestPoints at = closest_points(points.col(i), edge.col(i), points.col(j), edge.col(j), 0.0);
       const Vec3 gap = points.col(i) + at.t * edge.col(i) - points.col(j) - at.u * edge.col(j);
       const double distance = gap.norm();
-      if (distance < best.distance) best = {distance, begin[i] + at.t * length[i], begin[j] + at.u * length[j]};
+      if (distance < best.distance)
+        best = {distance, begin[i] + at.t * length[i], begin[j] + at.u * length[j],
+                points.col(j) + at.u * edge.col(j) + 0.5 * gap};
     }
   }
   return best;

@@ -1,6 +1,7 @@
 #include "physical_values.hpp"
 
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 
 namespace knot_utm {
 
@@ -10,6 +11,8 @@ YAML::Node physical_values(const Method& method) {
     values["material"].remove(words);
     values["machine"]["load_cell"].remove(words);
   }
+  // What a knot's file says, whatever it is called.
+  if (method.specimen.drawing) values["specimen"]["knot"] = method.specimen.drawing->text;
   return values;
 }
 

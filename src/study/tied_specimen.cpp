@@ -11,7 +11,6 @@
 #include "knot_utm/run/build_identity.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/specimen/knot_drawing.hpp"
 #include "physical_values.hpp"
 
 namespace knot_utm {
@@ -40,7 +39,6 @@ std::string tied_from(const Method& method, int step, bool shapes) {
     text += std::string(section) + ":\n" + YAML::Dump(values[section]) + '\n';
   for (int i = 0; i < step; ++i) text += "step: " + YAML::Dump(values["program"][i]) + '\n';
   if (knot_of(method.specimen).has("file")) text += "shape:\n" + read_whole(method.specimen.file);
-  if (method.specimen.drawing) text += "drawing:\n" + method.specimen.drawing->text;
   return text;
 }
 

@@ -28,6 +28,7 @@
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
 #endif
+#include "draw_knot.hpp"
 #include "make_report.hpp"
 #include "tool.hpp"
 
@@ -58,6 +59,7 @@ struct Arguments {
   std::string resume;        // the folder of a batch; empty: a new test
   std::string from_samples;  // the folder of a run, whose results are made anew; no test
   std::string show;          // a folder, of which the main readings are printed; no test
+  std::string draw;          // a knot that is drawn; no test
   std::string readings;      // the word of --readings; empty: all
   int specimens = 0;         // 0: as many as the method says
   int jobs = 0;              // 0: as many as there are processors
@@ -236,6 +238,10 @@ void require_batch(const Arguments& arguments, const Method& method) {
 }
 
 int run(const Arguments& arguments) {
+  if (!arguments.draw.empty()) {
+    draw_knot(arguments.draw, "--draw", arguments.out, arguments.overwrite);
+    return kDone;
+  }
   if (!arguments.show.empty()) {
     std::fputs(run_summary(arguments.show).c_str(), stdout);
     return kDone;
@@ -295,7 +301,7 @@ std::string phases_csv() {
 /// Where the method stands, where the results go and where tied specimens are kept, once all words are read.
 void settle(Arguments& arguments) {
   if (arguments.specimens > 0) arguments.overrides.push_back("specimens.count=" + std::to_string(arguments.specimens));
-  if (!arguments.show.empty() || !arguments.from_samples.empty()) return;
+  if (!arguments.show.empty() || !arguments.from_samples.empty() || !arguments.draw.empty()) return;
   if (!arguments.no_cache) arguments.cache = CacheFolder::of_user();
   if (arguments.resume.empty()) {
     arguments.method = find_method(arguments.method);
@@ -305,6 +311,16 @@ void settle(Arguments& arguments) {
   arguments.out = arguments.resume;
   // What stands there is of the interrupted test, and is made anew of the whole one.
   arguments.report |= std::filesystem::exists(arguments.resume + "/report.html");
+}
+
+/// --draw, which does no test, and so does not go with `others`.
+const CLI::Option* add_draw(CLI::App& app, Arguments& arguments, const std::vector<CLI::Option*>& others) {
+  CLI::Option* draw = app.add_option(
+      "--draw", arguments.draw,
+      "only show this knot, one that comes with the package or a file: its facts, and a picture, KNOT.svg, in --out or "
+      "the present folder");
+  for (CLI::Option* one : others) draw->excludes(one);
+  return draw;
 }
 
 /// Reads the command line; an exit code where that is all there is to do.
@@ -350,6 +366,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
                                         "only say which keys of the method are numbers, with their units");
   CLI::Option* show =
       app.add_option("--show", arguments.show, "only print the main readings of the test or batch in this folder");
+  const CLI::Option* draw =
+      add_draw(app, arguments, {method, set, resume, specimens, readings, from_samples, check, list_keys, show});
   for (CLI::Option* one : {check, list_keys}) one->excludes(resume);
   for (CLI::Option* one : {show, from_samples}) one->excludes(method)->excludes(resume)->excludes(readings);
   from_samples->excludes(show)->excludes(out);
@@ -359,7 +377,7 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   add_listing(app, "--list-knots", knots_csv, "say which knots there are, and their keys");
   add_listing(app, "--list-phases", phases_csv, "say which phases a test has: which prepare it, form a knot, and pull");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
-    if (method->empty() && resume->empty() && show->empty() && from_samples->empty())
+    if (method->empty() && resume->empty() && show->empty() && from_samples->empty() && draw->empty())
       throw CLI::RequiredError("METHOD");
   });
   if (code) return code;

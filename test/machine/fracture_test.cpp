@@ -29,6 +29,18 @@ PullStep pull(double extension) {
   return out;
 }
 
+/// Two ropes that lie far apart and do not bear anything: the edge between them is no rope that could part.
+TEST(Fracture, NoCutEdgeIsExposed) {
+  Material material = nylon();
+  material.breaking_strain = 0.1;
+  Points x = Points::Zero(3, 8);
+  const double edge = material.radius;
+  x.row(2) << 0.0, edge, 2.0 * edge, 3.0 * edge, 0.0, edge, 2.0 * edge, 3.0 * edge;
+  x.row(0).tail(4).setConstant(100.0 * edge);
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(7, edge), {3});
+  EXPECT_NEAR(most_exposed(material, rod, x).fraction, 0.0, 1e-9);
+}
+
 struct Pulled {
   TestingMachine bench;
   ProgramRunner program;

@@ -119,6 +119,16 @@ TEST_F(KnotFile, IsNamedInAMethodByItsPath) {
   EXPECT_THAT(method_yaml(method), HasSubstr("knot: " + file()));
 }
 
+TEST_F(KnotFile, MayBeNamedFromTheFolderOfTheMethod) {
+  write(kHooks);
+  const std::string text =
+      "specimen: {knot: hooks.yaml}\nmaterial: nylon\nmachine: {grips: clamps}\n"
+      "program: [pull: {until: {load: 1}}]\n";
+  const Method method = parse_method(text, (fs::path(file()).parent_path() / "method.yaml").string());
+  ASSERT_TRUE(method.specimen.drawing);
+  EXPECT_EQ(method.specimen.drawing->name, file());
+}
+
 TEST(KnotFileName, ThatNobodyKnowsIsRefusedWithThoseThatAreKnown) {
   try {
     load_method(kBend, {"specimen.knot=reeff"});

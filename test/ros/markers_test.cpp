@@ -61,7 +61,7 @@ TEST(SpheresMarker, StandCloseTogether) {
   const double radius = 0.002;
   Points points = Points::Zero(3, 21);
   points.row(2) = Eigen::RowVectorXd::LinSpaced(21, 0.0, 20.0 * 2.5 * radius);
-  const auto marker = spheres_marker(points, Colors(21), radius, 7);
+  const auto marker = spheres_marker(points, Colors(21), radius, {7});
   EXPECT_EQ(marker.colors.size(), marker.points.size());
   EXPECT_DOUBLE_EQ(marker.scale.x, 2.0 * radius);
   for (std::size_t i = 1; i < marker.points.size(); ++i) {
@@ -191,6 +191,29 @@ TEST_F(ScenePictureTest, ARodThatPartedHasAGap) {
   const auto marker = part(draw(rod), "rod");
   EXPECT_NEAR(enclosed_volume(marker), 0.99 * whole, 1e-9 * whole);
   for (const auto& point : marker.points) EXPECT_FALSE(point.z > 0.3 + 1e-9 && point.z < 0.31 - 1e-9) << point.z;
+}
+
+/// Two straight ropes side by side, of which one parts: nothing is drawn from one to the other, and they have the
+/// colours of their own tensions to their ends. The place of a break counts along both.
+TEST_F(ScenePictureTest, RopesAreDrawnEachByItself) {
+  Points both = Points::Zero(3, 102);
+  both.row(2) << Eigen::RowVectorXd::LinSpaced(51, 0.0, 1.0), Eigen::RowVectorXd::LinSpaced(51, 0.0, 1.0);
+  both.row(0).tail(51).setConstant(0.5);
+  picture.begin(both, {50});
+  const auto count = [&](const visualization_msgs::Marker& marker) {
+    for (const auto& point : marker.points) EXPECT_LT(std::min(std::abs(point.x), std::abs(point.x - 0.5)), 0.003);
+    return marker.points.size();
+  };
+  EXPECT_EQ(count(part(draw(both), "rod")), 2u * 3u * 12u * 2u * 51u);
+  count(part(draw(both), "gauge_marks"));
+  Eigen::VectorXd tension = Eigen::VectorXd::Constant(101, 3.0);
+  tension[50] = 0.0;
+  EXPECT_EQ(tension_at_nodes(tension, {50}), Eigen::VectorXd::Constant(102, 3.0));
+  EXPECT_EQ(curvature_at_nodes(both, 0.002, {50}).maxCoeff(), 0.0);
+  sample.break_arclength = 1.31;
+  const double gap_begin = 0.3, gap_end = 0.32;
+  for (const auto& point : part(draw(both), "rod").points)
+    EXPECT_FALSE(point.x > 0.25 && point.z > gap_begin + 1e-9 && point.z < gap_end - 1e-9);
 }
 
 /// Its axis is the cylinder's, which stands along z before the marker's pose turns it.

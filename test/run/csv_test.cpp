@@ -141,6 +141,12 @@ TEST_F(Csv, FinalShapeIsACentrelineFile) {
   EXPECT_EQ(read_centreline(path_), points);
 }
 
+TEST_F(Csv, FinalShapeOfSeveralRopesNumbersThem) {
+  const Points points = Points::Zero(3, 5);
+  write_centreline(path_, points, {1});
+  EXPECT_EQ(text(), "x,y,z,rope\nm,m,m,-\n0,0,0,1\n0,0,0,1\n0,0,0,2\n0,0,0,2\n0,0,0,2\n");
+}
+
 TEST_F(Csv, AFolderThatIsNotThere) { EXPECT_THROW(CurveWriter("/nowhere/curve.csv"), std::runtime_error); }
 
 }  // namespace

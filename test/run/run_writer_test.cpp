@@ -120,6 +120,19 @@ TEST_F(RunFolder, ItsMethodRunsAgainToTheSameBytes) {
   EXPECT_EQ(read_whole((folder_ / "method.yaml").string()), method);
 }
 
+TEST_F(RunFolder, KeepsTheKnotThatAUsersFileDescribes) {
+  fs::create_directories(folder_);
+  const std::string own = (folder_ / "mine.yaml").string();
+  fs::copy_file(kConfig + "knots/reef.yaml", own);
+  begin_run_folder(folder_.string(), load_method(kConfig + "knot.yaml", {"specimen.knot=" + own}));
+  const std::string method = read_whole((folder_ / "method.yaml").string());
+  EXPECT_THAT(method, HasSubstr("knot: knot.yaml"));
+  EXPECT_EQ(read_whole((folder_ / "knot.yaml").string()), read_whole(own));
+  fs::remove(own);
+  begin_run_folder(folder_.string(), load_method((folder_ / "method.yaml").string()));
+  EXPECT_EQ(read_whole((folder_ / "method.yaml").string()), method);
+}
+
 TEST_F(RunFolder, KeepsTheLogoOfItsReport) {
   fs::create_directories(folder_);
   const std::string logo = (folder_ / "ours.svg").string();

@@ -63,6 +63,22 @@ TEST(ShapeSeries, HasARowANodeWithWhatIsKnownThere) {
   EXPECT_THAT(series.csv(), HasSubstr("\n1.5,0,0,0,0,nan,nan,nan\n"));
 }
 
+TEST(ShapeSeries, NumbersSeveralRopesAndKnowsNothingBetweenThem) {
+  ShapeSeries series({1});
+  Record record = reading(4);
+  record.shape = Points::Constant(3, 4, 4.0);
+  record.tension = Eigen::Vector3d(1.5, 0.0, 2.5);
+  record.readings = RodReadings{Eigen::Vector2d(0.25, 0.5), Eigen::VectorXd::Zero(4)};
+  series.add(record);
+  EXPECT_EQ(series.csv(),
+            "time,node,x,y,z,tension,twist,contact_force,rope\n"
+            "s,-,m,m,m,N,rad/m,N/m,-\n"
+            "1,0,4,4,4,1.5,nan,0,1\n"
+            "1,1,4,4,4,nan,nan,0,1\n"
+            "1,2,4,4,4,2.5,nan,0,2\n"
+            "1,3,4,4,4,nan,nan,0,2\n");
+}
+
 TEST(ShapeSeries, LeavesOutWhatHasNoReadingsAndARodThatHasParted) {
   ShapeSeries series;
   Record record = reading(0);

@@ -94,6 +94,17 @@ TEST(CutRod, HasTheMassLengthAndEnergyOfItsRopes) {
   EXPECT_EQ(sum.twisting, 0.0);
 }
 
+TEST(CutRod, IsMeasuredAlongItsRopesOneBehindTheOther) {
+  const RodProperties rod = Ropes({0.0, 1.0}, false).rod;
+  const Eigen::VectorXd arclength = rod.arclength();
+  const double half = 0.5 * rod.length();
+  EXPECT_GT(arclength[kEdges + 1], 1.5 * arclength[kEdges]);
+  EXPECT_NEAR(rod.place(arclength[kEdges]), half, 1e-12);
+  EXPECT_NEAR(rod.place(arclength[kEdges + 1]), half, 1e-12);
+  EXPECT_NEAR(rod.place(kEdges + 1, 0.5), half + 0.5 * rod.rest_length[kEdges + 1], 1e-12);
+  EXPECT_NEAR(rod.place(rod.edges() - 1, 1.0), rod.length(), 1e-12);
+}
+
 TEST(CutRod, ItsRopesPressOnEachOtherAndItsCutEdgeOnNothing) {
   // The second rope lies across the first one, a tenth of a radius too near; the cut edge runs through both.
   const double h = braided_rope().radius;

@@ -126,6 +126,21 @@ TEST_F(Tied, TakenUpItLeavesTheSameBytesAsATestThatTiesIt) {
   EXPECT_EQ(kept().size(), 1u);
 }
 
+TEST_F(Tied, IsThatOfWhatTheFileOfItsKnotSays) {
+  fs::create_directories(folder());
+  const std::string config = std::string(KNOT_UTM_SOURCE_DIR) + "/config/",
+                    reef = read_whole(config + "knots/reef.yaml");
+  const auto depends_on = [&](const std::string& name, const std::string& text) {
+    write_whole(folder() + "/" + name, text);
+    return tied_from(load_method(config + "knot.yaml", {"specimen.knot=" + folder() + "/" + name}), 1, false);
+  };
+  std::string moved = reef;
+  moved.replace(moved.find("[0.6, 2.8, 3.0]"), 15, "[0.6, 2.8, 3.1]");
+  const std::string first = depends_on("a.yaml", reef);
+  EXPECT_EQ(depends_on("b.yaml", reef), first);
+  EXPECT_NE(depends_on("a.yaml", moved), first);
+}
+
 TEST_F(Tied, IsNotKeptOfATestThatIsInterruptedBefore) {
   options.cache = cache;
   options.interrupted = [&] { return computed > 10; };

@@ -34,8 +34,12 @@ struct RodProperties {
   Eigen::Index edges() const { return rest_length.size(); }
   bool is_cut(Eigen::Index edge) const;
   double length() const;  ///< of all ropes [m]
-  /// Arclength at rest of every node from the first [m], N
+  /// Arclength at rest of every node from the first, with the l_j of cut edges [m], N
   Eigen::VectorXd arclength() const;
+  /// Of such an arclength, or of a place on an edge, without the l_j of cut edges: along all ropes, one behind the
+  /// other, as people are told [m].
+  double place(double arclength) const;
+  double place(Eigen::Index edge, double fraction) const;
 
   /// Saves or loads all of it; loading replaces the whole rod.
   void state(Archive& archive);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "knot_utm/numeric/points.hpp"
 
@@ -26,6 +27,7 @@ struct KnotPlaces {
 };
 
 /// Finds the knots. `two`: the specimen has two knots, as a fisherman's loop. Empty where no strand touches another.
-std::optional<KnotPlaces> find_knots(const Points& points, double radius, bool two);
+/// `cuts`: edges between one rope and the next.
+std::optional<KnotPlaces> find_knots(const Points& points, double radius, bool two, const std::vector<int>& cuts = {});
 
 }  // namespace knot_utm

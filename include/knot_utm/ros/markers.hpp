@@ -15,12 +15,14 @@
 
 namespace knot_utm {
 
-/// Tension at the nodes: the mean of the tensions of the two edges [N].
-Eigen::VectorXd tension_at_nodes(const Eigen::VectorXd& tension);
+/// Tension at the nodes: the mean of the tensions of the two edges [N]. `cuts`, here and below: edges between one rope
+/// and the next (RodProperties::cuts).
+Eigen::VectorXd tension_at_nodes(const Eigen::VectorXd& tension, const std::vector<int>& cuts = {});
 
 /// Curvature at the nodes times the radius of the rod, which is the bending strain at the rod's surface [-]. The
-/// curvature is that of the circle that touches both edges of the node at their midpoints. Zero at both ends.
-Eigen::VectorXd curvature_at_nodes(const Points& points, double radius);
+/// curvature is that of the circle that touches both edges of the node at their midpoints. Zero at the ends of each
+/// rope.
+Eigen::VectorXd curvature_at_nodes(const Points& points, double radius, const std::vector<int>& cuts = {});
 
 using Colors = std::vector<std_msgs::ColorRGBA>;
 
@@ -29,7 +31,7 @@ using Colors = std::vector<std_msgs::ColorRGBA>;
 /// rod turns.
 struct TubeOptions {
   int sides = 12;
-  Eigen::Index parted = -1;  ///< edge that has parted and is not drawn; -1: none
+  std::vector<int> missing;  ///< edges that are not drawn, ascending: cuts, and one that has parted
 };
 /// `colors`: one for each node.
 visualization_msgs::Marker tube_marker(const Points& points, const Colors& colors, double radius,
@@ -38,7 +40,7 @@ visualization_msgs::Marker tube_marker(const Points& points, const Colors& color
 /// The same as a row of spheres, a SPHERE_LIST, with a fiftieth of the bytes. Where edges are long, there are spheres
 /// between the nodes, too.
 visualization_msgs::Marker spheres_marker(const Points& points, const Colors& colors, double radius,
-                                          Eigen::Index parted);
+                                          const std::vector<int>& missing = {});
 
 /// One line for each contact force, centred at the contact. The lines stick out of the strands where the strands are
 /// pressed together. Half of a line has the length `longest` [m] times the place of the force on the scale of tension.
@@ -61,7 +63,8 @@ class ScenePicture {
  public:
   ScenePicture(const SpecimenOptions& specimen, const MachineOptions& machine, const Material& material);
 
-  void begin(const Points& points);  ///< begins a new specimen and places its gauge marks
+  /// Begins a new specimen and places its gauge marks.
+  void begin(const Points& points, const std::vector<int>& cuts = {});
   void color_by(ColorBy what) { color_by_ = what; }
   void show_contacts(bool shown) { show_contacts_ = shown; }
   /// Shows what another picture shows.
@@ -80,14 +83,16 @@ class ScenePicture {
   visualization_msgs::MarkerArray draw_small(const SceneView& view, const ros::Time& stamp) const;
 
  private:
-  Eigen::Index parted_edge(const Sample& sample) const;
+  Eigen::Index parted_edge(const SceneView& view) const;  ///< -1: none
+  std::vector<int> missing(Eigen::Index parted) const;    ///< edges that are not drawn
   Colors colors(const SceneView& view, Eigen::Index parted) const;
   visualization_msgs::Marker rod_marker(const SceneView& view) const;
   void add_bodies(const SceneView& view, std::vector<visualization_msgs::Marker>& markers) const;
 
   std::vector<GripBody> bodies_;
-  double radius_;                    ///< of the rod [m]
-  Eigen::VectorXd arclength_;        ///< of the nodes, at the beginning of the specimen [m]
+  double radius_;  ///< of the rod [m]
+  std::vector<int> cuts_;
+  Eigen::VectorXd arclength_;        ///< of the nodes along all ropes, at the beginning of the specimen [m]
   std::vector<Eigen::Index> gauge_;  ///< nodes that carry a gauge mark
   ColorBy color_by_ = ColorBy::kTension;
   ColorScale tension_, curvature_;

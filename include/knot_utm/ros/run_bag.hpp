@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/bag_panel.hpp"
@@ -28,21 +30,24 @@ class RunBag {
  public:
   /// Throws InvalidInput where the specimen does not fit the machine. All functions throw std::runtime_error where the
   /// file cannot be written.
-  RunBag(const std::string& file, const Method& method);
+  RunBag(const std::string& file, const Method& method)
+      : RunBag(file, method, specimen_centreline(method.specimen, method.material, method.machine, method.physics)) {}
   void add(const Record& record);
   void close() { bag_.close(); }
 
   std::uint64_t messages() const { return bag_.messages(); }  ///< number of messages written so far
 
  private:
+  RunBag(const std::string& file, const Method& method, const Centreline& drawn);
   void add_reading(const Sample& reading, const ros::Time& answered);
   void begin(const ros::Time& stamp, const Points& shape);
   void add_status(const Record& record, const ros::Time& stamp);
   void add_picture(const Record& record, const ros::Time& stamp);
 
   BagWriter bag_;
-  std::string method_;  ///< text of the method
-  double radius_;       ///< [m]
+  std::string method_;     ///< text of the method
+  double radius_;          ///< [m]
+  std::vector<int> cuts_;  ///< edges between one rope and the next
   Grips grips_;
   MachineFrames frames_;
   ScenePicture picture_;

@@ -31,8 +31,9 @@ class Show {
   /// InvalidInput where a parameter has a value that is not allowed.
   Show(ros::NodeHandle node, std::function<Moment()> latest, std::function<std::vector<ContactForce>()> forces);
 
-  /// Begins a new specimen, with its nodes at these places, and on a machine with its lower grip at this one.
-  void begin(const Method& method, const Vec3& lower_grip, const Points& points);
+  /// Begins a new specimen, with its nodes at these places and these edges between its ropes, on a machine with its
+  /// lower grip at this place.
+  void begin(const Method& method, const Vec3& lower_grip, const Points& points, const std::vector<int>& cuts);
 
   void state_changed();  ///< to be called when there is another latest state
   void settle();         ///< shows the latest state now: the node may end before the pictures have come to it

@@ -41,8 +41,8 @@ std::vector<CurveRow> read_curve(const std::string& file);
 /// The same from a stream; `file` is its name in messages.
 std::vector<CurveRow> read_curve(std::istream& in, const std::string& file);
 
-/// Writes final_shape.csv: x,y,z [m], one row for each point. Throws std::runtime_error where the file cannot be
-/// written.
-void write_centreline(const std::string& file, const Points& points);
+/// Writes final_shape.csv: x,y,z [m], one row for each point, and of several ropes, between which the edges `cuts` are,
+/// the number of the point's rope, from 1. Throws std::runtime_error where the file cannot be written.
+void write_centreline(const std::string& file, const Points& points, const std::vector<int>& cuts = {});
 
 }  // namespace knot_utm

@@ -16,6 +16,9 @@ class ShapeSeries {
  public:
   static constexpr std::size_t kMost = 120;
 
+  /// `cuts`: edges between one rope and the next (RodProperties::cuts).
+  explicit ShapeSeries(const std::vector<int>& cuts = {}) : cuts_(cuts) {}
+
   void add(const Record& record);  ///< not that of a rod that has parted
   /// As the rod lies once it has parted, when its forces are not known. `time` [s].
   void add_parted(double time, const Points& shape);
@@ -23,7 +26,7 @@ class ShapeSeries {
   bool empty() const { return kept_.empty(); }
 
   /// Rows of names and of units, then a row a node, shape after shape, to seven digits; "nan" where something is not
-  /// known. `tension` is that of the edge to the next node.
+  /// known. `tension` is that of the edge to the next node. Of several ropes there is a column `rope`, from 1.
   std::string csv() const;
 
  private:
@@ -33,8 +36,9 @@ class ShapeSeries {
     Eigen::VectorXd tension;
     RodReadings readings;
   };
-  static void write(const Shape& shape, std::string& text);
+  void write(const Shape& shape, std::string& text) const;
 
+  std::vector<int> cuts_;
   std::vector<Shape> kept_;
   std::vector<Shape> at_the_end_;  // the last record where it is not kept, and the parted rod
   std::size_t records_ = 0;

@@ -6,8 +6,8 @@
 
 namespace knot_utm {
 
-/// Arclength of every point along the polyline [m].
-std::vector<double> arclengths(const Points& points);
+/// Arclength of every point along the polyline [m]. `cuts`: its edges that are no part of it and have no length.
+std::vector<double> arclengths(const Points& points, const std::vector<int>& cuts = {});
 
 /// Resamples a polyline into equal chords whose length is nearest to `edge_length`; first and last point stay.
 /// `position` (optional) gets the arclength on `points` of every node.
@@ -34,11 +34,12 @@ Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vec
 struct NearestPlaces {
   double distance = 0.0;
   double first = 0.0, second = 0.0;  ///< arclengths [m]
+  Vec3 middle = Vec3::Zero();        ///< half-way between them [m]
 };
 
 /// The two places of a polyline that are nearest to each other among those at least `exclusion` [m] apart along it;
 /// their distance is infinite where there are none. Closed: its last point lies on its first, and the distance along it
-/// is that of the shorter way round. `cuts`: its edges that are no part of it.
+/// is that of the shorter way round. What lies on different sides of one of its `cuts` is always far enough apart.
 NearestPlaces nearest_places(const Points& points, double exclusion, bool closed = false,
                              const std::vector<int>& cuts = {});
 

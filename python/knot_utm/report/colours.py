@@ -4,6 +4,7 @@ from matplotlib.colors import LinearSegmentedColormap, LogNorm, Normalize
 from matplotlib.ticker import LogLocator, MaxNLocator
 
 from knot_utm.report.quantities import number, Unit
+from knot_utm.report.shapes import ropes
 
 # In the order in which they are offered, with the unit in SI.
 UNITS = {"tension": "N", "curvature": "1/m", "twist": "rad/m", "contact_force": "N/m"}
@@ -11,8 +12,10 @@ UNITS = {"tension": "N", "curvature": "1/m", "twist": "rad/m", "contact_force": 
 
 def node_values(shape):
     """Those that are known of a shape, by name."""
-    found = {"tension": None if shape.tension is None else between_edges(shape.tension),
-             "curvature": curvature(shape.points), "twist": shape.twist, "contact_force": shape.contact_force}
+    parts = ropes(shape)
+    found = {"tension": None if shape.tension is None else np.concatenate(
+                 [between_edges(shape.tension[rope.start:rope.stop - 1]) for rope in parts]),
+             "curvature": np.concatenate([curvature(shape.points[rope]) for rope in parts]), "twist": shape.twist, "contact_force": shape.contact_force}
     return {name: values for name, values in found.items() if values is not None}
 
 

@@ -80,7 +80,9 @@ def over_time(folder, shapes, radius):
     """rod.pvd, and of each shape rod_000.vtp and so on. Every file has the same arrays: NaN where a value is not known."""
     os.makedirs(folder, exist_ok=True)
     names, files = names_known(shapes), [f"rod_{number:03d}.vtp" for number in range(len(shapes))]
-    along = np.concatenate([[0.0], np.cumsum(lengths(shapes[0]))])
+    edges = lengths(shapes[0])
+    edges[list(shapes[0].cuts)] = 0.0
+    along = np.concatenate([[0.0], np.cumsum(edges)])
     for file, shape in zip(files, shapes):
         unknown = np.full(len(shape.points), np.nan)
         of_nodes = {**dict.fromkeys(names, unknown), **node_values(shape), "arclength": along if len(along) == len(unknown) else unknown}

@@ -84,6 +84,11 @@ def knot_of(method):
     return TITLES.get(method["specimen"]["knot"], str(method["specimen"]["knot"]))
 
 
+def keys_of_specimen(specimen):
+    """Without its knot. A knot that a file describes has the keys that are there."""
+    return KEYS_OF_KNOTS.get(specimen["knot"], [key for key in specimen if key != "knot"])
+
+
 def lies_around_post(method):
     return "post_diameter" in KEYS_OF_KNOTS.get(method.get("specimen", {}).get("knot"), ())
 
@@ -120,7 +125,7 @@ def method_facts(method, units):
     cell = cell if isinstance(cell, dict) else {}
     facts = Facts(method, units)
     return [
-        ("Specimen", [("Knot", knot_of(method)), *facts.of("specimen", specimen, KEYS_OF_KNOTS.get(specimen["knot"]))], ""),
+        ("Specimen", [("Knot", knot_of(method)), *facts.of("specimen", specimen, keys_of_specimen(specimen))], ""),
         ("Material", [("Name", str(material.get("name", "own"))), *facts.of("material", material)], material.get("notes") or ""),
         ("Machine", [*facts.of("machine", machine),
                      *([("Load cell", str(cell["name"]))] if "name" in cell else []), *facts.of("machine.load_cell", cell)],

@@ -22,7 +22,7 @@ from knot_utm.report.curves import few_points
 from knot_utm.report.method_facts import knot_of
 from knot_utm.report.rod_pictures import draw_bar, draw_rollers, tubes_of, view
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import pieces, series_of, Shape
+from knot_utm.report.shapes import pieces, series_of
 from knot_utm.report.style import BLUE, FAINT, INK, ORANGE, USUAL
 
 SIZE = (1920, 1080)
@@ -205,9 +205,9 @@ class OneTest:
         if part >= 1.0:
             return after
         if len(pieces(after, self.shapes[0])) > len(pieces(before, self.shapes[0])):
-            return Shape(at, before.points, before.tension, before.twist, before.contact_force)
-        return Shape(at, *(between(getattr(before, name), getattr(after, name), part)
-                           for name in ("points", "tension", "twist", "contact_force")))
+            return before._replace(time=at)
+        return before._replace(time=at, **{name: between(getattr(before, name), getattr(after, name), part)
+                                           for name in ("points", "tension", "twist", "contact_force")})
 
     def until(self, time):
         """Extension and load up to a time [s], in the units of the page."""

@@ -36,6 +36,7 @@ FILES = [
     ("shapes.bin", "the rod at every reading of the load cell, for the files above"),
     ("saved.bag", "the bag as it was when recorder/save was called"),
     ("specimen.csv", "the shape that was tested"),
+    ("knot.yaml", "the knot that was tested"),
     ("logo.png", "the logo of this report"),
     ("logo.svg", "the logo of this report"),
     ("failed_step.bin", "the time step that could not be solved"),

@@ -13,7 +13,7 @@ from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLin
 from knot_utm.report.curve_figures import phases_of
 from knot_utm.report.rod_pictures import draw_rollers, Tubes
 from knot_utm.report.run import read_yaml, Run
-from knot_utm.report.shapes import final_shape, pieces, series_of
+from knot_utm.report.shapes import final_shape, pieces, ropes, series_of
 from knot_utm.report.style import BLUE, FAINT, GREEN, INK, ORANGE, PHASES, SMALL, USUAL, VIOLET
 from knot_utm.report.tube import to_picture
 
@@ -49,9 +49,9 @@ def main():
 
 
 def draw_shape(axes, run, shape):
-    """A rod that has parted in its pieces."""
+    """Its ropes, and a rod that has parted in its pieces."""
     broke, series = run.time_of_break() is not None, series_of(run)[0]
-    parts = pieces(shape, series.shape(0)) if broke else [slice(0, len(shape.points))]
+    parts = pieces(shape, series.shape(0)) if broke else ropes(shape)
     Tubes(shape.points, parts, run.method["material"]["radius"], lambda node: np.where(
         (node < 0.5 * (len(shape.points) - 1))[:, None], FIRST_HALF, SECOND_HALF)).draw(axes)
     if run.method["specimen"]["knot"] == "fisherman":

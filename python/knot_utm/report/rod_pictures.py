@@ -8,7 +8,7 @@ from matplotlib.colors import LogNorm, to_rgb
 from knot_utm.report.colours import colour_scales, node_values
 from knot_utm.report.method_facts import post_diameter
 from knot_utm.report.quantities import with_unit
-from knot_utm.report.shapes import pieces
+from knot_utm.report.shapes import lengths, pieces
 from knot_utm.report.style import as_png, GREY, HUB, INK, ROLLER, SMALL, USUAL
 from knot_utm.report.tube import SeenTube, smooth, to_picture
 
@@ -110,7 +110,7 @@ def view(run, shape, radius):
     whole = box_around(np.vstack([shown[:, :2], *ends]), radius)
     if whole[1] - whole[0] <= LONGEST * (whole[3] - whole[2]) * 1.6:
         return whole
-    knot = touching(shape.points, radius)
+    knot = touching(shape, radius)
     if not knot.any():
         return whole
     left, right, bottom, top = box_around(shown[knot], radius)
@@ -127,9 +127,11 @@ def box_around(points, radius):
     return tuple(1e3 * np.array([low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin]))
 
 
-def touching(points, radius):
+def touching(shape, radius):
     """Nodes near another strand: nearer through the air than half as far along the rod."""
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    points, edges = shape.points, lengths(shape)
+    edges[list(shape.cuts)] += 10.0 * NEAR * radius
+    along = np.concatenate([[0.0], np.cumsum(edges)])
     near = np.zeros(len(points), dtype=bool)
     for i, point in enumerate(points):
         distance = np.linalg.norm(points - point, axis=1)

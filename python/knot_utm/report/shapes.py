@@ -11,8 +11,8 @@ SHAPE, STATE = "knot/shape", "knot/state"
 
 
 # `time` of the test [s]; `points`: the nodes [m]. `tension`: of each edge [N]; `twist`: of each node [rad/m]; `contact_force`: that
-# presses on each node, per length [N/m]. None: not known.
-Shape = namedtuple("Shape", "time points tension twist contact_force", defaults=[None] * 3)
+# presses on each node, per length [N/m]. None: not known. `cuts`: edges between one rope and the next, which are no rope.
+Shape = namedtuple("Shape", "time points tension twist contact_force cuts", defaults=[None] * 3 + [()])
 
 
 class Series:
@@ -30,14 +30,28 @@ class Series:
 
 
 def pieces(shape, whole):
-    """Slices of the nodes between which the rod has parted; a lone node cannot be drawn. `whole`: a shape before that.
+    """Slices of the nodes between its cuts, and where it has parted; a lone node cannot be drawn. `whole`: a shape before that.
     An edge that has grown twice as much as the usual one is no longer there: a rod does not stretch so unevenly."""
     if len(shape.points) != len(whole.points):
-        return [slice(0, len(shape.points))]
+        return ropes(shape)
     growth = lengths(shape) / lengths(whole)
-    gaps = np.flatnonzero(growth > 2.0 * np.median(growth)) + 1
-    ends = [0, *gaps.tolist(), len(shape.points)]
-    return [slice(a, b) for a, b in zip(ends[:-1], ends[1:]) if b - a >= 2]
+    parted = np.flatnonzero(growth > 2.0 * np.median(np.delete(growth, shape.cuts)))
+    return [piece for piece in between(shape, {*parted.tolist(), *shape.cuts}) if piece.stop - piece.start >= 2]
+
+
+def ropes(shape):
+    """Slices of the nodes of its ropes."""
+    return between(shape, shape.cuts)
+
+
+def between(shape, edges):
+    ends = [0, *(edge + 1 for edge in sorted(edges)), len(shape.points)]
+    return [slice(a, b) for a, b in zip(ends[:-1], ends[1:])]
+
+
+def cuts_of(numbers):
+    """Edges between nodes of which the ropes have other numbers."""
+    return tuple(np.flatnonzero(np.diff(numbers)).tolist())
 
 
 def lengths(shape):
@@ -53,7 +67,7 @@ def series_of(run):
         return only_the_final(run), ("There is no shapes.csv and no test.bag, so only the final shape is shown, without "
                                      "tensions.")
     try:
-        return series_of_bag(bag), ""
+        return series_of_bag(bag, final_shape(run).cuts), ""
     except ModuleNotFoundError as missing:
         why = f"{missing} (Debian: python3-rosbag)"
     except Exception as error:  # a bag is read by code that its own content chooses: anything may go wrong
@@ -86,14 +100,17 @@ def series_of_csv(file):
     def shape(i):
         rows = slice(begins[i], ends[i])
         points = np.column_stack([columns[name][rows] for name in ("x", "y", "z")])
-        return Shape(float(columns["time"][begins[i]]), points, known(columns["tension"][rows][:-1]),
-                     known(filled(columns["twist"][rows])), known(columns["contact_force"][rows]))
+        cuts = cuts_of(columns["rope"][rows]) if "rope" in columns else ()
+        tension, twist = columns["tension"][rows][:-1].copy(), columns["twist"][rows]
+        tension[list(cuts)] = 0.0
+        found = Shape(float(columns["time"][begins[i]]), points, known(tension), None, known(columns["contact_force"][rows]), cuts)
+        return found._replace(twist=known(np.concatenate([filled(twist[rope]) for rope in ropes(found)])))
 
     return Series(columns["time"][begins], shape)
 
 
 def filled(twist):
-    """It is measured between two edges: the end nodes have that of their neighbours."""
+    """It is measured between two edges: the end nodes of a rope have that of their neighbours."""
     return np.concatenate([twist[1:2], twist[1:-1], twist[-2:-1]]) if len(twist) > 2 else twist
 
 
@@ -105,7 +122,8 @@ def final_shape(run):
     file = os.path.join(run.folder, "final_shape.csv")
     columns = read_columns(file)
     points = np.column_stack([numbers(file, name, columns.get(name, ())) for name in ("x", "y", "z")])
-    return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, None)
+    cuts = cuts_of(numbers(file, "rope", columns["rope"])) if "rope" in columns else ()
+    return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, None, cuts=cuts)
 
 
 def nearest(seconds, time, broke):
@@ -113,7 +131,8 @@ def nearest(seconds, time, broke):
     return i - 1 if broke is not None and i > 0 and time <= broke < seconds[i] else i
 
 
-def series_of_bag(file):
+def series_of_bag(file, cuts):
+    """The messages of a shape do not tell one rope from another."""
     import rosbag
 
     with rosbag.Bag(file) as bag:
@@ -123,12 +142,13 @@ def series_of_bag(file):
         # Stamps run on over all tests of one launch; the state knows both times.
         first = next(bag.read_messages(topics=[state]))
         begin = first.message.header.stamp.to_sec() - first.message.time
-        shapes = [shape_of(entry.message, entry.timestamp.to_sec() - begin) for entry in bag.read_messages(topics=[shape])]
+        shapes = [shape_of(entry.message, entry.timestamp.to_sec() - begin, cuts)
+                  for entry in bag.read_messages(topics=[shape])]
     if not shapes:
         raise ValueError("it holds no shape")
     return Series([one.time for one in shapes], lambda i: shapes[i])
 
 
-def shape_of(message, time):
+def shape_of(message, time, cuts):
     points = np.array([(point.x, point.y, point.z) for point in message.points])
-    return Shape(time, points, known(np.array(message.tension)))
+    return Shape(time, points, known(np.array(message.tension)), cuts=cuts)

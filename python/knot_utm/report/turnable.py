@@ -12,7 +12,7 @@ from knot_utm.report.curves import few_points
 from knot_utm.report.quantities import number
 from knot_utm.report.rod_pictures import rollers, UNKNOWN
 from knot_utm.report.run import read_text
-from knot_utm.report.shapes import pieces
+from knot_utm.report.shapes import pieces, ropes
 
 LIBRARY = "/usr/share/javascript/three"  # Debian: libjs-three
 SCRIPTS = [os.path.join(LIBRARY, "three.min.js"), os.path.join(LIBRARY, "examples/js/controls/OrbitControls.js"),
@@ -44,7 +44,7 @@ def content(run, series, marks):
     return {"radius": 1e3 * run.method["material"]["radius"], "nodes": points.shape[1],
             "times": [shape.time for shape in shapes], "first": first_shown(shapes, marks),
             "low": low.tolist(), "step": step.tolist(), "points": encoded(np.rint((points - low) / step), "<u2"),
-            "pieces": [pieces_where_parted(shape, shapes[0]) for shape in shapes], "unknown": list(UNKNOWN),
+            "pieces": [pieces_where_several(shape, shapes[0]) for shape in shapes], "unknown": list(UNKNOWN),
             "quantities": [coloured(scale, values, points.shape[1]) for scale in scales],
             "rollers": [[z for z, _ in one] for one in wheels], "roller_radius": wheels[0][0][1] if wheels[0] else 0.0,
             "curve": curve_of(run), "states": [state(run, shape) for shape in shapes]}
@@ -57,12 +57,12 @@ def encoded(values, kind):
 def first_shown(shapes, marks):
     """The shape that the page begins with: at the lock, where there is one, else at the end of the test, but whole."""
     mark = next((mark for mark in marks if "lock" in mark.names), marks[-1] if marks else None)
-    whole = [i for i, shape in enumerate(shapes) if pieces_where_parted(shape, shapes[0]) is None]
+    whole = [i for i, shape in enumerate(shapes) if len(pieces(shape, shapes[0])) == len(ropes(shape))]
     return min(whole, key=lambda i: abs(shapes[i].time - mark.time)) if mark else whole[-1]
 
 
-def pieces_where_parted(shape, whole):
-    """[[first node, node behind the last]]; None: it is whole."""
+def pieces_where_several(shape, whole):
+    """[[first node, node behind the last]]; None: it is one rope, and whole."""
     found = pieces(shape, whole)
     return None if found == [slice(0, len(shape.points))] else [[one.start, one.stop] for one in found]
 

@@ -14,7 +14,7 @@ import matplotlib.pyplot
 import matplotlib.text
 import numpy as np
 
-from knot_utm.report import curve_figures, curves, marks, page, rod_pictures, shapes, style, tube, typefaces
+from knot_utm.report import colours, curve_figures, curves, marks, page, rod_pictures, shapes, style, tube, typefaces
 from knot_utm.report.curves import few_points
 from knot_utm.report.run import Run
 
@@ -68,6 +68,17 @@ class ABrokenRod(unittest.TestCase):
         self.assertEqual(shapes.pieces(parted, whole), [slice(0, 4), slice(4, 10)])
         self.assertEqual(shapes.pieces(stretched, whole), [slice(0, 10)])
 
+    def test_of_several_ropes_is_drawn_in_these_and_in_its_pieces(self):
+        nodes = np.column_stack([np.where(np.arange(10) < 6, 0.0, 5.0), np.zeros(10), np.linspace(0.0, 0.9, 10)])
+        cuts = shapes.cuts_of(np.array([1.0] * 6 + [2.0] * 4))
+        self.assertEqual(cuts, (5,))
+        whole = shapes.Shape(0.0, nodes, np.ones(9), cuts=cuts)
+        self.assertEqual(shapes.pieces(whole, whole), [slice(0, 6), slice(6, 10)])
+        recoil = np.where(np.arange(10) == 3, 0.5, 0.0)[:, None] * [0.0, 0.0, 1.0]
+        self.assertEqual(shapes.pieces(whole._replace(points=nodes + recoil), whole), [slice(0, 3), slice(4, 6), slice(6, 10)])
+        values = colours.node_values(whole._replace(tension=np.where(np.arange(9) == 5, 0.0, 2.0)))
+        np.testing.assert_array_equal(values["tension"], np.full(10, 2.0))
+        np.testing.assert_allclose(values["curvature"], 0.0, atol=1e-6)
 
     def test_is_shown_parted_at_the_end_also_where_no_shape_was_recorded_behind_the_break(self):
         nodes = np.zeros((3, 3))

@@ -1,0 +1,78 @@
+"""Makes the file of a knot from a curve of another program (scripts/knot)."""
+import argparse
+import json
+import os
+import subprocess
+import tempfile
+
+from knot_utm import tool
+from knot_utm.errors import WrongInput
+from knot_utm.knot_drawing import knot_text, strands_of
+from knot_utm.knot_shapes import curves_of
+from knot_utm.report.commands import in_one_line, OneLineParser, refuse, why_not
+
+SMALLER = 0.94  # radius of the rope of the next attempt
+ATTEMPTS = 12
+
+
+def asked():
+    parser = OneLineParser(prog="knot", add_help=False, allow_abbrev=False)
+    parser.add_argument("command", choices=["import"])
+    parser.add_argument("shape")
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--lower", nargs="+", default=[])
+    parser.add_argument("--upper", nargs="+", default=[])
+    parser.add_argument("--title")
+    parser.add_argument("--overwrite", action="store_true", help=argparse.SUPPRESS)
+    found = parser.parse_args()
+    if not found.out.endswith(".yaml"):
+        parser.error(f"--out {found.out}: the name of the file must end with .yaml")
+    if why := why_not(found.out, [found.shape], found.overwrite):
+        parser.error(f"--out: {why}")
+    return found
+
+
+def main():
+    arguments = asked()
+    try:
+        said = imported(arguments)
+    except WrongInput as wrong:
+        refuse("knot", wrong)
+    print(said)
+
+
+def imported(arguments):
+    """Writes the file. Where bends that are rounded off bring strands too near to each other, the rope is made thinner."""
+    curves = curves_of(arguments.shape)
+    title = json.dumps(arguments.title or os.path.splitext(os.path.basename(arguments.shape))[0])
+    source = json.dumps(os.path.basename(arguments.shape))
+    why = ""
+    for attempt in range(ATTEMPTS):
+        try:
+            strands, outwards = strands_of(curves, SMALLER ** attempt)
+            text = knot_text(title, source, strands, outwards, arguments.lower, arguments.upper)
+        except WrongInput as wrong:
+            raise WrongInput(f"{arguments.shape}: {wrong}") from wrong
+        facts, why = drawn(text)
+        if facts:
+            with open(arguments.out, "w", encoding="utf-8") as file:
+                file.write(text)
+            return f"{facts.strip()}\n{arguments.out}: show it by tensile_test --draw, and test it as specimen.knot"
+    raise WrongInput(f"{arguments.shape}: no rope of this shape can be laid: {why}")
+
+
+def drawn(text):
+    """What tensile_test says of a knot, without its picture, and why it refuses it."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "knot.yaml")
+        with open(file, "w", encoding="utf-8") as opened:
+            opened.write(text)
+        done = subprocess.run([tool.tensile_test(), "--draw", file, "--out", folder], check=False, text=True, errors="replace",
+                              stdin=subprocess.DEVNULL, capture_output=True)
+    lines = [line for line in done.stdout.splitlines() if not line.startswith("picture: ")]
+    return "\n".join(lines), tool.said_by(done.stderr).replace(file, "the knot").replace("--draw: ", "")
+
+
+if __name__ == "__main__":
+    with in_one_line("knot"):
+        main()

@@ -1,0 +1,170 @@
+"""Curves in space as the file of a knot: scaled until strands nearly touch, turned along the load axis, their held ends led to the
+grips, and drawn through few points. All this moves no strand through another one."""
+import numpy as np
+
+from knot_utm.errors import WrongInput
+
+UP = np.array([0.0, 0.0, 1.0])
+APART = 2.2            # least distance of strands [radii]
+ALONG = 1.5 * np.pi    # places nearer along a strand are the same one's [radii]
+DENSE = 0.5            # of the points that are measured [radii]
+OPENING = 5.0          # from the place where a closed curve is opened to its new ends [radii]
+TURN = 3.0             # radius of the bend by which a held end turns to its grip [radii]
+STRAIGHT = 3.0         # of a held strand, twice, behind it [radii]
+DEVIATION = 0.1        # of the drawn curve [radii]
+FARTHEST = 199.0       # coordinate of a knot's file [radii]
+
+
+def strands_of(curves, smaller=1.0):
+    """[points] of each strand in radii, along z and around the origin; and an outward direction. A closed curve is opened.
+    `smaller`: radius of the rope against that by which strands are APART."""
+    closed = any(one.closed for one in curves)
+    if closed and len(curves) > 1:
+        raise WrongInput(f"it holds {len(curves)} curves, but a rope has ends: a closed curve must be the only one")
+    lines = [dense(np.vstack([one.points, one.points[:1]]) if closed else one.points) for one in curves]
+    radius, middle = smaller * radius_of(lines, closed), np.vstack(lines).mean(axis=0)
+    lines = [resampled((line - middle) / radius, DENSE) for line in lines]
+    return opened(lines[0]) if closed else upright(lines)
+
+
+def dense(line, count=1500):
+    length = np.linalg.norm(np.diff(line, axis=0), axis=1).sum()
+    return resampled(line, length / max(count, 2 * len(line)))
+
+
+def resampled(line, spacing):
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    at = np.linspace(0.0, along[-1], max(4, int(np.ceil(along[-1] / spacing)) + 1))
+    return np.column_stack([np.interp(at, along, line[:, k]) for k in range(3)])
+
+
+def radius_of(lines, closed):
+    """The largest radius of a rope whose strands stay APART: places that are nearer than that are no more than ALONG apart on
+    the same strand, so that bends count, too."""
+    lines = [line[::max(1, len(line) // 600)] for line in lines]
+    distance = np.concatenate([np.concatenate([apart(one, other) for other in lines], axis=1) for one in lines])
+    along = np.full(distance.shape, np.inf)
+    begin = 0
+    for line in lines:
+        place = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+        way = np.abs(place[:, None] - place)
+        along[begin:begin + len(line), begin:begin + len(line)] = np.minimum(way, place[-1] - way) if closed else way
+        begin += len(line)
+    size = distance.max()
+    for radius in np.geomspace(1e-4 * size, 0.2 * size, 400):
+        far = along > ALONG * radius
+        if far.any() and distance[far].min() < APART * radius:
+            return radius / 1.02  # the one before
+    raise WrongInput("no strand comes near another one: there is no knot")
+
+
+def apart(one, other):
+    return np.linalg.norm(one[:, None] - other, axis=2)
+
+
+def upright(lines):
+    """The longest axis becomes z, the next one x; the first strand begins below."""
+    axes = np.linalg.svd(np.vstack(lines), full_matrices=False)[2]
+    z = axes[0] if lines[0][0] @ axes[0] <= lines[0][-1] @ axes[0] else -axes[0]
+    frame = np.array([axes[1], np.cross(z, axes[1]), z])
+    return [line @ frame.T for line in lines], np.array([1.0, 0.0, 0.0])
+
+
+def opened(line):
+    """At its outermost point, where x points outwards and z along the curve: what lies beyond is free for the ends."""
+    line = line[:-1]
+    out = int(np.argmax(np.linalg.norm(line, axis=1)))
+    line = np.roll(line, -out, axis=0)
+    x = line[0] / np.linalg.norm(line[0])
+    z = line[1] - line[-1]
+    z = (z - x * (z @ x)) / np.linalg.norm(z - x * (z @ x))
+    turned = line @ np.array([x, np.cross(z, x), z]).T
+    gap = round(OPENING / DENSE)
+    if len(turned) < 4 * gap:
+        raise WrongInput("it is too short to be opened")
+    # From above to below, so that the first end is led upwards, away from the last one.
+    return [turned[gap:-gap]], np.array([1.0, 0.0, 0.0])
+
+
+def ends_of(strands):
+    """{name: (place, outward direction)}: a1 and a2 of the first strand, b1 and b2 of the next one, and so on."""
+    found = {}
+    for letter, line in zip("abcdefghijklmnopqrstuvwxyz", strands):
+        for number, (end, before) in enumerate(((line[0], line[2]), (line[-1], line[-3])), 1):
+            found[f"{letter}{number}"] = end, (end - before) / np.linalg.norm(end - before)
+    return found
+
+
+def held_ends(ends, lower, upper):
+    """The lowest end is held below and the highest one above, unless others are told."""
+    for name in [*lower, *upper]:
+        if name not in ends:
+            raise WrongInput(f"no end is called {name}; the ends are {', '.join(ends)}")
+    if twice := [name for name in lower if name in upper]:
+        raise WrongInput(f"{twice[0]} cannot be held below and above")
+    free = [name for name in ends if name not in lower and name not in upper]
+    lowest = sorted(free, key=lambda name: ends[name][0][2])
+    return list(lower) or lowest[:1], list(upper) or lowest[-1:]
+
+
+def run_out(end, direction, target, outwards):
+    """Points behind an end, by a bend and then straight along `target` to its grip."""
+    side = target - direction * (target @ direction)
+    if np.linalg.norm(side) < 0.3:
+        side = outwards - direction * (outwards @ direction)
+    side /= np.linalg.norm(side)
+    angle = np.arctan2(np.linalg.norm(np.cross(direction, target)), direction @ target)
+    bend = [end + TURN * (np.sin(a) * direction + (1.0 - np.cos(a)) * side)
+            for a in np.linspace(0.0, angle, 2 + int(angle / np.radians(40.0)))[1:]] if angle > np.radians(5.0) else []
+    last = bend[-1] if bend else end
+    return [*bend, last + STRAIGHT * target, last + 2.0 * STRAIGHT * target]
+
+
+def drawn_through(line):
+    """The fewest evenly spaced points by which the curve of a knot's file stays within DEVIATION of the line."""
+    count = max(4, len(line) // 12)
+    while count < len(line):
+        points = line[np.rint(np.linspace(0, len(line) - 1, count)).astype(int)]
+        if apart(line, through(points)).min(axis=1).max() < DEVIATION:
+            return points
+        count = int(1.15 * count) + 1
+    return line
+
+
+def through(points, pieces=24):
+    """The centripetal Catmull-Rom curve (knot_drawing.hpp)."""
+    ends = [2.0 * points[0] - points[1], *points, 2.0 * points[-1] - points[-2]]
+    t = np.linspace(0.0, 1.0, pieces)[:, None]
+    out = []
+    for p in zip(ends, ends[1:], ends[2:], ends[3:]):
+        knot = np.concatenate([[0.0], np.cumsum([np.sqrt(np.linalg.norm(b - a)) for a, b in zip(p, p[1:])])])
+        u = knot[1] + t * (knot[2] - knot[1])
+
+        def between(a, b, i, j):
+            return ((knot[j] - u) * a + (u - knot[i]) * b) / (knot[j] - knot[i])
+
+        a, b, c = (between(p[i], p[i + 1], i, i + 1) for i in range(3))
+        out.append(between(between(a, b, 0, 2), between(b, c, 1, 3), 1, 2))
+    return np.vstack(out)
+
+
+def knot_text(title, source, strands, outwards, lower=(), upper=()):
+    """The text of a knot's file. Raises WrongInput."""
+    ends = ends_of(strands)
+    lower, upper = held_ends(ends, lower, upper)
+    entries = []
+    for letter, line in zip("abcdefghijklmnopqrstuvwxyz", strands):
+        points = list(drawn_through(line))
+        for name, place in ((f"{letter}1", 0), (f"{letter}2", 1)):
+            target = UP if name in upper else -UP if name in lower else None
+            more = [] if target is None else run_out(*ends[name], target, outwards)
+            points = points + more if place else more[::-1] + points
+        if np.abs(points).max() > FARTHEST:
+            raise WrongInput(f"it is {2.0 * np.abs(points).max():.0f} radii large where its strands lie {APART} radii apart, but must "
+                             f"be at most {2.0 * FARTHEST:.0f}")
+        rows = "".join(f"      - [{x:.3f}, {y:.3f}, {z:.3f}]\n" for x, y, z in np.add(points, 0.0))
+        entries.append(f"  - ends: [{letter}1, {letter}2]\n    points:\n{rows}")
+    free = [name for name in ends if name not in lower and name not in upper]
+    tie = f"tie:\n  - {{{', '.join(f'{name}: 1' for name in free)}}}\n" if free else ""
+    return (f"title: {title}\nsource: {source}\nstrands:\n{''.join(entries)}lower: [{', '.join(lower)}]\n"
+            f"upper: [{', '.join(upper)}]\n{tie}")
