@@ -269,8 +269,8 @@ void add_list(CLI::App& app) {
   };
   app.add_option(
          "--list", CLI::callback_t(print),
-         "say which methods, materials, knots, standards and studies come with the package, or only those of the word "
-         "that follows, and do no more")
+         "say which methods, materials, knots, standards, validation and studies come with the package, or only those of the "
+         "word that follows, and do no more")
       ->expected(0, 1)
       ->default_str("all");
 }
