@@ -22,7 +22,8 @@ def report(runner):
     return Report("What people measured on knots",
                   "Each prediction is a mean over starts that differ a little, with its standard error, and nothing is fitted but what "
                   "the column says. The factor is predicted over measured, the middle of a range; of an order it is Spearman's rank "
-                  f"correlation. The {spent.count} runs took {spent.cpu_time / 60:.0f} minutes of CPU time. Published values and their "
+                  "correlation. A standard error says how starts scatter, not how far the model may be from a real rope. "
+                  f"The {spent.count} runs took {spent.cpu_time / 60:.0f} minutes of CPU time. Published values and their "
                   "sources are in `bench/measured.yaml`.",
                   [predictions.table_of(rows), bend_orders.table_of(loads, facts["orders"]),
                    greased.table_of(holding, facts["greased"]), not_yet(facts["not_yet"])])
