@@ -32,6 +32,10 @@ def above(bound):
     return Gate(f"> {bound:g}", lambda value: value > bound)
 
 
+def below(bound):
+    return Gate(f"< {bound:g}", lambda value: value < bound)
+
+
 def within(low, high):
     return Gate(f"{low:.4g} to {high:.4g}", lambda value: low <= value <= high)
 

@@ -89,7 +89,7 @@ def method_keys():
 
 def find_method(name, folder):
     """The file of a method, from a folder, or of one that comes with the package, as tensile_test finds it. Raises WrongInput."""
-    shipped = [CONFIG] if os.sep in name else [CONFIG, os.path.join(CONFIG, "standards")]
+    shipped = [CONFIG] if os.sep in name else [CONFIG, os.path.join(CONFIG, "standards"), os.path.join(CONFIG, "validation")]
     places = [os.path.join(folder, name)] + [os.path.join(of, name + end) for of in shipped for end in ("", ".yaml")]
     for place in places:
         if os.path.isfile(place):

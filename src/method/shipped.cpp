@@ -25,6 +25,7 @@ std::vector<std::string> folders_of_methods(const std::vector<std::string>& ship
   for (const std::string& folder : shipped) {
     folders.push_back(folder);
     folders.push_back(folder + "/standards");
+    folders.push_back(folder + "/validation");
   }
   return folders;
 }
@@ -86,6 +87,7 @@ constexpr Listed kListed[] = {{"methods", ""},
                               {"materials", "materials"},
                               {"knots", nullptr},
                               {"standards", "standards"},
+                              {"validation", "validation"},
                               {"studies", "studies"}};
 
 std::string listing_of(const Listed& what, const std::vector<std::string>& shipped) {

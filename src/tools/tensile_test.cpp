@@ -273,10 +273,9 @@ void add_list(CLI::App& app) {
     throw CLI::Success();
     return true;
   };
-  app.add_option(
-         "--list", CLI::callback_t(print),
-         "say which methods, materials, knots, standards and studies come with the package, or only those of the word "
-         "that follows, and do no more")
+  app.add_option("--list", CLI::callback_t(print),
+                 "say which methods, materials, knots, standards, validation and studies come with the package, or "
+                 "only those of the word that follows, and do no more")
       ->expected(0, 1)
       ->default_str("all");
 }

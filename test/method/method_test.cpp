@@ -118,6 +118,16 @@ TEST(Method, EveryStandardLoadsAndSaysWhatItIsAndWhatIsNotSimulated) {
   EXPECT_GE(standards, 5);
 }
 
+TEST(Method, EveryOneOfWhatPeopleMeasuredLoadsByItsName) {
+  int methods = 0;
+  for (const auto& file : fs::directory_iterator(kConfig + "validation")) {
+    EXPECT_EQ(find_method(file.path().stem().string()), file.path().string());
+    EXPECT_NO_THROW(load_method(file.path().string())) << file.path();
+    ++methods;
+  }
+  EXPECT_GE(methods, 3);
+}
+
 TEST(Method, IsNoMaterialAndNoStudy) {
   for (const std::string name : {"nylon", "preload"}) EXPECT_THROW(find_method(name), InvalidInput) << name;
 }

@@ -22,7 +22,7 @@ using ::testing::Not;
 std::vector<std::string> shipped_methods() {
   const fs::path config = fs::path(KNOT_UTM_SOURCE_DIR) / "config";
   std::vector<std::string> found;
-  for (const fs::path& folder : {config, config / "standards"})
+  for (const fs::path& folder : {config, config / "standards", config / "validation"})
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
       if (entry.path().extension() == ".yaml") found.push_back(entry.path().string());
   return found;

@@ -1,0 +1,39 @@
+"""Bends in the order of the force that pulls them, rope by rope, against a published order."""
+from bends import load_of, pulls
+from predictions import Row, mean_of_all, text_of_mean
+from table import Table, is_
+
+
+def found(runner, facts):
+    """{rope: {knot: (mean, standard error)}} of the load that each bears [k_b/h^2]."""
+    return {rope: {knot: mean_of_all([load_of(run) for run in pulls(runner, f"order/{rope}_{knot}", knot, rope, {})])
+                   for knot in facts["order"]} for rope in facts["ropes"]}
+
+
+def rows(loads, facts):
+    wanted = " < ".join(facts["order"])
+    return [Row(f"{facts['what']}, {rope}", wanted, in_order(of_rope), "", rank_correlation(of_rope, facts["order"]), is_(wanted),
+                facts["source"], why=facts["if_it_fails"]) for rope, of_rope in loads.items()]
+
+
+def in_order(of_rope):
+    """"grief < thief", or None where one bears no load that was read."""
+    if any(value is None for value, _ in of_rope.values()):
+        return None
+    return " < ".join(sorted(of_rope, key=lambda knot: of_rope[knot][0]))
+
+
+def rank_correlation(of_rope, order):
+    """Spearman's, of the loads with the order."""
+    if in_order(of_rope) is None:
+        return None
+    count = len(order)
+    ranks = in_order(of_rope).split(" < ")
+    return 1.0 - 6.0 * sum((ranks.index(knot) - place) ** 2 for place, knot in enumerate(order)) / (count * (count ** 2 - 1))
+
+
+def table_of(loads, facts):
+    table = Table("Mean load over the second half of the pull, with its standard error", facts["order"])
+    for rope, of_rope in loads.items():
+        table.add(rope, "k_b/h^2", [text_of_mean(*of_rope[knot]) for knot in facts["order"]])
+    return table

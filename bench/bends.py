@@ -1,0 +1,27 @@
+"""Pulls of a bend of two ropes, as config/knot.yaml has it, from a few starts."""
+import os
+
+from predictions import CPU_LIMIT
+from runs import divide, mean, read_yaml
+
+METHOD = "config/knot.yaml"
+TYING_SPEED = 3.15        # [radii/s] the default
+SPEEDS = (0.9, 1.0, 1.1)  # times it, from start to start: what a person cannot repeat (specimens.scatter: auto)
+
+
+def pulls(runner, name, knot, rope, settings):
+    """One a start. `rope`: of config/materials/."""
+    radius = read_yaml(os.path.join(runner.root, f"config/materials/{rope}.yaml"))["radius"]
+    return [runner.run(f"{name}/{speed:g}", {"specimen.knot": knot, "material": rope,
+                                             "program.0.tie.speed": round(TYING_SPEED * radius * speed, 9), **settings},
+                       METHOD, cpu_limit=CPU_LIMIT) for speed in SPEEDS]
+
+
+def load_of(run):
+    """Mean load over the second half of the pull [k_b/h^2]; None where the run gave up, or the rope parted before."""
+    if run.exit_code != 0:
+        return None
+    extension, load = run.pulled()
+    rod = run.method["material"]
+    half = [force for at, force in zip(extension, load) if at > 0.5 * extension[-1]]
+    return divide(mean(half), float(rod["bending_stiffness"]) / rod["radius"] ** 2)

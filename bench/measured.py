@@ -1,0 +1,49 @@
+"""What people measured on knots against what tensile_test predicts."""
+import os
+
+import bend_orders
+import capstans
+import greased
+import inversions
+import predictions
+from runs import read_yaml
+from table import ROOT, Report, Table
+
+FACTS = os.path.join(ROOT, "bench/measured.yaml")
+
+
+def report(runner):
+    spent = Counted(runner)
+    facts = read_yaml(FACTS)
+    rows = inversions.rows(spent, facts["inversions"]) + capstans.rows(spent, facts["capstans"])
+    loads = bend_orders.found(spent, facts["orders"])
+    holding = greased.found(spent, facts["greased"])
+    rows += bend_orders.rows(loads, facts["orders"]) + [greased.row(holding, facts["greased"])]
+    return Report("What people measured on knots",
+                  "Each prediction is a mean over starts that differ a little, with its standard error, and nothing is fitted but what "
+                  "the column says. The factor is predicted over measured, the middle of a range; of an order it is Spearman's rank "
+                  "correlation. A standard error says how starts scatter, not how far the model may be from a real rope. "
+                  f"The {spent.count} runs took {spent.cpu_time / 60:.0f} minutes of CPU time. Published values and their "
+                  "sources are in `bench/measured.yaml`.",
+                  [predictions.table_of(rows), bend_orders.table_of(loads, facts["orders"]),
+                   greased.table_of(holding, facts["greased"]), not_yet(facts["not_yet"])])
+
+
+class Counted:
+    """A runner, and what its runs took."""
+
+    def __init__(self, runner):
+        self.runner, self.root, self.count, self.cpu_time = runner, runner.root, 0, 0.0
+
+    def run(self, *words, **options):
+        run = self.runner.run(*words, **options)
+        self.count += 1
+        self.cpu_time += run.cpu_time
+        return run
+
+
+def not_yet(facts):
+    table = Table("Not comparable yet", ["measured", "reason", "source"])
+    for fact in facts:
+        table.add(fact["what"], "-", [fact["measured"], fact["reason"], fact["source"]])
+    return table

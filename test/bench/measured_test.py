@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+"""What scripts/validate --measured makes of runs: means over starts, orders, what holds, gates, and what its files say."""
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
+sys.path.insert(0, os.path.join(ROOT, "bench"))
+
+import bend_orders  # noqa: E402
+import bends  # noqa: E402
+import capstans  # noqa: E402
+import greased  # noqa: E402
+import inversions  # noqa: E402
+import measured  # noqa: E402
+import predictions  # noqa: E402
+import runs  # noqa: E402
+
+FACTS = runs.read_yaml(measured.FACTS)
+
+
+def a_run(result=None, method=None, exit_code=0, pull=()):
+    run = runs.Run("/nowhere", 1.0, exit_code, "")
+    run.result, run.method = result or {}, method or {}
+    run.curve = {"phase": ["pull"] * len(pull), "extension": [s for s, _ in pull], "load": [force for _, force in pull]}
+    return run
+
+
+class Starts(unittest.TestCase):
+    def test_a_mean_needs_every_start(self):
+        value, error = predictions.mean_of_all([1.0, 2.0, 3.0])
+        self.assertEqual((value, round(error, 9)), (2.0, round(1 / math.sqrt(3), 9)))
+        self.assertEqual(predictions.mean_of_all([1.0, None, 3.0]), (None, None))
+
+    def test_there_are_three_or_more_that_differ(self):
+        for factors in (predictions.STARTS, bends.SPEEDS):
+            self.assertGreaterEqual(len(set(factors)), 3)
+
+    def test_the_speed_of_tying_is_the_documented_default(self):
+        with open(os.path.join(ROOT, "doc/method.md"), encoding="utf-8") as page:
+            self.assertIn(f"(auto: {bends.TYING_SPEED:g} radii/s;", page.read())
+
+
+class Inversions(unittest.TestCase):
+    def row(self, values):
+        return inversions.row_of("overhand_inversion_2", [0.75, 0.79], FACTS["inversions"], values)
+
+    def test_the_place_is_that_of_the_ends_over_the_length(self):
+        method = {"specimen": {"length": 2.0}}
+        self.assertEqual(inversions.inverted_at(a_run({"gauge_length": 1.2, "snap_extension": 0.3}, method)), 0.75)
+        self.assertIsNone(inversions.inverted_at(a_run({"gauge_length": 1.2, "snap_extension": None}, method)))
+        self.assertIsNone(inversions.inverted_at(a_run({"gauge_length": 1.2, "snap_extension": 0.3}, method, exit_code=1)))
+
+    def test_the_gate_is_the_photographs_and_a_hundredth(self):
+        for value, passes in ((0.741, True), (0.799, True), (0.739, False), (0.801, False), (None, False)):
+            self.assertEqual(predictions.table_of([self.row([value] * 3)]).failed() == [], passes, value)
+
+    def test_every_method_is_there_with_its_ends_and_length(self):
+        for name in FACTS["inversions"]["photographs"]:
+            specimen = runs.read_yaml(os.path.join(ROOT, f"config/validation/{name}.yaml"))["specimen"]
+            self.assertEqual((specimen["turns"], specimen["length"]), (int(name.split("_")[-1]), 1.0))
+
+
+class Capstans(unittest.TestCase):
+    def failed(self, smallest, largest):
+        starts = {turns: [[1.2, 1.0]] * 3 for turns in FACTS["capstans"]["turns"]}
+        starts[min(starts)], starts[max(starts)] = [smallest] * 3, [largest] * 3
+        return predictions.table_of(capstans.rows_of(starts, FACTS["capstans"])).failed()
+
+    def test_an_exponent_is_the_slope_of_logarithms(self):
+        self.assertAlmostEqual(capstans.exponent({1: 3.0, 2: 12.0}, 1, 2), 2.0)
+        for force in (None, 0.0, -1.0):
+            self.assertIsNone(capstans.exponent({1: force, 2: 12.0}, 1, 2))
+
+    def test_superlinear_then_linear_and_less_so_at_small_angles(self):
+        self.assertEqual(self.failed([1.1, 1.0], [1.3, 1.0]), [])
+        self.assertIn("excess over 1", self.failed([1.3, 1.0], [1.2, 1.0])[0])
+        self.assertIn("2 turns, touching lightly", self.failed([0.9, 1.0], [0.99, 1.0])[0])
+        self.assertIn("2 turns, touching all along", self.failed([1.1, 1.0], [1.3, 1.11])[0])
+        self.assertEqual(len(self.failed([1.1, 1.0], [None, None])), 3)
+
+
+class Orders(unittest.TestCase):
+    ORDER = ["grief", "thief", "granny", "reef"]
+
+    def row(self, *loads):
+        return bend_orders.rows({"rope": {knot: (load, 0.0) for knot, load in zip(self.ORDER, loads)}}, FACTS["orders"])[0]
+
+    def test_a_load_is_the_mean_of_the_second_half_in_units_of_the_rod(self):
+        method = {"material": {"bending_stiffness": "2e0", "radius": 0.5}}  # YAML of this library takes 2e0 for a text
+        run = a_run({}, method, pull=[(0.0, 99.0), (0.1, 99.0), (0.15, 8.0), (0.2, 24.0)])
+        self.assertEqual(bends.load_of(run), 2.0)
+        run.exit_code = 1
+        self.assertIsNone(bends.load_of(run))
+
+    def test_only_the_published_order_passes(self):
+        self.assertEqual(predictions.table_of([self.row(1.0, 2.0, 3.0, 4.0)]).failed(), [])
+        self.assertEqual(self.row(1.0, 2.0, 3.0, 4.0).factor, 1.0)
+        swapped = self.row(1.0, 2.0, 4.0, 3.0)
+        self.assertEqual(swapped.predicted, "grief < thief < reef < granny")
+        self.assertAlmostEqual(swapped.factor, 0.8)
+        table = predictions.table_of([swapped])
+        self.assertEqual(len(table.failed()), 1)
+        self.assertIn(FACTS["orders"]["if_it_fails"], table.markdown())
+        self.assertNotIn(FACTS["orders"]["if_it_fails"], predictions.table_of([self.row(1.0, 2.0, 3.0, 4.0)]).markdown())
+
+    def test_a_knot_that_has_no_load_fails(self):
+        self.assertEqual(len(predictions.table_of([self.row(1.0, None, 3.0, 4.0)]).failed()), 1)
+
+
+class Greased(unittest.TestCase):
+    def holding(self, *, wrong):
+        facts = FACTS["greased"]
+        knots = facts["slip"] + facts["hold"]
+        return {knot: 0 if (knot in facts["slip"]) != (knot in knots[:wrong]) else len(bends.SPEEDS) for knot in knots}
+
+    def test_breaks_are_counted_and_a_run_that_gave_up_is_none(self):
+        ends = [a_run({"ended_by": word}) for word in ("break", "extension", "break")]
+        self.assertEqual(greased.count_of_breaks(ends), 2)
+        self.assertIsNone(greased.count_of_breaks(ends + [a_run({"ended_by": "break"}, exit_code=1)]))
+
+    def test_the_best_friction_is_named_as_fitted_and_judged(self):
+        for wrong, passes in ((1, True), (2, False)):
+            row = greased.row({0.1: self.holding(wrong=4), 0.2: self.holding(wrong=wrong), 0.3: self.holding(wrong=5)}, FACTS["greased"])
+            self.assertEqual((row.predicted, row.fitted), (6 - wrong, "friction of polyester_cord: 0.2"))
+            self.assertEqual(row.gate.test(row.predicted), passes)
+
+    def test_a_bend_that_holds_in_some_starts_only_is_not_right(self):
+        some = {**self.holding(wrong=0), "zeppelin": 2}
+        self.assertEqual(greased.right(some, FACTS["greased"]), 5)
+        self.assertEqual(greased.right({**some, "zeppelin": None}, FACTS["greased"]), 5)
+
+
+class Facts(unittest.TestCase):
+    def test_knots_and_ropes_are_shipped(self):
+        for knot in FACTS["orders"]["order"] + FACTS["greased"]["slip"] + FACTS["greased"]["hold"]:
+            self.assertTrue(os.path.exists(os.path.join(ROOT, f"config/knots/{knot}.yaml")), knot)
+        for rope in FACTS["orders"]["ropes"] + [FACTS["greased"]["rope"]]:
+            self.assertTrue(os.path.exists(os.path.join(ROOT, f"config/materials/{rope}.yaml")), rope)
+
+    def test_every_measurement_has_its_source_and_what_is_not_compared_a_reason(self):
+        for name, fact in FACTS.items():
+            for one in fact if name == "not_yet" else [fact]:
+                self.assertRegex(one["what"], r"^K\d+ ")
+                self.assertTrue(one["source"])
+                self.assertTrue(name != "not_yet" or one["reason"])
+
+
+class Script(unittest.TestCase):
+    def test_wrong_words_get_one_line(self):
+        for words, said in ((["--measured", "--only", "R8"], "--only: not with --measured"),
+                            (["--measured", "--build", "/nowhere"], "tensile_test: not built; scripts/build tensile_test")):
+            done = subprocess.run([os.path.join(ROOT, "scripts/validate"), *words], check=False, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(said, done.stderr.splitlines()[-1])
+
+
+if __name__ == "__main__":
+    unittest.main()
