@@ -40,7 +40,11 @@ tie:
 
 class KnotFile : public ::testing::Test {
  protected:
-  KnotFile() : folder_(fs::path(::testing::TempDir()) / "knot_utm_knot_file") { fs::create_directories(folder_); }
+  KnotFile()
+      : folder_(fs::path(::testing::TempDir()) /
+                (std::string("knot_utm_knot_") + ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::create_directories(folder_);
+  }
   ~KnotFile() override { fs::remove_all(folder_); }
 
   std::string file() const { return (folder_ / "hooks.yaml").string(); }
