@@ -33,7 +33,7 @@ def rank_correlation(of_rope, order):
 
 
 def table_of(loads, facts):
-    table = Table("Mean load over the second half of the pull, with its standard error", facts["order"])
+    table = Table("Largest load in the pull, with its standard error", facts["order"])
     for rope, of_rope in loads.items():
         table.add(rope, "k_b/h^2", [text_of_mean(*of_rope[knot]) for knot in facts["order"]])
     return table

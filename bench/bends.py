@@ -2,7 +2,7 @@
 import os
 
 from predictions import CPU_LIMIT
-from runs import divide, mean, read_yaml
+from runs import divide, read_yaml
 
 METHOD = "config/knot.yaml"
 TYING_SPEED = 3.15        # [radii/s] the default
@@ -18,10 +18,8 @@ def pulls(runner, name, knot, rope, settings):
 
 
 def load_of(run):
-    """Mean load over the second half of the pull [k_b/h^2]; None where the run gave up, or the rope parted before."""
+    """Largest load in the pull [k_b/h^2], by when it slipped; None where the run gave up."""
     if run.exit_code != 0:
         return None
-    extension, load = run.pulled()
     rod = run.method["material"]
-    half = [force for at, force in zip(extension, load) if at > 0.5 * extension[-1]]
-    return divide(mean(half), float(rod["bending_stiffness"]) / rod["radius"] ** 2)
+    return divide(max(run.pulled()[1]), float(rod["bending_stiffness"]) / rod["radius"] ** 2)

@@ -107,20 +107,30 @@ std::optional<Tunnelling> TunnellingSearch::search(std::size_t level, int i, int
   return std::nullopt;
 }
 
-std::optional<Tunnelling> TunnellingSearch::edges_meet(int a, int b) const {
-  if (std::any_of(cuts_.begin(), cuts_.end(), [&](int cut) { return a == cut || b == cut; })) return std::nullopt;
-  if (closed_ && a == 0 && b + 2 == start_->cols()) return std::nullopt;  // they share the node that closes the rod
-  // A free end edge is tested on its inner half only; its midpoint, too, moves straight.
+bool TunnellingSearch::is_cut(int edge) const { return std::find(cuts_.begin(), cuts_.end(), edge) != cuts_.end(); }
+
+/// A free end edge is tested on its inner half only; its midpoint, too, moves straight.
+TunnellingSearch::Tested TunnellingSearch::tested(int edge) const {
   const bool bare = bare_ends_ && !closed_;
-  const bool inner_a = bare && a == 0, inner_b = bare && b + 2 == start_->cols();
-  auto middle = [](const Points& nodes, int edge) { return Vec3(0.5 * (nodes.col(edge) + nodes.col(edge + 1))); };
+  const int last = static_cast<int>(start_->cols()) - 2;
+  return {bare && (edge == 0 || is_cut(edge - 1)) ? 0.5 : 0.0, bare && (edge == last || is_cut(edge + 1)) ? 0.5 : 1.0};
+}
+
+std::optional<Tunnelling> TunnellingSearch::edges_meet(int a, int b) const {
+  if (is_cut(a) || is_cut(b)) return std::nullopt;
+  if (closed_ && a == 0 && b + 2 == start_->cols()) return std::nullopt;  // they share the node that closes the rod
+  const Tested on_a = tested(a), on_b = tested(b);
+  auto place = [](const Points& nodes, int edge, double on) -> Vec3 {
+    if (on == 0.0) return nodes.col(edge);
+    if (on == 1.0) return nodes.col(edge + 1);
+    return 0.5 * (nodes.col(edge) + nodes.col(edge + 1));
+  };
   auto pair = [&](const Points& nodes) -> EdgePair {
-    return {inner_a ? middle(nodes, a) : Vec3(nodes.col(a)), nodes.col(a + 1), nodes.col(b),
-            inner_b ? middle(nodes, b) : Vec3(nodes.col(b + 1))};
+    return {place(nodes, a, on_a.from), place(nodes, a, on_a.to), place(nodes, b, on_b.from), place(nodes, b, on_b.to)};
   };
   const std::optional<EdgeMeeting> at = meeting(pair(*start_), pair(*end_));
   if (!at) return std::nullopt;
-  return Tunnelling{a, b, inner_a ? 0.5 + 0.5 * at->on_a : at->on_a, inner_b ? 0.5 * at->on_b : at->on_b};
+  return Tunnelling{a, b, on_a.from + at->on_a * (on_a.to - on_a.from), on_b.from + at->on_b * (on_b.to - on_b.from)};
 }
 
 }  // namespace knot_utm

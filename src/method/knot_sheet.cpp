@@ -44,7 +44,7 @@ Centreline centreline_of(const Method& method) {
 
 /// The rod as it is drawn for the picture. A test's own is drawn before: what that is refused for, this is, too.
 Centreline shown_centreline(Method& method) {
-  const Centreline tested = centreline_of(method);
+  Centreline tested = centreline_of(method);
   if (!method.specimen.drawing) return tested;
   const double h = method.material.radius;
   method.specimen.tail = kShownTail * h;

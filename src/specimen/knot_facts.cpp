@@ -30,7 +30,7 @@ int visible_crossings(const Centreline& knot, const PictureView& view) {
 }
 
 std::string term(std::int64_t coefficient, std::size_t power) {
-  const std::string size = std::to_string(std::abs(coefficient));
+  std::string size = std::to_string(std::abs(coefficient));
   if (power == 0) return size;
   return (size == "1" ? "" : size + " ") + (power == 1 ? "t" : "t^" + std::to_string(power));
 }

@@ -142,6 +142,22 @@ TEST(TunnellingSearch, OverTheOuterHalfOfAnEndEdgeCountsOnlyWhereTheEndsAreNotBa
     }
 }
 
+TEST(TunnellingSearch, EndsOfRopesAtACutAreBareAsThoseOfTheRodAre) {
+  for (const bool from_the_other_end : {false, true})
+    for (const double across : {0.05, 0.45, 0.55, 0.95}) {
+      Points start(3, 11), end(3, 11);
+      start << tail_across(across, 1.0), Vec3(0, 0, 50), Vec3(1, 0, 50), Vec3(2, 0, 50);
+      end << tail_across(across, -1.0), Vec3(0, 0, 50), Vec3(1, 0, 50), Vec3(2, 0, 50);
+      if (from_the_other_end) {
+        start = start.rowwise().reverse().eval();
+        end = end.rowwise().reverse().eval();
+      }
+      TunnellingSearch search(11, true);
+      search.part(from_the_other_end ? 2 : 7);
+      EXPECT_EQ(search.find(start, end).has_value(), across < 0.5) << across;
+    }
+}
+
 TEST(TunnellingSearch, OverABareEndFirstAndThenOverTheInnerHalfCounts) {
   // The tail goes along the strand while that tilts from one side to the other: the strand sinks through the tail's
   // outer half after a quarter of the time, and rises through its inner half after three quarters.

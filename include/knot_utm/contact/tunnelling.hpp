@@ -30,7 +30,7 @@ struct Tunnelling {
 class TunnellingSearch {
  public:
   /// `bare_ends`: the contact law begins half an edge from the rod's ends (SmoothContact), so that strands may slip
-  /// over these. Meetings with the outer half of an end edge then do not count.
+  /// over these, and half an edge from every cut. Meetings with the outer half of an end edge then do not count.
   explicit TunnellingSearch(Eigen::Index nodes, bool bare_ends = false);
 
   /// From now on the rod is cut at this edge, too, which anything may pass.
@@ -56,6 +56,12 @@ class TunnellingSearch {
   void join_pieces();
   /// Looks for a passage between pieces i <= j of a level, or within one.
   std::optional<Tunnelling> search(std::size_t level, int i, int j) const;
+  /// From where to where an edge is tested, as fractions of it: 0, 0.5 or 1.
+  struct Tested {
+    double from, to;
+  };
+  bool is_cut(int edge) const;
+  Tested tested(int edge) const;
   std::optional<Tunnelling> edges_meet(int a, int b) const;
 
   static Box join(const Box& a, const Box& b);
