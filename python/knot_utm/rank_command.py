@@ -26,7 +26,10 @@ def main(words):
     table.to_csv(os.path.join(out, FILE), index=False)
     print(_told(table))
     print(f"the table is in {os.path.join(out, FILE)}")
-    return 0
+    failed = table[table["failed"] > 0]
+    for _, row in failed.iterrows():
+        say(PROGRAM, f"{row['knot']}: {row['failed']} of {row['specimens']} failed: see error in {os.path.join(out, 'table.csv')}", 1)
+    return 1 if len(failed) else 0
 
 
 def _told(table):
@@ -39,7 +42,7 @@ def _told(table):
 
     lines = [["knot", "broke", "slip load [N]", "break load [N]", "efficiency", "tail slip [h]"]]
     for _, row in table.iterrows():
-        lines.append([row["knot"], f"{row['broke']} of {row['specimens']}", cell(row, "slip_load", "%.3g"),
+        lines.append([row["knot"], f"{row['broke']} of {row['specimens'] - row['failed']}", cell(row, "slip_load", "%.3g"),
                       cell(row, "break_load", "%.4g"), cell(row, "efficiency", "%.2f"), cell(row, "tail_slip", "%.2g")])
     widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
     return "\n".join("  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip() for line in lines)

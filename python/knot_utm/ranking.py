@@ -35,7 +35,7 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method=METHOD, setti
     sweep = Sweep(_study(knots, material, specimens, method, settings or {}), out)
     table = sweep.all(jobs or len(os.sched_getaffinity(0)))
     _, radius = rod_of(value_of(tool.resolved(sweep.study.method, sweep.study.points[0])))
-    ranked = pd.DataFrame([_row(knot, table[table[KNOT] == knot], radius) for knot in knots], columns=list(COLUMNS))
+    ranked = pd.DataFrame([_row(knot, table[table[KNOT] == _found(knot)], radius) for knot in knots], columns=list(COLUMNS))
     best = ranked[["slip_load", "break_load"]].max(axis=1)
     ranked = ranked.loc[best.sort_values(ascending=False).index].reset_index(drop=True)
     ranked.attrs["units"] = COLUMNS
@@ -48,8 +48,13 @@ def _study(knots, material, specimens, method, settings):
         raise WrongInput(f"knots is {text_of(list(knots))}, but must be a list of different knots")
     if not isinstance(specimens, int) or specimens < 2:
         raise WrongInput(f"specimens is {text_of(specimens)}, but must be at least 2: one start is no reading")
-    points = [{KNOT: knot, MATERIAL: material, **settings} for knot in knots]
+    points = [{KNOT: _found(knot), MATERIAL: material, **settings} for knot in knots]
     return Study("rank", tool.find_method(method, os.getcwd()), points, specimens, (), "list", {}, None)
+
+
+def _found(knot):
+    """A knot's file as seen from here, where there is one; a method would look for it from its own folder."""
+    return os.path.abspath(knot) if os.path.isfile(knot) else knot
 
 
 def _row(knot, runs, radius):

@@ -57,8 +57,6 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
   supports_ = knot.supports(specimen, material);
   if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
   hold(upper_nodes_, knot.held_above(centreline, clamped));
-  for (const PulledEnd& weight : centreline.weights)
-    supports_.loads.push_back({weight.node, weight.fraction * tying_load(specimen, material) * weight.direction});
 }
 
 bool Grips::hold(double displacement, const Vec3& point, double radius) const {

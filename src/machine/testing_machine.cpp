@@ -39,12 +39,6 @@ constexpr double kAimedSlip = 0.4;      // of strands on each other, in a step [
 constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
-/// Strands that bear on the upper grip.
-int strands_of(const SpecimenOptions& specimen, const Centreline& centreline) {
-  if (knot_of(specimen).about().loop) return 2;
-  return std::max(1, static_cast<int>(centreline.above.size()));
-}
-
 constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
 constexpr double kLeastPassed = 1e-2;    // by which the grip may pass the balance of forces [k_b/h^2]
 constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for
@@ -98,7 +92,7 @@ struct TestingMachine::Impl {
         machine(machine_),
         physics(physics_),
         grips(specimen_, machine_, centreline, material),
-        frame(machine_.stiffness, material, strands_of(specimen_, centreline), grips.length_around(material_.radius)),
+        frame(machine_.stiffness, material, bearing_strands(specimen_), grips.length_around(material_.radius)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);

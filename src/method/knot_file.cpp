@@ -52,7 +52,13 @@ class KnotReader {
 
   std::string name(const std::string& key, const YAML::Node& node) const {
     if (!node.IsScalar() || node.Scalar().empty()) refuse(key, node, "the name of an end");
+    require_one_line(key, node.Scalar());
     return node.Scalar();
+  }
+
+  void require_one_line(const std::string& key, const std::string& words) const {
+    if (std::any_of(words.begin(), words.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+      refuse(key, words, "it must be one line of text, without control characters");
   }
 
   KnotDrawing::Strand strand(const std::string& key, const YAML::Node& node) const {
@@ -125,7 +131,6 @@ void check_names(const KnotReader& reader, const KnotDrawing& knot) {
   for (const std::string& end : knot.upper) take("upper", end);
   for (const std::vector<KnotDrawing::Pull>& together : knot.tie)
     for (const KnotDrawing::Pull& pull : together) take("tie", pull.end);
-  for (const KnotDrawing::Pull& weight : knot.weights) take("weights", weight.end);
   if (knot.upper.empty()) reader.refuse("upper", "", "the upper grip must hold at least one end");
   if (knot.lower.empty() && knot.posts.empty())
     reader.refuse("lower", "", "the lower grip must hold at least one end, or posts must bear the knot");
@@ -161,6 +166,8 @@ std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& f
   top.text("title", out.title);
   top.text("use", out.use);
   top.text("source", out.source);
+  for (const auto& [key, words] : {std::pair("title", &out.title), {"use", &out.use}, {"source", &out.source}})
+    reader.require_one_line(key, *words);
   const auto names = [&](const std::string& key, const YAML::Node& node) { return reader.name(key, node); };
   const auto strand = [&](const std::string& key, const YAML::Node& node) { return reader.strand(key, node); };
   const auto post = [&](const std::string& key, const YAML::Node& node) { return reader.post(key, node); };
@@ -176,7 +183,6 @@ std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& f
   out.upper = list_of(reader, "upper", top.take("upper"), "a list of names of ends", names);
   out.posts = list_of(reader, "posts", top.take("posts"), "a list of posts", post);
   out.tie = list_of(reader, "tie", top.take("tie"), "a list of maps such as {tail: 1}", pulls);
-  if (const YAML::Node weights = top.take("weights"); weights.IsDefined()) out.weights = pulls("weights", weights);
   top.finish();
   if (out.strands.empty()) reader.refuse("strands", "", "a knot must have at least one strand");
   check_names(reader, out);

@@ -79,7 +79,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   for (const NodeForce& load : knot_of(method.specimen).supports(method.specimen, method.material).loads)
     known_.dead_load += load.force.norm();
   const KnotDescription& knot = knot_of(method.specimen).about();
-  known_.strands = knot.loop ? 2 : 1;
+  known_.strands = bearing_strands(method.specimen);
   known_.may_hold_a_knot = knot.may_hold_a_knot();
   known_.follows_type = !knot.may_hold_a_knot() || type_is_followed(method.specimen);
   known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;

@@ -102,6 +102,19 @@ void check_posts(const KnotDrawing& drawing, const DrawnSize& size, const Centre
   }
 }
 
+/// A rod cannot bend around a circle of its own radius without touching itself.
+void check_bends(const KnotDrawing& drawing, double radius, const Points& strand) {
+  for (Eigen::Index i = 1; i + 1 < strand.cols(); ++i) {
+    const Vec3 before = strand.col(i) - strand.col(i - 1), after = strand.col(i + 1) - strand.col(i);
+    const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
+    const double bend = 0.5 * (before.norm() + after.norm()) / turn;
+    if (bend < radius)
+      throw InvalidInput::sentence("specimen.knot", drawing.name,
+                                   "specimen.knot " + shown(drawing.name) + ": a strand bends with a radius of " +
+                                       text(bend / radius) + " radii of the rod, but must do so with at least one");
+  }
+}
+
 /// The node of an end, and its neighbour on the strand.
 struct EndNode {
   int node, next;
@@ -153,6 +166,7 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
   Eigen::Index nodes = 0;
   for (const KnotDrawing::Strand& strand : drawing.strands) {
     strands.push_back(drawer.strand(strand));
+    check_bends(drawing, size.radius, strands.back());
     nodes += strands.back().cols();
   }
   Centreline out;
@@ -181,7 +195,6 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
     return found;
   };
   for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) out.tied.push_back(pulled(together));
-  out.weights = pulled(drawing.weights);
   check_no_overlap(out, size.radius, "specimen.knot", drawing.name);
   check_posts(drawing, size, out);
   return out;

@@ -26,6 +26,13 @@ const std::vector<const Knot*>& knots() {
 
 const Knot& knot_of(KnotKind kind) { return *knots().at(static_cast<std::size_t>(kind)); }
 
+int bearing_strands(const SpecimenOptions& specimen) {
+  if (knot_of(specimen).about().loop) return 2;
+  if (!specimen.drawing) return 1;
+  const std::size_t upper = specimen.drawing->upper.size(), lower = specimen.drawing->lower.size();
+  return static_cast<int>(lower == 0 ? upper : std::min(upper, lower));
+}
+
 bool type_is_followed(const SpecimenOptions& specimen) {
   const KnotDrawing* drawing = specimen.drawing.get();
   const bool loose = drawing != nullptr && (drawing->strands.size() > 1 || drawing->has_free_ends());

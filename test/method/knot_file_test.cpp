@@ -104,15 +104,13 @@ TEST_F(KnotFile, IsRefusedByOneLineWithFileKeyAndReason) {
               HasSubstr("lower: the lower grip must hold at least one end, or posts"));
   EXPECT_THAT(complaint("lower_tail: 1,", "tail: 1,"), HasSubstr("tie: no end is called tail"));
   EXPECT_THAT(complaint("lower_tail: 1,", "lower: 1,"), HasSubstr("tie: lower is held or pulled already"));
-  EXPECT_THAT(complaint("tie:", "weights: {upper_tail: 1}\ntie:"),
-              HasSubstr("weights: upper_tail is held or pulled already"));
-  EXPECT_THAT(complaint("tie:", "weights: 1\ntie:"), HasSubstr("weights is 1, but must be a map such as {tail: 1}"));
   EXPECT_THAT(complaint("lower_tail: 1,", "lower_tail: -1,"), HasSubstr("tie.0 is -1, but must be a number from"));
   EXPECT_THAT(complaint("[0, 1, 0]", "[0, 1]"), HasSubstr("strands.0.points.2"));
   EXPECT_THAT(complaint("[0, 1, 0]", "[0, one, 0]"), HasSubstr("strands.0.points.2"));
   EXPECT_THAT(complaint("[0, 1, 0]", "[0, 0, -4]"), HasSubstr("the same point as the one before it"));
   EXPECT_THAT(complaint("[0, 0, -8]", "[0, 1, -8]"), HasSubstr("must lead straight down along z"));
   EXPECT_THAT(complaint("use:", "used:"), HasSubstr("used"));
+  EXPECT_THAT(complaint("Two hooks", "\"Two\\nhooks\""), HasSubstr("title: it must be one line of text"));
 }
 
 TEST_F(KnotFile, IsNamedInAMethodByItsPath) {

@@ -84,6 +84,20 @@ TEST(KnotDrawing, IsRefusedWhereStrandsOverlap) {
   }
 }
 
+TEST(KnotDrawing, IsRefusedWhereAStrandBendsMoreSharplyThanTheRodIsThick) {
+  KnotDrawing knot;
+  knot.name = "hairpin";
+  knot.strands = {{{"lower", "upper"}, {{0, 0, -8}, {0, 0, -4}, {0, 0, 3}, {0, 0.2, 0}, {0, 0.2, 5}, {0, 0.2, 9}}}};
+  knot.lower = {"lower"};
+  knot.upper = {"upper"};
+  try {
+    draw(knot, kSize);
+    FAIL();
+  } catch (const InvalidInput& refused) {
+    EXPECT_THAT(refused.what(), HasSubstr("specimen.knot hairpin: a strand bends with a radius of "));
+  }
+}
+
 TEST(KnotDrawing, IsRefusedWhereItHasNoRoomBetweenTheGrips) {
   DrawnSize size = kSize;
   size.end_to_end = 0.9 * least_end_to_end(hooks(), size.radius);

@@ -23,7 +23,6 @@ struct KnotDrawing;
 ///       - {through: [0, 0, 0], along: [0, 1, 0], radius: 6}
 ///     tie:                                   # free ends that are pulled together, in order, to which part of F_p
 ///       - {lower_tail: 1, upper_tail: 1}
-///     weights: {tail: 1}                     # free ends at which a dead load pulls all the time, as a part of F_p
 ///
 /// `name`: what a method calls it. Throws InvalidInput with the file and the key.
 std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& file, const std::string& name);

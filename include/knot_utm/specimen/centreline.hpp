@@ -35,7 +35,7 @@ struct HeldNode {
   int edge() const { return node < next ? node : next; }  ///< between the two
 };
 
-/// A free end by which a knot is tied, or at which a weight hangs.
+/// A free end by which a knot is tied.
 struct PulledEnd {
   int node = 0;
   Vec3 direction;         ///< unit
@@ -58,7 +58,6 @@ struct Centreline {
   std::vector<HeldNode> below, above;        ///< ends of ropes that the grips hold; empty: the rod's ends
   std::vector<int> free;                     ///< nodes at the free ends of ropes, in order along the rod
   std::vector<std::vector<PulledEnd>> tied;  ///< ends that are pulled together to tie it, in order
-  std::vector<PulledEnd> weights;            ///< ends at which dead loads pull
 
   double length() const;                     ///< [m]
   int nearest_node(double arclength) const;  ///< to an arclength [m]

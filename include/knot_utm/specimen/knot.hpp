@@ -104,6 +104,8 @@ inline const Knot& knot_of(const SpecimenOptions& specimen) { return knot_of(spe
 /// Whether the type of its knot is followed (KnotWatch): of one rod with both ends held, or of a loop. How free ends
 /// lie would decide how any other is closed.
 bool type_is_followed(const SpecimenOptions& specimen);
+/// Strands that bear the load side by side: two of a loop, and as many as ends that both grips hold.
+int bearing_strands(const SpecimenOptions& specimen);
 /// Throws InvalidInput ("specimen.knot") where no knot has this name.
 KnotKind knot_named(const std::string& name);
 /// What a method may call a knot, in the order of the registry: one that has a drawing by its name.

@@ -35,7 +35,6 @@ struct KnotDrawing {
   std::vector<std::string> lower, upper;  ///< ends that the grips hold
   std::vector<Post> posts;                ///< the first one stands for the lower grip where that holds no end
   std::vector<std::vector<Pull>> tie;     ///< ends that are pulled together, in order
-  std::vector<Pull> weights;              ///< dead loads that pull at free ends all the time, as they leave the knot
   std::string text;                       ///< all that describes its shape and how it is tied, the same for equal ones
 
   enum class End { kLower, kUpper, kFree };
