@@ -171,10 +171,10 @@ TEST(Listing, SaysWhatComesWithThePackage) {
   EXPECT_THAT(shipped_listing("validation"), HasSubstr("overhand_inversion_3  An overhand of 3 turns"));
   EXPECT_EQ(answer_of(tool("tensile_test", "--list knots")).text, shipped_listing("knots"));
   EXPECT_EQ(answer_of(tool("tensile_test", "--list")).text, shipped_listing(""));
-  EXPECT_EQ(
-      answer_of(tool("tensile_test", "--list knot")).text,
-      "tensile_test: --list is \"knot\", but must be methods, materials, knots, standards, validation or studies; did you "
-      "mean knots?\n");
+  EXPECT_EQ(answer_of(tool("tensile_test", "--list knot")).text,
+            "tensile_test: --list is \"knot\", but must be methods, materials, knots, standards, validation or "
+            "studies; did you "
+            "mean knots?\n");
 }
 
 }  // namespace
