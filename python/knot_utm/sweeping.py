@@ -18,8 +18,8 @@ def sweep(study, out=None, jobs=None, plots=(), readings=None):
 
     `out`: the folder, unless given out/ and the study's name; runs that are there are not run again. `jobs`: runs at a
     time, unless given as many as there are cores. `plots`: keys of result.yaml, of each of which a picture is made. `readings`:
-    "plateau" ends each test once its sliding force is known. Raises WrongInput where the study or one of its runs would be refused, before anything is written; Interrupted where it was cut
-    short: the same call goes on."""
+    "plateau" ends each test once its sliding force is known. Raises WrongInput where the study or one of its runs would be
+    refused, before anything is written; Interrupted where it was cut short: the same call goes on."""
     return Sweep(study, out, plots, readings).all(jobs or len(os.sched_getaffinity(0)))
 
 
