@@ -148,7 +148,7 @@ TEST(Candidates, OfRodsOfAnyNumberOfNodesAreThoseOfBruteForceWhetherPartedOrNot)
   for (int nodes = 2; nodes <= 70; ++nodes) numbers.push_back(nodes);
   std::size_t found = 0;
   for (const int nodes : numbers)
-    for (const int parted : {kWhole, nodes / 2}) {
+    for (const int parted : {kWhole, (nodes - 1) / 2}) {
       // A strand that wanders through a box which is the larger the longer it is, a part of it in any place.
       std::uniform_real_distribution<double> step(-edge, edge);
       const double box = 0.8 * edge * std::cbrt(64.0 * nodes);
