@@ -41,7 +41,7 @@ def resampled(line, spacing):
 def radius_of(lines, closed):
     """The largest radius of a rope whose strands stay APART: places that are nearer than that are no more than ALONG apart on
     the same strand, so that bends count, too."""
-    lines = [line[::max(1, len(line) // 600)] for line in lines]
+    lines = [line[::max(1, len(line) * len(lines) // 1200)] for line in lines]
     distance = np.concatenate([np.concatenate([apart(one, other) for other in lines], axis=1) for one in lines])
     along = np.full(distance.shape, np.inf)
     begin = 0

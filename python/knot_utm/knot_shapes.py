@@ -1,5 +1,4 @@
 """Curves in space as other programs write them: VECT of Geomview, CSV, and KnotPlot's text."""
-import math
 import re
 from collections import namedtuple
 
@@ -7,7 +6,9 @@ import numpy as np
 
 from knot_utm.errors import WrongInput
 
-MOST = 20000  # points of a file
+MOST = 20000       # points of a file
+MOST_CURVES = 8    # each is a rope, and time grows with their square
+FARTHEST = 1e100   # coordinate: squares of distances must be numbers
 
 # `points`: N x 3; a `closed` one goes on from the last to the first.
 Curve = namedtuple("Curve", "points closed")
@@ -22,6 +23,8 @@ def curves_of(file):
         raise WrongInput(f"{file}: cannot be read: {getattr(error, 'strerror', None) or 'it is no text'}") from error
     read = vect if text.lstrip().startswith("VECT") else csv if "," in text else rows_of_knotplot
     curves = read(file, text)
+    if len(curves) > MOST_CURVES:
+        raise WrongInput(f"{file}: it holds {len(curves)} curves, but a knot may have at most {MOST_CURVES} ropes")
     if sum(len(curve.points) for curve in curves) > MOST:
         raise WrongInput(f"{file}: it has more than {MOST} points")
     for number, curve in enumerate(curves, 1):
@@ -94,14 +97,14 @@ def curve(points, closed):
 
 def is_number(word):
     try:
-        return math.isfinite(float(word))
+        return abs(float(word)) <= FARTHEST
     except ValueError:
         return False
 
 
 def to_number(file, where, word):
     if not is_number(word):
-        raise WrongInput(f"{file}: {where}: {word[:40]} is no number")
+        raise WrongInput(f"{file}: {where}: {word[:40]} is no number, but must be one of at most {FARTHEST:g}")
     return float(word)
 
 

@@ -174,8 +174,10 @@ std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& f
   const auto pulls = [&](const std::string& key, const YAML::Node& node) {
     if (!node.IsMap() || node.size() == 0) reader.refuse(key, node, "a map such as {tail: 1}");
     std::vector<KnotDrawing::Pull> together;
-    for (const auto& item : node)
-      together.push_back({reader.name(key, item.first), reader.number(key, item.second, 1e-3, 1e3)});
+    for (const auto& item : node) {
+      const std::string end = reader.name(key, item.first);
+      together.push_back({end, reader.number(key + "." + end, item.second, 1e-3, 1e3)});
+    }
     return together;
   };
   out.strands = list_of(reader, "strands", top.take("strands"), "a list of strands", strand);

@@ -104,7 +104,7 @@ TEST_F(KnotFile, IsRefusedByOneLineWithFileKeyAndReason) {
               HasSubstr("lower: the lower grip must hold at least one end, or posts"));
   EXPECT_THAT(complaint("lower_tail: 1,", "tail: 1,"), HasSubstr("tie: no end is called tail"));
   EXPECT_THAT(complaint("lower_tail: 1,", "lower: 1,"), HasSubstr("tie: lower is held or pulled already"));
-  EXPECT_THAT(complaint("lower_tail: 1,", "lower_tail: -1,"), HasSubstr("tie.0 is -1, but must be a number from"));
+  EXPECT_THAT(complaint("lower_tail: 1,", "lower_tail: -1,"), HasSubstr("tie.0.lower_tail is -1, but must be a number from"));
   EXPECT_THAT(complaint("[0, 1, 0]", "[0, 1]"), HasSubstr("strands.0.points.2"));
   EXPECT_THAT(complaint("[0, 1, 0]", "[0, one, 0]"), HasSubstr("strands.0.points.2"));
   EXPECT_THAT(complaint("[0, 1, 0]", "[0, 0, -4]"), HasSubstr("the same point as the one before it"));

@@ -89,6 +89,9 @@ class Import(unittest.TestCase):
         self.refused("a closed curve must be the only one", "a.txt", rows(trefoil()) + "\n" + rows(trefoil() + 9.0))
         self.refused("no end is called c1; the ends are a1, a2", "a.txt", rows(trefoil()), "--lower", "c1")
         self.refused("a1 cannot be held below and above", "a.txt", rows(trefoil()), "--lower", "a1", "--upper", "a1")
+        self.refused("1e200 is no number, but must be one of at most 1e+100", "a.txt", "1e200 0 0\n")
+        nine = "".join(f"{x},{y},0,{rope}\n" for rope in range(9) for x, y in ((0, 0), (1, 0), (1, 1), (2, 1)))
+        self.refused("it holds 9 curves, but a knot may have at most 8 ropes", "a.csv", "x,y,z,rope\n" + nine)
         self.refused("no strand comes near another one", "a.csv", rows(np.arange(30.0)[:, None] * [0.0, 0.0, 1.0], ","))
 
 
