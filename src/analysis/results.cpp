@@ -291,6 +291,10 @@ class Course {
     if (!recoils) results_.max_penetration = std::max(results_.max_penetration, sample.max_penetration);
     if (sample.status == BenchStatus::kNotEquilibrated) results_.not_equilibrated = sample.message;
     add_energies(sample);
+    if (sample.turn != 0.0 && std::abs(sample.torque) > results_.peak_torque.value_or(0.0)) {
+      results_.peak_torque = std::abs(sample.torque);
+      results_.tension_at_peak_torque = sample.force_upper;
+    }
     if (forms(sample.phase)) tied_ = &sample;
     if (pulls(sample.phase))
       add_pull(sample, recoils);

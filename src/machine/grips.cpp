@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
@@ -57,6 +58,9 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
   supports_ = knot.supports(specimen, material);
   if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
   hold(upper_nodes_, knot.held_above(centreline, clamped));
+  if (!clamp_turns(specimen, machine)) return;
+  const int edge = held_frames_.back().edge;
+  turns_by_ = centreline.points(2, edge + 1) > centreline.points(2, edge) ? 1.0 : -1.0;
 }
 
 bool Grips::hold(double displacement, const Vec3& point, double radius) const {
@@ -68,6 +72,15 @@ bool Grips::hold(double displacement, const Vec3& point, double radius) const {
   }
   return std::any_of(boundary.fixed_nodes.begin(), boundary.fixed_nodes.end(),
                      [&](const FixedNode& node) { return (node.position - point).norm() < 2.0 * radius; });
+}
+
+void Grips::turn_clamp(double turn, std::vector<FixedTwist>& frames) const {
+  if (turns_by_ != 0.0) frames.back().angle += turns_by_ * turn;
+}
+
+double Grips::torque(const TimeStep& step) const {
+  if (turns_by_ == 0.0 || step.state().twist.size() == 0) return Sample::kNone;
+  return turns_by_ * step.readings().reaction_torque(held_frames_.back().edge);
 }
 
 void Grips::turn_rollers_from(double time) {

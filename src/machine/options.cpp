@@ -1,6 +1,7 @@
 #include "knot_utm/machine/options.hpp"
 
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
@@ -11,6 +12,11 @@ bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine
 
 bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
   return machine.grips != GripKind::kNodes && !rollers_hold(specimen, machine);
+}
+
+bool clamp_turns(const SpecimenOptions& specimen, const MachineOptions& machine) {
+  const bool one_strand = specimen.drawing ? specimen.drawing->upper.size() == 1 : !knot_of(specimen).about().loop;
+  return clamps_hold(specimen, machine) && one_strand;
 }
 
 }  // namespace knot_utm

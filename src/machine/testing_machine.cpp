@@ -67,6 +67,7 @@ struct TestingMachine::Impl {
   double time = 0.0;
   double displacement = 0.0;  // of the crosshead [m]
   double grip = 0.0;          // of the upper grip, the same on a rigid frame [m]
+  double turn = 0.0;          // of the upper clamp [rad]
   double grip_tried = 0.0;    // in the step that is being made
   double borne_before = 0.0;  // by the upper grip as that step begins, on a frame that gives [N]
   double extension_zero = 0.0, raw_extension_zero = 0.0;
@@ -157,13 +158,17 @@ struct TestingMachine::Impl {
            ((grips.hold_frames() || friction_rolls(material, machine, physics)) && !knot_of(specimen).about().straight);
   }
 
-  const Boundary& boundary_at(const Command& command, double from, double to, double start_time,
-                              double start_displacement) {
-    const double whole = command.time - start_time;
+  /// When and where the crosshead and the upper clamp were.
+  struct Start {
+    double time, displacement, turn;
+  };
+
+  const Boundary& boundary_at(const Command& command, double from, double to, const Start& start) {
+    const double whole = command.time - start.time;
     // A recoil may go on behind the command; the crosshead does not.
-    const double fraction = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
+    const double fraction = whole > 0.0 ? std::min(1.0, (to - start.time) / whole) : 1.0;
     const double travel = mounts() ? displacement + tying->mounting_velocity(command.speed) * (to - from)
-                                   : start_displacement + fraction * (command.displacement - start_displacement);
+                                   : start.displacement + fraction * (command.displacement - start.displacement);
     travel_tried = travel;
     refused = false;
     // This depends on the last accepted state only, so that a step that is tried again begins from the same.
@@ -171,6 +176,7 @@ struct TestingMachine::Impl {
     grip_tried = frame.grip_after(grip, travel, borne_before, held_length(from, to), to - from);
     grips.set(grip_tried, tying ? tying->left_to_put_on(to) : 0.0, boundary);
     grips.turn_rollers(to, boundary.rollers);
+    grips.turn_clamp(start.turn + fraction * (command.turn - start.turn), boundary.fixed_twists);
     apply_gravity(to);
     boundary.grips.clear();
     boundary.extra_drag = drag_of_settling(to);
@@ -308,6 +314,8 @@ struct TestingMachine::Impl {
     s.end_to_end = grips.end_to_end(grip);
     s.extension = s.end_to_end - extension_zero;
     if (!frame.rigid()) s.raw_extension = displacement - raw_extension_zero;
+    s.turn = turn;
+    s.torque = grips.torque(*stepper);
     s.force_upper = grips.force_upper(*stepper);
     s.force_lower = grips.force_lower(*stepper);
     s.load = s.highest_load = s.lowest_load = cell.balanced(s.force_upper);
@@ -345,13 +353,13 @@ struct TestingMachine::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCM");  // "BNCL" had a fraction of the strength, whether the rod can part or not
+    archive.section("BNCN");  // "BNCM" had no turn of the upper clamp
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
     if (breaks) archive(*breaks);
-    archive(time, displacement, grip, extension_zero, raw_extension_zero, step_index, has_weight, work, message);
+    archive(time, displacement, turn, grip, extension_zero, raw_extension_zero, step_index, has_weight, work, message);
     archive.choice("phase", phase, last_phase());
     archive(pulled);
     archive.choice("status", status, BenchStatus::kFailed);
@@ -366,24 +374,19 @@ struct TestingMachine::Impl {
     if (archive.loads()) substeps.clear();
   }
 
-  /// When and where the crosshead was.
-  struct Start {
-    double time, displacement;
-  };
-
   /// Steps on from `start` towards the command, as far as `end` [s]. Empty, or why it gave up.
   std::string advance(const Command& command, const Start& start, double end) {
-    const double speed =
-        command.time > start.time ? (command.displacement - start.displacement) / (command.time - start.time) : 0.0;
+    const double whole = command.time - start.time;
+    const double speed = whole > 0.0 ? (command.displacement - start.displacement) / whole : 0.0;
     return control.advance(
         *stepper, time, end,
-        [&](double from, double to) -> const Boundary& {
-          return boundary_at(command, from, to, start.time, start.displacement);
-        },
+        [&](double from, double to) -> const Boundary& { return boundary_at(command, from, to, start); },
         [&](double to, double dt, const StepSummary&) {
           displacement = mounts()            ? travel_tried
                          : to < command.time ? start.displacement + speed * (to - start.time)
                                              : command.displacement;
+          turn =
+              to < command.time ? start.turn + (to - start.time) / whole * (command.turn - start.turn) : command.turn;
           const double moved = grip_tried - grip;
           grip = frame.rigid() ? displacement : grip_tried;
           if (!frame.rigid()) frame.follow(moved, grips.force_upper(*stepper) - borne_before, held_length(to - dt, to));
@@ -411,9 +414,10 @@ struct TestingMachine::Impl {
       extension_zero = grips.end_to_end(grip);
       raw_extension_zero = displacement;
     }
-    std::string gave_up = advance(command, {time, displacement}, command.time);
+    std::string gave_up = advance(command, {time, displacement, turn}, command.time);
     if (parted()) {
-      if (machine.after_break == AfterBreak::kFollow) gave_up = advance(command, {time, displacement}, recoil_end);
+      if (machine.after_break == AfterBreak::kFollow)
+        gave_up = advance(command, {time, displacement, turn}, recoil_end);
       if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
     } else if (!gave_up.empty() || status == BenchStatus::kFailed) {
       status = BenchStatus::kFailed;

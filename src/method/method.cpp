@@ -12,6 +12,7 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
@@ -262,6 +263,10 @@ Method parse_method(const std::string& text, const std::string& file, const std:
       method.material.friction_couple =
           method.compatibility ? kCoupleOfFirstRelease : default_friction_couple(method.material);
       noted.emplace_back("material.friction_couple");
+    }
+    if (method.physics.twist == TwistMode::kAuto && has_step<TwistStep>(method.program)) {
+      method.physics.twist = TwistMode::kOn;  // of a straight rod, which has none by itself
+      noted.emplace_back("physics.twist");
     }
     drop_overruled_keys(parse_yaml(text, file), overrides, method);
     const Material& material = method.material;

@@ -163,6 +163,7 @@ void check_twist(const Method& m) {
     without += (without.empty() ? "" : " and ") + std::string(instead);
   };
   const bool knotted = !knot_of(m.specimen).about().straight;
+  need(has_step<TwistStep>(m.program), "a step of the program twists the rod", "no twist step");
   need(knotted && friction_rolls(m.material, m.machine, m.physics), "friction at the surface twists the rod",
        "physics.friction.at: centreline");
   need(knotted && m.specimen.to_be_tied && m.material.bending_set > 0.0,
@@ -218,7 +219,8 @@ void check_pull(const Method& m, const PullStep& step, const std::string& key) {
 
 void check_program(const Method& m) {
   const KnotDescription& knot = knot_of(m.specimen).about();
-  StepPlace place{m.program, 0, knot.loop ? "" : loops(), knot.can_be_tied() ? "" : knots_that_can_be_tied()};
+  StepPlace place{m.program, 0, knot.loop ? "" : loops(), knot.can_be_tied() ? "" : knots_that_can_be_tied(),
+                  clamp_turns(m.specimen, m.machine)};
   for (; place.index < m.program.size(); ++place.index) {
     const ProgramStep& step = m.program[place.index];
     step->check(place);

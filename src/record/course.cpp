@@ -53,8 +53,10 @@ double CrossheadCourse::velocity_at_load_rate(const Sample& now, double rate, do
 void CrossheadCourse::begin_step(const Sample& now) {
   begin_ = last_.sequence;
   begin_load_ = wanted_load = balanced_load(now);
+  begin_turn_ = last_.turn;
   load_control_.begin();
   move(now, 0.0);
+  turn(0.0);
 }
 
 bool CrossheadCourse::take(const Sample& now) {
@@ -73,6 +75,7 @@ bool CrossheadCourse::take(const Sample& now) {
 void CrossheadCourse::fill(Command& command) const {
   command.velocity = leg_.velocity;
   command.displacement = leg_.displacement + leg_.velocity * seconds(command.sequence - leg_.begin);
+  command.turn = turn_leg_.turn + turn_leg_.rate * seconds(command.sequence - turn_leg_.begin);
   command.balance = balance_next_;
 }
 

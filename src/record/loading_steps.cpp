@@ -151,6 +151,34 @@ double ReturnStep::usual_duration(const CrossheadCourse& course) const {
   return std::max(0.0, course.last().displacement - extension) / speed;
 }
 
+void TwistStep::keys(fields::Fields& f, double) {
+  f.required_number("turns", turns, {-1e4, 1e4, "-"});
+  f.number("rate", rate, {1e-6, 10.0, "1/s"});
+  f.optional_number("torque", torque, {1e-12, 1e6, "N m"}, "none");
+  f.choice("control", hold_load, std::array{"extension", "load"});
+  if (hold_load || f.lists_all()) f.scaled_number("speed", speed, kSpeeds);
+}
+
+void TwistStep::check(const StepPlace& place) const {
+  if (!place.turns) place.misplaced("needs an upper grip that is a clamp and holds one strand");
+  if (turns == 0.0) throw InvalidInput(place.key() + ".turns", format_number(turns), "other than 0");
+}
+
+/// The last of its periods turns by what is left.
+void TwistStep::steer(const Sample& now, CrossheadCourse& course) {
+  const double left = 2.0 * M_PI * turns - (now.turn - course.begin_turn()), most = 2.0 * M_PI * rate * course.period();
+  course.turn(std::clamp(left, -most, most) / course.period());
+  if (hold_load) course.move(now, course.velocity_at_load(now, speed));
+}
+
+EndedBy TwistStep::ended(const Sample& now, CrossheadCourse& course) {
+  const double sense = turns > 0.0 ? 1.0 : -1.0, whole = 2.0 * M_PI * turns;
+  if (reached(now.turn - course.begin_turn(), whole, sense, kMetTurn)) return EndedBy::kProgram;
+  return torque && reached(now.torque, sense * *torque, sense, 0.0) ? EndedBy::kLoad : EndedBy::kNotYet;
+}
+
+double TwistStep::usual_duration(const CrossheadCourse&) const { return std::abs(turns) / rate; }
+
 void FollowStep::keys(fields::Fields& f, double) {
   f.file("record", record);
   f.text("columns", words.columns);

@@ -8,8 +8,8 @@ namespace knot_utm {
 
 const Program& all_steps() {
   static const Program all{
-      TieStep(),  ReleaseStep(), MountStep(), PreloadStep(), BalanceStep(),
-      PullStep(), HoldStep(),    CycleStep(), ReturnStep(),  FollowStep(),
+      TieStep(),  ReleaseStep(), MountStep(),  PreloadStep(), BalanceStep(), PullStep(),
+      HoldStep(), CycleStep(),   ReturnStep(), FollowStep(),  TwistStep(),
   };
   return all;
 }

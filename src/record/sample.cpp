@@ -25,7 +25,7 @@ void PerKnot::state(Archive& archive) {
 
 // In the order of a saved state: another one is another version of it.
 void Command::state(Archive& archive) {
-  archive(sequence, time, displacement, velocity, step);
+  archive(sequence, time, displacement, velocity, turn, step);
   archive.choice("phase", phase, last_of(phase));
   archive(speed, duration, balance, read_cell);
 }

@@ -32,6 +32,7 @@ void copy_command(const From& from, To& to) {
   to.time = from.time;
   to.displacement = from.displacement;
   to.velocity = from.velocity;
+  to.turn = from.turn;
   to.step = from.step;
   to.speed = from.speed;
   to.duration = from.duration;

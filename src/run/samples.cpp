@@ -59,6 +59,7 @@ void visit_row(Row& row, Visitor& visit) {
   visit("command_time", "s", command.time);
   visit("command_displacement", "m", command.displacement);
   visit("command_velocity", "m/s", command.velocity);
+  visit("command_turn", "rad", command.turn);
   visit("command_step", "-", command.step);
   visit("command_phase", "-", command.phase);
   visit("command_speed", "m/s", command.speed);

@@ -319,6 +319,8 @@ constexpr ResultKey kKeys[] = {
     {"hold_force_end", "N", kCurve, "Force at the end of the last hold", read<&Relaxation::to>, kNoHold},
     {"relaxation", "-", kCurve, "Relaxation, the share of the force that the last hold lost", relaxation, kNoHold},
     {"cycles", "-", kCurve, "Cycles that were completed", counted<&R::cycles>, kNoReason},
+    {"peak_torque", "N m", kCurve, "Largest torque of the upper clamp once it was turned", read<&R::peak_torque>,
+     "the program turns no clamp"},
     {"hysteresis", "J", kCurve, "Energy lost in one cycle (hysteresis)", read<&R::hysteresis>, kNoCycle},
     {"gauge_length", "m", kCurve, "Gauge length, between the grips where the pull begins", read<&R::gauge_length>,
      why_not_pulled},

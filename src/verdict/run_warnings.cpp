@@ -155,6 +155,19 @@ class Warnings {
           " until the knots lock, so a real test would have to be pulled more slowly");
   }
 
+  /// A long straight strand under the tension T writhes at the torque 2 sqrt(k_b T). Implicit steps that are longer
+  /// than that takes may keep it straight.
+  ///
+  /// Source: Greenhill 1883.
+  void of_twist() {
+    if (!results_.peak_torque) return;
+    const double tension = std::max(0.0, *results_.tension_at_peak_torque);
+    const double least = 2.0 * std::sqrt(facts_.material.bending_stiffness * tension);
+    if (*results_.peak_torque > least)
+      say("the torque reached " + short_number(*results_.peak_torque) + " N m, but a long strand writhes at " +
+          short_number(least) + " N m under its tension; time steps as long as these may keep it straight");
+  }
+
   /// Elastic energy of stretchy strands or of a compliant frame that was released suddenly, although no knot jumped
   /// open.
   void of_snaps() {
@@ -232,6 +245,7 @@ std::vector<std::string> printed_warnings(const Results& results, const RunFacts
   found.of_events();
   found.of_a_loose_knot();
   found.of_gravity();
+  found.of_twist();
   found.of_speed();
   found.of_snaps();
   found.say(facts.warnings);

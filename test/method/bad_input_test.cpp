@@ -72,7 +72,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"material=", "material is missing", "", "green_vps, nylon"},
       {"material=[nylon]", "material", "[nylon]", "green_vps, nylon"},
       // Values, among them those of a wrong unit
-      {"specimen.knot=hitched", "specimen.knot", "hitched", "fisherman, multiple_fisherman, overhand"},
+      {"specimen.knot=hitched", "specimen.knot", "hitched", "one of the knots that tensile_test --list knots shows"},
       {"specimen.turns=5", "specimen.turns", "5", "1 to 4"},
       {"specimen.end_to_end=250", "specimen.end_to_end", "250", "m"},
       {"specimen.end_to_end=250 mm", "specimen.end_to_end", "250 mm", "m"},
@@ -98,7 +98,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"machine.load_cell.overload=0.5", "machine.load_cell.overload", "0.5", "at least 1 of capacity"},
       {"machine.load_cell.seed=-1", "machine.load_cell.seed", "-1", "a whole number"},
       {"program=[{push: {}}]", "program.0", "push",
-       "tie, release, mount, preload, balance, pull, hold, cycle, return or follow"},
+       "tie, release, mount, preload, balance, pull, hold, cycle, return, follow or twist"},
       {"program.pull.speed=3.3", "program.4.pull.speed", "3.3", "0.5 m/s"},
       {"program.pull.until.break=yes", "program.4.pull.until.break", "yes", "true or false"},
       {"program=[{hold: {}}]", "program.0.hold.duration is missing", "", "(in s)"},
@@ -403,6 +403,7 @@ TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
        "only for knot: fisherman or multiple_fisherman"},
       {"machine.roller_friction=0.1", "machine.roller_friction", "0.1", "only with grips: rollers"},
       {"program.0={tie: {}}", "program.0", "tie", "needs specimen.knot: fisherman, multiple_fisherman or a file"},
+      {"program.0={twist: {turns: 0}}", "program.0.twist.turns", "0", "other than 0"},
       {"program.0={mount: {}}", "program.0", "mount", "needs specimen.knot: fisherman or multiple_fisherman"},
   };
   for (const Wrong& wrong : table) {

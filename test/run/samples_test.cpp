@@ -53,8 +53,9 @@ class Samples : public MadeFolder {
   Record record(std::uint64_t sequence) {
     Record out;
     out.wall_time = number();
-    out.command = {sequence,     number(), number(), number(),          static_cast<int>(sequence % 5) - 1,
-                   Phase::kPull, number(), number(), sequence % 2 == 0, sequence % 2 == 1};
+    out.command = {
+        sequence,     number(), number(), number(),          number(),         static_cast<int>(sequence % 5) - 1,
+        Phase::kPull, number(), number(), sequence % 2 == 0, sequence % 2 == 1};
     out.answer = sample(sequence);
     for (std::uint64_t k = 0; k < sequence % 4; ++k) out.steps.push_back(sample(sequence));
     if (sequence % 2 == 1) out.shape = Points::Random(3, 5);

@@ -73,7 +73,7 @@ TEST_F(PlainMessages, OfTensileTest) {
        "--set specimen.preload=[3: the value is not YAML: a list begins with \"[\" and has no \"]\""},
       {"tighten.yaml --set 'program=[{pul: {}}]'",
        "tighten.yaml: program.0 is \"pul\", but must be tie, release, mount, preload, balance, pull, hold, cycle, "
-       "return or follow; did you mean pull?"},
+       "return, follow or twist; did you mean pull?"},
       {"tighten.yaml --set 'program=[{pull: {}}]'",
        "tighten.yaml: program.0.pull.until is missing: give one or more of extension, load, time and break"},
       {"tighten.yaml --set machine.grips=clamp",

@@ -440,6 +440,16 @@ TEST_F(Warnings, TellOfATestThatEndedBeforeAnythingWasPulled) {
   EXPECT_THAT(printed(), ElementsAre("the test ended before anything was pulled: mount: the grips meet"));
 }
 
+/// 2 sqrt(k_b T), here 0.004 N m.
+TEST_F(Warnings, TellOfATorqueAtWhichAStrandWrithes) {
+  facts.material.bending_stiffness = 4e-6;
+  results.tension_at_peak_torque = 1.0;
+  results.peak_torque = 0.0039;
+  EXPECT_THAT(printed(), Not(Contains(HasSubstr("writhes"))));
+  results.peak_torque = 0.0041;
+  EXPECT_THAT(printed(), Contains(HasSubstr("the torque reached 0.0041 N m, but a long strand writhes at 0.004 N m")));
+}
+
 /// A free loop of the radius R bears 2 T R^2 = k_b: at 0.05 k_b/h^2 it is 3.16 h. At rest its hole tells.
 TEST_F(Warnings, TellOfAnOverhandThatWasNotPulledTight) {
   results.motion_pattern = MotionPattern::kNone;

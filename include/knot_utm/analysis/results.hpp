@@ -117,6 +117,9 @@ struct Results {
   std::string not_equilibrated;          ///< empty: tying and release ended at rest; else what still moved
   std::optional<GripForces> at_start;    ///< where they differ most as the pull begins (forces_at_start)
 
+  std::optional<double> peak_torque;             ///< largest magnitude once the clamp has been turned [N m]
+  std::optional<double> tension_at_peak_torque;  ///< [N]
+
   double max_penetration = 0.0;  ///< largest overlap of the whole test [fraction of radius]
   /// largest difference of the forces on the two grips in the pull, over the peak force [-]
   std::optional<double> force_balance_error;

@@ -25,6 +25,10 @@ class Grips {
         const Material& material);
 
   bool on_rollers() const { return !rollers_.empty(); }
+  /// Turns the frame in the upper clamp about the load axis [rad], where clamp_turns.
+  void turn_clamp(double turn, std::vector<FixedTwist>& frames) const;
+  /// Torque of this clamp on the rod [N m]; NaN where it cannot be turned, or the rod has no twist.
+  double torque(const TimeStep& step) const;
   /// Whether frames are held at both ends, so that the rod cannot turn about itself.
   bool hold_frames() const { return held_frames_.size() > 1; }
 
@@ -76,8 +80,9 @@ class Grips {
   double lift_ = 0.0;       // of the lower one while the loop is put on [m]
   std::vector<Pin> pins_;   // lower, upper; empty: the rollers' own places are free
   std::vector<FixedNode> lower_nodes_, upper_nodes_;
-  std::vector<FixedTwist> held_frames_;
-  std::vector<Roller> rollers_;  // lower, upper
+  std::vector<FixedTwist> held_frames_;  // the last one that of the upper clamp
+  double turns_by_ = 0.0;                // 1 or -1, as its edge points up or down; 0: it is not to be turned
+  std::vector<Roller> rollers_;          // lower, upper
   Supports supports_;
   double roller_rate_ = 0.0;              // of driven ones [rad/s]
   std::optional<double> turning_from_;    // [s]

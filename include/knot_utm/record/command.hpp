@@ -13,6 +13,7 @@ struct Command {
   double time = 0.0;           ///< [s]
   double displacement = 0.0;   ///< crosshead displacement at `time`, moving linearly since the last command [m]
   double velocity = 0.0;       ///< of the crosshead [m/s]
+  double turn = 0.0;           ///< of the upper clamp about the load axis at `time`, turning evenly since then [rad]
   int step = 0;                ///< index of the program's step; -1 before the first
   Phase phase = Phase::kIdle;
   double speed = 0.0;      ///< of the step: tie: speed of the tail grips [m/s]

@@ -12,6 +12,7 @@ namespace knot_utm {
 struct Sample;
 
 inline constexpr double kMetLoad = 1e-3;  // nearer to a load it is met [of it]
+inline constexpr double kMetTurn = 1e-9;  // nearer to a turn it is met [rad]
 
 /// Whether a value rose (sense 1) or fell (-1) to its target.
 inline bool reached(double value, double target, double sense, double tolerance) {
@@ -32,6 +33,7 @@ class CrossheadCourse {
   const Command& last() const { return last_; }
   double velocity() const { return leg_.velocity; }
   double begin_load() const { return begin_load_; }  ///< as the step began [N]
+  double begin_turn() const { return begin_turn_; }  ///< as the step began [rad]
 
   /// The time since the step began, as it will be `more` commands from now [s].
   double time(std::uint64_t more = 0) const { return seconds(last_.sequence + more - begin_); }
@@ -40,6 +42,8 @@ class CrossheadCourse {
 
   /// Begins a leg. Every leg counts from its own beginning, so that rounding does not add up.
   void move(const Sample& now, double velocity);
+  /// Turns the upper clamp from where it is, at this rate [rad/s].
+  void turn(double rate) { turn_leg_ = {last_.sequence, last_.turn, rate}; }
   void balance() { balance_next_ = true; }  ///< The next command balances.
 
   /// Velocity towards an extension that is `left` [m] away, and no further.
@@ -70,7 +74,7 @@ class CrossheadCourse {
   double command_rate_, most_load_, most_travel_;
   Command last_;
   std::uint64_t begin_ = 0;  // the last command before the step
-  double begin_load_ = 0.0;
+  double begin_load_ = 0.0, begin_turn_ = 0.0;
   double balance_offset_ = 0.0;  // of the last sample [N]
   bool balance_next_ = false;
   // Ratio of the growth of the extension to that of the displacement in the last command that moved; 1 on a rigid
@@ -84,6 +88,11 @@ class CrossheadCourse {
     double displacement = 0.0;  // then [m]
     double velocity = 0.0;      // [m/s]
   } leg_;
+  struct {
+    std::uint64_t begin = 0;  // the last command before it
+    double turn = 0.0;        // then [rad]
+    double rate = 0.0;        // [rad/s]
+  } turn_leg_;
   LoadControl load_control_;
 };
 

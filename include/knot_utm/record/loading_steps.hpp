@@ -82,6 +82,22 @@ struct ReturnStep : Step {
   double usual_duration(const CrossheadCourse& course) const override;
 };
 
+/// `twist`: turns the upper clamp about the load axis by `turns` at `rate`, while the crosshead stands or keeps the
+/// load with which the step begins; ends earlier where the torque that the turn makes reaches `torque`.
+struct TwistStep : Step {
+  double turns = 0.0;            ///< from where it begins; right-handed about the axis, which points up [-]
+  double rate = 0.5;             ///< magnitude [1/s]
+  std::optional<double> torque;  ///< magnitude [N m]
+  bool hold_load = false;        ///< the load, not the crosshead
+
+  TwistStep() : Step("twist", kMoves) {}
+  void keys(fields::Fields& f, double way) override;
+  void check(const StepPlace& place) const override;
+  void steer(const Sample& now, CrossheadCourse& course) override;
+  EndedBy ended(const Sample& now, CrossheadCourse& course) override;
+  double usual_duration(const CrossheadCourse& course) const override;
+};
+
 /// Place of the crosshead at a time, from the record of another test.
 struct RecordedPlace {
   double time = 0.0, displacement = 0.0;  ///< since the record began [s], [m]

@@ -67,6 +67,8 @@ struct Sample {
   double knots_force = kNone;
   double knot_on_roller = kNone;
   double raw_extension = kNone;
+  double turn = 0.0;
+  double torque = kNone;
 
   void state(Archive& archive);
 };

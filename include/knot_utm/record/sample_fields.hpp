@@ -91,7 +91,11 @@ inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(knot_on_roller, "N",
                    "of the rollers on the knots or their tails, sum of normal forces; NaN: no two knots"),
     KNOT_UTM_FIELD(raw_extension, "m",
-                   "travel of the crosshead since balance; NaN: the frame is rigid, on which it is the extension"));
+                   "travel of the crosshead since balance; NaN: the frame is rigid, on which it is the extension"),
+    KNOT_UTM_FIELD(turn, "rad", "of the upper clamp about the load axis, right-handed about up"),
+    KNOT_UTM_FIELD(
+        torque, "N m",
+        "of the upper clamp on the rod in this sense; NaN: the rod has no twist, or not one strand is held"));
 
 #undef KNOT_UTM_FIELD
 
