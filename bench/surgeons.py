@@ -74,5 +74,5 @@ def rows_of(fits, facts):
 
 def row_of(what, starts, fitted, facts):
     value, error = mean_of_all([None if one is None else factor_of(one) for one in starts])
-    return Row(f"{facts['what']}: {what}", "1", value, error, value, at_most(facts["factor"]), facts["source"], fitted,
+    return Row(f"{facts['what']}: {what}", facts["measured"], value, error, value, at_most(facts["factor"]), facts["source"], fitted,
                facts["if_it_fails"])
