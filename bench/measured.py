@@ -6,6 +6,7 @@ import capstans
 import greased
 import inversions
 import predictions
+import surgeons
 from runs import read_yaml
 from table import ROOT, Report, Table
 
@@ -15,7 +16,8 @@ FACTS = os.path.join(ROOT, "bench/measured.yaml")
 def report(runner):
     spent = Counted(runner)
     facts = read_yaml(FACTS)
-    rows = inversions.rows(spent, facts["inversions"]) + capstans.rows(spent, facts["capstans"])
+    rows = inversions.rows(spent, facts["inversions"]) + surgeons.rows(spent, facts["surgeons"])
+    rows += capstans.rows(spent, facts["capstans"])
     loads = bend_orders.found(spent, facts["orders"])
     holding = greased.found(spent, facts["greased"])
     rows += bend_orders.rows(loads, facts["orders"]) + [greased.row(holding, facts["greased"])]

@@ -6,6 +6,8 @@ import subprocess
 import sys
 import unittest
 
+import numpy as np
+
 sys.dont_write_bytecode = True
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
 sys.path.insert(0, os.path.join(ROOT, "bench"))
@@ -18,6 +20,7 @@ import inversions  # noqa: E402
 import measured  # noqa: E402
 import predictions  # noqa: E402
 import runs  # noqa: E402
+import surgeons  # noqa: E402
 
 FACTS = runs.read_yaml(measured.FACTS)
 
@@ -62,6 +65,57 @@ class Inversions(unittest.TestCase):
         for name in FACTS["inversions"]["photographs"]:
             specimen = runs.read_yaml(os.path.join(ROOT, f"config/validation/{name}.yaml"))["specimen"]
             self.assertEqual((specimen["turns"], specimen["length"]), (int(name.split("_")[-1]), 1.0))
+
+
+class Surgeons(unittest.TestCase):
+    CURVE = (np.linspace(0.1, 0.3, 201), 1e-3 * np.linspace(0.1, 0.3, 201) ** -3)  # force over the length taken up
+
+    def points(self, beyond, factor=1.0):
+        lengths = np.linspace(0.15, 0.25, 11)
+        return lengths + beyond, factor * 1e-3 * lengths ** -3
+
+    def test_the_unknown_length_is_found_and_leaves_the_factor_1(self):
+        length, logarithms = surgeons.fit(self.CURVE, self.points(0.07))
+        self.assertAlmostEqual(length, 0.07, delta=surgeons.STEP)
+        # At the shortest length, half a step makes 3/2 STEP/0.15 of a force that falls with the cube.
+        self.assertAlmostEqual(surgeons.factor_of(logarithms), 1.0, delta=1.5 * surgeons.STEP / 0.15)
+
+    def test_a_factor_is_the_root_mean_square_of_logarithms(self):
+        self.assertAlmostEqual(surgeons.factor_of([math.log(2.0), -math.log(2.0)]), 2.0)
+        self.assertAlmostEqual(surgeons.factor_of([0.0, 0.0]), 1.0)
+
+    def test_a_curve_that_is_shorter_than_the_points_fits_none(self):
+        length, force = self.CURVE
+        self.assertIsNone(surgeons.fit((length[:90], force[:90]), self.points(0.0)))
+        self.assertIsNone(surgeons.fit(None, self.points(0.0)))
+
+    def test_a_knot_that_pushes_counts_as_the_smallest_force_that_was_read(self):
+        length, force = self.CURVE
+        _, logarithms = surgeons.fit((length, np.full_like(force, -1.0)), self.points(0.0))
+        np.testing.assert_allclose(np.exp(logarithms), surgeons.SMALLEST / self.points(0.0)[1])
+
+    def test_a_curve_is_the_rod_less_the_distance_of_its_ends(self):
+        run = a_run(pull=[(0.0, 1.0), (0.1, 2.0)])
+        run.curve["end_to_end"] = [0.3, 0.4]
+        run.shape = {"x": [0.0, 0.3, 0.3], "y": [0.0, 0.0, 0.4], "z": [0.0] * 3}
+        taken_up, load = surgeons.curve_of(run)
+        np.testing.assert_allclose(taken_up, [0.3, 0.4])
+        self.assertEqual(list(load), [2.0, 1.0])
+        self.assertIsNone(surgeons.curve_of(a_run(exit_code=1)))
+
+    def test_points_have_the_published_scatter(self):
+        points = runs.read_curve(os.path.join(ROOT, FACTS["surgeons"]["points"]))
+        for turns, scatter in ((1, 0.28), (2, 0.47), (3, 0.19)):
+            ratios = [d / f for t, d, f in zip(points["turns"], points["deviation"], points["force"]) if t == turns]
+            self.assertAlmostEqual(runs.median(ratios), scatter, delta=0.005)
+            self.assertTrue(os.path.exists(os.path.join(ROOT, f"config/knots/surgeon_{turns}.yaml")))
+        self.assertEqual(list(surgeons.points_of(os.path.join(ROOT, FACTS["surgeons"]["points"]))), [1, 2, 3])
+
+    def test_a_start_that_fits_nothing_fails_its_knot_and_all_points(self):
+        good = surgeons.fit(self.CURVE, self.points(0.0, 1.2))
+        rows = surgeons.rows_of({1: [good] * 3, 2: [good, None, good]}, FACTS["surgeons"])
+        self.assertEqual([row.predicted is None for row in rows], [False, True, True])
+        self.assertEqual(len(predictions.table_of(rows).failed()), 2)
 
 
 class Capstans(unittest.TestCase):
