@@ -71,7 +71,9 @@ Candidates::Candidates(const RodProperties& rod, double reach, double margin, do
     : reach_(reach),
       margin_(margin),
       exclusion_(exclusion),
+      other_exclusion_(rod.other_material ? exclusion * (rod.other_material->radius / rod.material.radius) : exclusion),
       extent_(extent),
+      first_of_other_(static_cast<int>(rod.first_of_other())),
       arclength_(rod.arclength()),
       size_(Eigen::VectorXd::Zero(rod.nodes())),
       touches_(static_cast<std::size_t>(rod.nodes()), 1) {
@@ -210,11 +212,12 @@ void Candidates::build(const Points& position) {
     if (const int own = i / static_cast<int>(kLanes); own != around) find_around(around = own);
     const double limit = reach_ + margin_ + size_[i];
     const Vec3 place = position.col(i);
+    const double along_least = exclusion(i);
     RunCollector collector(runs_);
     for (const Run& run : around_)
       for (int k = run.first; k <= run.last; ++k) {
         const Lanes along = four_arclengths_[at(k)] - arclength_[i];
-        collector.take(k, levels_[0][at(k)].within(limit, place) & ((along >= exclusion_) | (along <= -exclusion_)));
+        collector.take(k, levels_[0][at(k)].within(limit, place) & ((along >= along_least) | (along <= -along_least)));
       }
     collector.write();
     if (runs_.size() > begin_[at(i)]) segments_.push_back(i);

@@ -120,15 +120,25 @@ void linearise(const Pressure& normal, const Law& law, double dt, const ContactL
     if (law.coefficient > 0.0) add_turn(four, t, s, models);
 }
 
+/// Calls use(law) with the friction law of each pair, whose type is chosen once for all contacts.
+template <typename Contacts, typename Use>
+void visit_active(const ContactLaws& laws, Contacts& contacts, const Use& use) {
+  laws[0].friction.visit([&](const auto& law) {
+    using Law = std::decay_t<decltype(law)>;
+    visit_active(contacts, [&](const auto& four, std::size_t first) {
+      const PairLaws& of = laws[four[0]->pair];
+      use(of.normal, of.friction.template as<Law>(), four, first);
+    });
+  });
+}
+
 template <typename Model>
-void linearise_all(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise_all(const ContactLaws& laws, double dt, const ContactLinearisation& how,
                    const std::vector<ContactPoint>& contacts, std::vector<Model>& models) {
   // Room for the fours that the last one fills up.
   models.resize(contacts.size() + 3);
-  friction.visit([&](const auto& law) {
-    visit_active(contacts, [&](const std::array<const ContactPoint*, 4>& four, std::size_t first) {
-      linearise(normal, law, dt, how, four, &models[first]);
-    });
+  visit_active(laws, contacts, [&](const NormalLaw& normal, const auto& law, const auto& four, std::size_t first) {
+    linearise(normal, law, dt, how, four, &models[first]);
   });
 }
 
@@ -141,13 +151,10 @@ void evaluate_forces(const Friction& friction, double dt, std::vector<ContactPoi
   });
 }
 
-void evaluate_forces(const NormalLaw& normal, const Friction& friction, double dt,
-                     std::vector<ContactPoint>& contacts) {
-  friction.visit([&](const auto& law) {
-    visit_active(contacts, [&](const std::array<ContactPoint*, 4>& four, std::size_t) {
-      set_pressures(normal, four);
-      evaluate_forces(law, dt, four);
-    });
+void evaluate_forces(const ContactLaws& laws, double dt, std::vector<ContactPoint>& contacts) {
+  visit_active(laws, contacts, [&](const NormalLaw& normal, const auto& law, const auto& four, std::size_t) {
+    set_pressures(normal, four);
+    evaluate_forces(law, dt, four);
   });
 }
 
@@ -162,14 +169,14 @@ FrictionMemory remember(const Friction& friction, const ContactPoint& contact, d
   return friction.visit([&](const auto& law) { return law.remember(friction_input(contact, dt), contact.z); });
 }
 
-void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const ContactLaws& laws, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models) {
-  linearise_all(normal, friction, dt, how, contacts, models);
+  linearise_all(laws, dt, how, contacts, models);
 }
 
-void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const ContactLaws& laws, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<RollerModel>& models) {
-  linearise_all(normal, friction, dt, how, contacts, models);
+  linearise_all(laws, dt, how, contacts, models);
 }
 
 }  // namespace knot_utm

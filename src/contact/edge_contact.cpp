@@ -39,7 +39,7 @@ void EdgeContact::find_pairs() {
   const int last_node = static_cast<int>(arclength_.size()) - 2;
   pairs_.clear();
   auto add = [this](int a, int b) {
-    if (arclength_[b] - arclength_[a + 1] >= candidates_.exclusion()) pairs_.push_back({a, b});
+    if (arclength_[b] - arclength_[a + 1] >= candidates_.exclusion(a)) pairs_.push_back({a, b});
   };
   for (const int i : candidates_.segments())
     for (const Candidates::Run* run = candidates_.begin(i); run != candidates_.end(i); ++run)

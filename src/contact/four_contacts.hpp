@@ -81,23 +81,25 @@ struct FourPressures {
   }
 };
 
-/// Calls visit(four, first) for groups of four active contacts, in order. `first` is the number of the first one among
-/// the active contacts. An incomplete group is filled up with its last contact.
+/// Calls visit(four, first) for groups of four active contacts of one pair of materials, in order. `first` is the
+/// number of the first one among the active contacts. An incomplete group is filled up with its last contact.
 template <typename Contacts, typename Visit>
 void visit_active(Contacts& contacts, Visit visit) {
   std::array<decltype(contacts.data()), 4> four;
   std::size_t first = 0, count = 0;
-  for (auto& contact : contacts) {
-    if (!contact.active()) continue;
-    four[count++] = &contact;
-    if (count < 4) continue;
+  const auto end_group = [&] {
+    if (count == 0) return;
+    std::fill(four.begin() + static_cast<std::ptrdiff_t>(count), four.end(), four[count - 1]);
     visit(four, first);
     first += count;
     count = 0;
+  };
+  for (auto& contact : contacts) {
+    if (!contact.active()) continue;
+    if (count == 4 || (count > 0 && contact.pair != four[0]->pair)) end_group();
+    four[count++] = &contact;
   }
-  if (count == 0) return;
-  std::fill(four.begin() + static_cast<std::ptrdiff_t>(count), four.end(), four[count - 1]);
-  visit(four, first);
+  end_group();
 }
 
 }  // namespace knot_utm

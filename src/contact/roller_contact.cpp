@@ -20,10 +20,9 @@ std::size_t memory_index(Eigen::Index nodes, std::size_t roller, int segment, in
 
 RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction,
                              double farthest)
-    : normal_(normal),
-      begins_(normal.begin()),
-      friction_(friction),
-      radius_(rod.material.radius),
+    : laws_(normal, friction),
+      first_of_other_(static_cast<int>(rod.first_of_other())),
+      radius_{rod.material.radius, rod.other_material.value_or(rod.material).radius},
       farthest_(farthest),
       voronoi_(rod.voronoi_length) {}
 
@@ -59,7 +58,7 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
     if (distance(rollers[roller], position.col(segment)) <= limit(rollers[roller], segment))
       add_contacts(rollers, roller, segment, position, start);
   if (turns_) add_shifts(contacts_, surfaces_);
-  evaluate_forces(normal_, friction_, dt, contacts_);
+  evaluate_forces(laws_, dt, contacts_);
   if (turns_) set_couples(rolling_, contacts_, surfaces_);
 }
 
@@ -73,7 +72,7 @@ bool RollerContact::reaches_into_cut(int segment) const {
 }
 
 double RollerContact::limit(const Roller& roller, int segment) const {
-  return roller.radius + radius_ + voronoi_[segment];
+  return roller.radius + radius(segment) + voronoi_[segment];
 }
 
 void RollerContact::find_near_segments(const std::vector<Roller>& rollers, const Points& start) {
@@ -97,8 +96,9 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     contact.x = combine(w.value, position, segment) - roller.centre;
     contact.x -= roller.axis * roller.axis.dot(contact.x);
     contact.d = contact.x.norm();
-    contact.overlap = roller.radius + radius_ - contact.d;
-    contact.begins = begins_;
+    contact.overlap = roller.radius + radius(segment) - contact.d;
+    contact.pair = pair_of(segment);
+    contact.begins = laws_[contact.pair].normal.begin();
     contact.prediction = prediction_[memory];
     if (!contact.active()) continue;
     contact.a0 = segment - 1;
@@ -107,7 +107,8 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     contact.axis = roller.axis;
     contact.n = contact.x / contact.d;
     contact.weight = 0.5 * voronoi_[segment];
-    if (friction_.on()) contact.memory = memory_[memory];
+    const bool rubs = laws_[contact.pair].friction.on();
+    if (rubs) contact.memory = memory_[memory];
     contact.slip = contact.memory.slip - (roller.centre - start_[number].centre);
     for (int k = 0; k < 3; ++k) {
       contact.c[k] = w.value[k];
@@ -115,7 +116,7 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     }
     double lever = 0.0;
     if (turns_) lever = add_surface(contact, roller, position, start);
-    if (friction_.on() && turned_[number] != 0.0) {
+    if (rubs && turned_[number] != 0.0) {
       contact.turned = (1.0 - lever) * turned_[number];
       contact.slip -= carried_along(contact);
     }
@@ -127,7 +128,7 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
 double RollerContact::add_surface(const ContactPoint& contact, const Roller& roller, const Points& position,
                                   const Points& start) {
   SurfacePoint& surface = surfaces_.emplace_back();
-  if (!friction_.on()) return 0.0;
+  if (!laws_[contact.pair].friction.on()) return 0.0;
   const double u = kIntegrationPoints[contact.point];
   const SegmentWeights weights(u);
   std::copy_n(weights.derivative, 3, surface.d_a);
@@ -138,7 +139,8 @@ double RollerContact::add_surface(const ContactPoint& contact, const Roller& rol
     surface.s_a[j] = (j == 0 ? 1.0 - u : u) * turns_->length[edge];
     surface.spin_a += surface.s_a[j] * turns_->turn[edge];
   }
-  surface.lever = couple_ * radius_ / (roller.radius + radius_);
+  const double h = radius(contact.a0 + 1);
+  surface.lever = couple_ * h / (roller.radius + h);
   surface.turned = turned_[static_cast<std::size_t>(contact.roller)];
   return surface.lever;
 }
@@ -198,13 +200,13 @@ void RollerContact::commit(const std::vector<Roller>& rollers) {
   std::fill(prediction_.begin(), prediction_.end(), -1.0);
   for (const ContactPoint& contact : contacts_) prediction_[index_of(contact)] = contact.pressure;
   committed_prediction_ = prediction_;
-  if (!friction_.on()) return;
+  if (!laws_.rub()) return;
   std::fill(memory_.begin(), memory_.end(), FrictionMemory());
   for (const ContactPoint& contact : contacts_)
     memory_[index_of(contact)] = rolling_.on()
-                                     ? remember(friction_, rolling_, contact,
+                                     ? remember(laws_[contact.pair].friction, rolling_, contact,
                                                 surfaces_[static_cast<std::size_t>(&contact - contacts_.data())], dt_)
-                                     : remember(friction_, contact, dt_);
+                                     : remember(laws_[contact.pair].friction, contact, dt_);
 }
 
 void RollerContact::state(Archive& archive) {

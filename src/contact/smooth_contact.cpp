@@ -46,12 +46,13 @@ double least_curvature_factor(const Points& nodes, int segment, double u, const 
 
 SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
                              double catch_up)
-    : normal_(normal),
-      begins_(normal.begin()),
-      friction_(friction),
-      diameter_(2.0 * rod.material.radius),
-      window_(kSameFoot * rod.material.radius),
-      reach_((2.0 + kReachMargin) * rod.material.radius),
+    : laws_(normal, friction),
+      first_of_other_(static_cast<int>(rod.first_of_other())),
+      radius_{rod.material.radius, rod.other_material.value_or(rod.material).radius},
+      distance_{2.0 * radius_[0], radius_[0] + radius_[1], 2.0 * radius_[1]},
+      diameter_(std::min(distance_[0], distance_[2])),
+      window_(kSameFoot * std::min(radius_[0], radius_[1])),
+      reach_((2.0 + kReachMargin) * std::max(radius_[0], radius_[1])),
       arclength_(rod.arclength()),
       voronoi_(rod.voronoi_length),
       candidates_(rod, reach_, margin, least_loop(rod.material.radius)),
@@ -93,13 +94,13 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
     if (foot.memory.weighting < 0.0) {
       foot.memory.weighting = std::min(weighting(search_.feet()[foot.foot], position), largest_weighting(foot.memory));
       foot.memory.offset = offset_at(search_.feet()[foot.foot], position);
-      foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * diameter_ && began_inside(foot);
+      foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * distance_[foot.pair] && began_inside(foot);
       if (turns_ && !first_step_ && overlap(foot) > 0.0) foot.memory.weighting = 0.0;  // smooth_contact.hpp
     }
     if (takes_part(foot)) add_contact(foot);
   }
   if (turns_) add_shifts(contacts_, surfaces_);
-  evaluate_forces(normal_, friction_, dt, contacts_);
+  evaluate_forces(laws_, dt, contacts_);
   if (turns_) set_couples(rolling_, contacts_, surfaces_);
 }
 
@@ -147,8 +148,11 @@ std::size_t SmoothContact::follow(std::size_t foot) {
   const std::size_t first = tracked_.size();
   for (; foot < feet.size() && feet[foot].point == point; ++foot) {
     const double arclength_b = arclength_at(arclength_, feet[foot].segment, feet[foot].u);
-    if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) continue;
-    tracked_.push_back({{arclength_b, kUnknown, 0.0, -1.0, {}, Vec3::Zero(), false, false}, foot, kNone});
+    if (std::abs(arclength_a - arclength_b) < candidates_.exclusion(segment_of(point))) continue;
+    tracked_.push_back({{arclength_b, kUnknown, 0.0, -1.0, {}, Vec3::Zero(), false, false},
+                        foot,
+                        kNone,
+                        is_other(segment_of(point)) + is_other(feet[foot].segment)});
   }
   recall(row_of(point), first);
   return foot;
@@ -181,7 +185,7 @@ void SmoothContact::recall(std::size_t row, std::size_t first) {
 }
 
 double SmoothContact::overlap(const Tracked& foot) const {
-  return diameter_ - search_.feet()[foot.foot].x[3] + foot.memory.offset;
+  return distance_[foot.pair] - search_.feet()[foot.foot].x[3] + foot.memory.offset;
 }
 
 bool SmoothContact::began_inside(const Tracked& tracked) const {
@@ -194,12 +198,12 @@ bool SmoothContact::began_inside(const Tracked& tracked) const {
     x -= wa.value[k] * moved_[static_cast<std::size_t>(segment - 1 + k)];
     x += wb.value[k] * moved_[static_cast<std::size_t>(foot.segment - 1 + k)];
   }
-  return to_vec3(x).norm() < diameter_ + tracked.memory.offset;
+  return to_vec3(x).norm() < distance_[tracked.pair] + tracked.memory.offset;
 }
 
 bool SmoothContact::takes_part(const Tracked& foot) const {
   if (foot.memory.inside) return false;
-  return foot.memory.pressed || foot.memory.pressure > 0.0 || overlap(foot) > 2.0 * begins_;
+  return foot.memory.pressed || foot.memory.pressure > 0.0 || overlap(foot) > 2.0 * laws_[foot.pair].normal.begin();
 }
 
 void SmoothContact::add_contact(Tracked& tracked) {
@@ -224,7 +228,8 @@ void SmoothContact::add_contact(Tracked& tracked) {
   contact.x = to_vec3(foot.x);
   contact.n = to_vec3((1.0 / contact.d) * foot.x);
   contact.overlap = overlap(tracked);
-  contact.begins = begins_;
+  contact.pair = tracked.pair;
+  contact.begins = laws_[contact.pair].normal.begin();
   contact.weighting = tracked.memory.weighting;
   contact.weight = 0.5 * voronoi_[segment] * contact.weighting;
   contact.prediction = tracked.memory.pressure;
@@ -237,14 +242,14 @@ void SmoothContact::add_contact(Tracked& tracked) {
   // At a minimum G >= 0; it vanishes where the foot is about to jump, and omega follows it there within 0.05 s.
   const double least = turns_ ? kLeastG : kLeastGOnCentrelines;
   contact.inverse_g = 1.0 / std::max(length2 - dot(foot.x, c.k), least * length2);
-  if (contact.active() && friction_.on()) set_slip(contact);
+  if (contact.active() && laws_[contact.pair].friction.on()) set_slip(contact);
   if (turns_) add_surface(contact, search_.parabola(segment), c, u);
 }
 
 void SmoothContact::add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b,
                                 double u_b) {
   SurfacePoint& surface = surfaces_.emplace_back();
-  if (!contact.active() || !friction_.on()) return;
+  if (!contact.active() || !laws_[contact.pair].friction.on()) return;
   const double u_a = kIntegrationPoints[contact.point];
   const SegmentWeights weights(u_a);
   const auto moved = [&](int node) -> const Lanes& { return moved_[static_cast<std::size_t>(node)]; };
@@ -268,7 +273,11 @@ void SmoothContact::add_surface(const ContactPoint& contact, const SegmentParabo
     surface.spin_b += surface.s_b[j] * turned(on_b);
     surface.spin_slope_b += surface.s_slope_b[j] * turned(on_b);
   }
-  surface.lever = lever_;
+  surface.lever = 0.5 * couple_;
+  if (contact.pair != 1) return;
+  const int mine = is_other(contact.a0 + 1);
+  surface.lever = couple_ * (radius_[mine] / distance_[1]);
+  surface.uneven = radius_[1 - mine] / radius_[mine];
 }
 
 void SmoothContact::set_slip(ContactPoint& contact) const {
@@ -295,7 +304,7 @@ ContactMotion SmoothContact::motion(const ContactPoint& contact, const Points& p
   if (turns_) {
     const SurfacePoint& surface = surfaces_[static_cast<std::size_t>(&contact - contacts_.data())];
     out.rolling = rolling(contact, surface);
-    out.passed_on = 2.0 * surface.lever;
+    out.passed_on = (1.0 + surface.uneven) * surface.lever;
   }
   // From today's foot, which was near the nearest place then.
   const Vec3 x = contact.x - out.slip;
@@ -360,9 +369,10 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
 }
 
 FrictionMemory SmoothContact::remembered(const ContactPoint& contact) const {
-  if (!rolling_.on()) return knot_utm::remember(friction_, contact, dt_);
+  const Friction& friction = laws_[contact.pair].friction;
+  if (!rolling_.on()) return knot_utm::remember(friction, contact, dt_);
   const auto number = static_cast<std::size_t>(&contact - contacts_.data());
-  return knot_utm::remember(friction_, rolling_, contact, surfaces_[number], dt_);
+  return knot_utm::remember(friction, rolling_, contact, surfaces_[number], dt_);
 }
 
 void SmoothContact::set_fractions(const Points& position) {

@@ -32,6 +32,7 @@ FourVectors four(const Points4& surfaces, Vec3 SurfacePoint::*vector) {
 }
 
 Lanes lever_of(const Points4& surfaces) { return four(surfaces, &SurfacePoint::lever); }
+Lanes uneven_of(const Points4& surfaces) { return four(surfaces, &SurfacePoint::uneven); }
 
 std::size_t number_of(const ContactPoint* contact, const std::vector<ContactPoint>& contacts) {
   return static_cast<std::size_t>(contact - contacts.data());
@@ -181,6 +182,8 @@ class FourSurfaces {
         bend_turn_b_(four(surfaces, &SurfacePoint::bend_turn_b)),
         spin_slope_b_(four(surfaces, &SurfacePoint::spin_slope_b)),
         lever_(lever_of(surfaces)),
+        q_(uneven_of(surfaces)),
+        uneven_(surfaces[0]->uneven != 1.0),
         on_roller_(contacts[0]->on_roller()) {
     const Four<const ContactPoint> of(contacts);
     x_ = of(&ContactPoint::x);
@@ -193,6 +196,7 @@ class FourSurfaces {
     turned_ = of(&ContactPoint::turned);
     remembered_ = remembered_by(contacts);
     rotation_ = a_.rotation() + b_.rotation();
+    sweeping_ = uneven_ ? a_.rotation() + q_ * b_.rotation() : rotation_;
     carried_ = carried(*contacts[0]);
     alpha_ = carried_ * dot(n_, rotation_);
     away_ = dot(n_, r_);
@@ -210,7 +214,7 @@ class FourSurfaces {
   }
 
   void model(SurfaceModel* models) const {
-    const FourVectors m_a = m_ - couple_, m_b = m_ + couple_;
+    const FourVectors m_a = m_ - couple_, m_b = q_ * m_ + couple_;
     const Parted forces(force_), on_a(cross(a_.over, m_a), -1.0 * dot(a_.over, m_a)),
         on_b(cross(b_.over, m_b), -1.0 * dot(on_roller_ ? axis_ : b_.over, on_roller_ ? couple_ : m_b));
     for (std::size_t i = 0; i < 4; ++i) {
@@ -223,10 +227,11 @@ class FourSurfaces {
     }
     Response by_rotation[3], by_rolling[3];
     for (int i = 0; i < 3; ++i) by_rotation[i] = rotated(unit_vector(i));
+    const Response by_twirl = uneven_ ? twirled() : Response();
     if (resists_)
       for (int i = 0; i < 3; ++i) add_couple(by_rolling[i], rolled(radius_ * unit_vector(i)));
     const auto turned = [&](const Section::Change& a, const Section::Change& b) {
-      return sections_change(by_rotation, by_rolling, a, b);
+      return sections_change(by_rotation, by_twirl, by_rolling, a, b);
     };
     Response by_foot_a, by_foot;
     if constexpr (Feet::kTwo) by_foot_a = moved(da_, a_.turn);
@@ -282,7 +287,8 @@ class FourSurfaces {
 
   /// To a force that changes by dg, and m by dm.
   Response responds(const FourVectors& dg, const FourVectors& dm) const {
-    return {dg, cross(a_.over, dm), cross(b_.over, dm), dot(a_.over, dm), dot(b_.over, dm)};
+    const FourVectors on_b = q_ * dm;
+    return {dg, cross(a_.over, dm), cross(b_.over, on_b), dot(a_.over, dm), dot(b_.over, on_b)};
   }
 
   /// What resists rolling, C and its derivatives.
@@ -322,7 +328,7 @@ class FourSurfaces {
     const Lanes nearer = -1.0 * dot(n_, dx);
     const FourVectors dn = over_d_ * (dx + nearer * n_);
     // Slip: d(xi + alpha n x xi + u)
-    FourVectors dr = slid_by - cross(rotation_, lever_ * dx) +
+    FourVectors dr = slid_by - cross(sweeping_, lever_ * dx) +
                      (carried_ * dot(dn, rotation_)) * cross(n_, remembered_) + alpha_ * cross(dn, remembered_);
     if (on_roller_) dr -= cross(axis_, turned_ * dx);
     const FourVectors slid = dr - dot(n_, dr) * n_ - away_ * dn - dot(r_, dn) * n_;
@@ -349,10 +355,13 @@ class FourSurfaces {
     return out;
   }
 
+  /// To a memory of friction that turns about n by so much more, and to nothing else.
+  Response twirled() const { return slipped(carried_ * cross(n_, remembered_)); }
+
   /// To sections that change: they turn, and pass on their couples another way.
-  Response sections_change(const Response* by_rotation, const Response* by_rolling, const Section::Change& a,
-                           const Section::Change& b) const {
-    const FourVectors phi = a.rotation + b.rotation, m_a = m_ - couple_, m_b = m_ + couple_;
+  Response sections_change(const Response* by_rotation, const Response& by_twirl, const Response* by_rolling,
+                           const Section::Change& a, const Section::Change& b) const {
+    const FourVectors phi = a.rotation + q_ * b.rotation, m_a = m_ - couple_, m_b = q_ * m_ + couple_;
     Response out;
     out.on_a = cross(a.over, m_a);
     out.on_b = cross(b.over, m_b);
@@ -367,6 +376,8 @@ class FourSurfaces {
     out.add(phi.x, by_rotation[0]);
     out.add(phi.y, by_rotation[1]);
     out.add(phi.z, by_rotation[2]);
+    // phi turns that memory with q phi_b, but it turns with phi_b.
+    if (uneven_) out.add(dot(n_, b.rotation - q_ * b.rotation), by_twirl);
     return out;
   }
 
@@ -381,10 +392,11 @@ class FourSurfaces {
   Feet feet_;
   Section a_, b_;
   FourVectors bend_b_, bend_turn_b_;
-  Lanes spin_slope_b_, lever_;
+  Lanes spin_slope_b_, lever_, q_;
   FourVectors x_, n_, da_, db_, axis_, r_, remembered_;
   Lanes over_d_, turned_;
   FourVectors rotation_;  // phi_a + phi_b
+  FourVectors sweeping_;  // phi_a + q phi_b
   Lanes alpha_, away_;    // n.r
   FrictionTangent<FourVectors> friction_;
   Lanes turning_, stiffness_;
@@ -393,20 +405,22 @@ class FourSurfaces {
   FourVectors rho_, rolled_, unit_, couple_ = {}, couple_pressing_;
   Lanes couple_across_, couple_along_;
   double radius_ = 0.0, carried_ = 0.0;
+  bool uneven_;  // all four, or none
   bool on_roller_, resists_ = false;
 };
 
-/// phi_a + phi_b
-Vec3 section_rotation(const ContactPoint& contact, const SurfacePoint& surface) {
-  return rotation(surface.along_a, surface.turn_a, surface.spin_a) + rotation(contact.db, contact.turn, surface.spin_b);
+/// phi_a + q phi_b
+Vec3 section_rotation(const ContactPoint& contact, const SurfacePoint& surface, double q) {
+  return rotation(surface.along_a, surface.turn_a, surface.spin_a) +
+         q * rotation(contact.db, contact.turn, surface.spin_b);
 }
 
 using Contacts4 = std::array<const ContactPoint*, 4>;
 
 /// Calls `fill(law, four contacts, their surfaces)` for the next four active ones from `from` on; the last one fills up
 /// what is left.
-template <typename Fill>
-std::size_t linearise_next(const Friction& friction, const std::vector<ContactPoint>& contacts,
+template <typename FrictionOf, typename Fill>
+std::size_t linearise_next(const FrictionOf& friction, const std::vector<ContactPoint>& contacts,
                            const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models,
                            Fill fill) {
   Contacts4 four;
@@ -414,6 +428,7 @@ std::size_t linearise_next(const Friction& friction, const std::vector<ContactPo
   models.count = 0;
   for (; from < contacts.size() && models.count < 4; ++from) {
     if (!contacts[from].active()) continue;
+    if (models.count > 0 && contacts[from].pair != four[0]->pair) break;
     const auto i = static_cast<std::size_t>(models.count++);
     models.contact[i] = from;
     four[i] = &contacts[from];
@@ -424,7 +439,7 @@ std::size_t linearise_next(const Friction& friction, const std::vector<ContactPo
     four[i] = four[i - 1];
     points[i] = points[i - 1];
   }
-  friction.visit([&](const auto& law) { fill(law, four, points); });
+  friction(four[0]->pair).visit([&](const auto& law) { fill(law, four, points); });
   return from;
 }
 
@@ -448,23 +463,23 @@ double rolling_loss(const ContactPoint& contact, const SurfacePoint& surface) {
 }
 
 Vec3 rolling(const ContactPoint& contact, const SurfacePoint& surface) {
-  return -surface.lever * section_rotation(contact, surface).cross(contact.x);
+  return -surface.lever * section_rotation(contact, surface, surface.uneven).cross(contact.x);
 }
 
 Vec3 surface_shift(const ContactPoint& contact, const SurfacePoint& surface) {
-  const Vec3 phi = section_rotation(contact, surface);
+  const Vec3 phi = section_rotation(contact, surface, 1.0);
   return carried(contact) * contact.n.dot(phi) * contact.n.cross(contact.memory.slip) -
-         surface.lever * phi.cross(contact.x);
+         surface.lever * section_rotation(contact, surface, surface.uneven).cross(contact.x);
 }
 
 void add_shifts(std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces) {
   visit_active(contacts, [&](const std::array<ContactPoint*, 4>& four, std::size_t) {
     const Four<ContactPoint> of(four);
     const Points4 points = points_of(four, contacts, surfaces);
-    const FourVectors phi = Section::of_a(points).rotation() + Section::of_b(of, points).rotation();
+    const FourVectors of_a = Section::of_a(points).rotation(), of_b = Section::of_b(of, points).rotation();
     const FourVectors n = of(&ContactPoint::n), remembered = remembered_by(four);
-    const Parted shifts((carried(*four[0]) * dot(n, phi)) * cross(n, remembered) -
-                        cross(phi, lever_of(points) * of(&ContactPoint::x)));
+    const Parted shifts((carried(*four[0]) * dot(n, of_a + of_b)) * cross(n, remembered) -
+                        cross(of_a + uneven_of(points) * of_b, lever_of(points) * of(&ContactPoint::x)));
     Vec3 slips[4];  // all of them, before any is written: the last contact may stand in several lanes
     for (std::size_t i = 0; i < 4; ++i) slips[i] = four[i]->slip + to_vec3(shifts[i]);
     for (std::size_t i = 0; i < 4; ++i) four[i]->slip = slips[i];
@@ -488,7 +503,7 @@ void set_couples(const RollingResistance& rolling, const std::vector<ContactPoin
                   whole = -rolling_coefficient(rolling, pressure) * rolling.radius;
       couple = (whole * of(&ContactPoint::weight) * pressure) * zeta;
     }
-    const FourVectors &a = section_a.over, &b = section_b.over, m_a = m - couple, m_b = m + couple;
+    const FourVectors &a = section_a.over, &b = section_b.over, m_a = m - couple, m_b = uneven_of(points) * m + couple;
     const bool on_roller = four[0]->on_roller();
     const Parted on_a(cross(a, m_a), -1.0 * dot(a, m_a)),
         on_b(cross(b, m_b), -1.0 * dot(on_roller ? axis : b, on_roller ? couple : m_b));
@@ -513,14 +528,15 @@ void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const
   if (!contact.on_roller()) add(contact.b0, contact.beta + 3, surface.s_b, on_b);
 }
 
-std::size_t linearise(const NormalLaw& normal, const Friction& friction, const RollingResistance& rolling, double dt,
+std::size_t linearise(const ContactLaws& laws, const RollingResistance& rolling, double dt,
                       const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
                       const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models) {
+  const auto friction = [&](int pair) -> const Friction& { return laws[pair].friction; };
   return linearise_next(friction, contacts, surfaces, from, models,
                         [&](const auto& law, const Contacts4& four, const Points4& points) {
                           const Four<const ContactPoint> of(four);
                           const OneFoot foot{of(&ContactPoint::inverse_g)};
-                          const FourPressures pressures(normal, how, of);
+                          const FourPressures pressures(laws[four[0]->pair].normal, how, of);
                           FourSurfaces(pressures, law, rolling, dt, how, four, points, foot).model(models.model);
                         });
 }
@@ -529,7 +545,8 @@ std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const Rol
                       const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
                       const std::vector<SurfacePoint>& surfaces, const std::vector<EdgeFeet>& feet, std::size_t from,
                       SurfaceModels& models) {
-  return linearise_next(friction, contacts, surfaces, from, models,
+  const auto friction_of = [&](int) -> const Friction& { return friction; };
+  return linearise_next(friction_of, contacts, surfaces, from, models,
                         [&](const auto& law, const Contacts4& four, const Points4& points) {
                           FourPressures pressures;
                           TwoFeet both;

@@ -89,7 +89,7 @@ std::string strain_warning(double stretch, const Material& material) {
 
 /// Warns of edges that are too long for the bends of a tied rope. Knots of solid rods were the same with edges of 2 h.
 std::string mesh_warning(double edge, const Material& material) {
-  const double h = material.radius;
+  const double h = thickest(material);
   if (edge <= kCoarsestEdge * h || is_solid(material)) return "";
   return "edges of " + short_number(edge / h) +
          " radii are too long for the bends of a tied knot, in which the rod turns by " +
@@ -116,12 +116,13 @@ double tension_at(const Material& material, double strain) {
   return std::visit([&](const auto& law) { return law.respond(edge).tension; }, stretching_law_of(material));
 }
 
-void check_stretch(double preload, const Material& material) {
+/// `section`: of the method, whose material this is.
+void check_stretch(double preload, const Material& material, const std::string& section) {
   const double largest = tension_at(material, kLargestStrain);
   if (preload <= largest) return;
   throw InvalidInput("specimen.preload", short_number(preload),
-                     "at most " + short_number(largest) + " N for a rod with material.stretching_stiffness " +
-                         short_number(material.stretching_stiffness) + " N and material.stretching_law: " +
+                     "at most " + short_number(largest) + " N for a rod with " + section + ".stretching_stiffness " +
+                         short_number(material.stretching_stiffness) + " N and " + section + ".stretching_law: " +
                          StretchingRegistry::entry(material.stretching.law).name + ", which stretches it to " +
                          short_number(1.0 + kLargestStrain) + " times its length: a larger one cannot be tied");
 }
@@ -137,7 +138,8 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
                            " m and friction_coefficient " + short_number(material.friction_coefficient) +
                            ": a smaller one does not move the coils, which close only at " +
                            short_number(closing_preload(material)) + " N");
-  check_stretch(preload, material);
+  check_stretch(preload, material, "material");
+  if (material.other) check_stretch(preload, *material.other, "other_material");
   const double exposed = exposed_by(strain_under(material, preload), 1.0 / drawn_coil(specimen), material);
   if (exposed >= 1.0)
     throw InvalidInput(

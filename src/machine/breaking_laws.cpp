@@ -15,10 +15,10 @@ FibreBreaking FibreBreaking::of(const Material& material) {
 
 BreakingLaws breaking_law_of(const Material& material) { return BreakingRegistry::of(material.breaking.law, material); }
 
-bool can_part(const Material& material) { return material.breaking_force.has_value(); }
+bool can_part(const Material& material) { return weakest(material).has_value(); }
 
 bool parts_by_bending(const Material& material) {
-  return can_part(material) && std::visit([](const auto& law) { return law.kBends; }, breaking_law_of(material));
+  return material.breaking_force && std::visit([](const auto& law) { return law.kBends; }, breaking_law_of(material));
 }
 
 }  // namespace knot_utm

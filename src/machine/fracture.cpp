@@ -10,7 +10,7 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kTouching = 2.2;   // [h]
+constexpr double kTouching = 1.1;   // [sum of both radii]
 constexpr double kNeighbour = 5.0;  // along the rod [h]
 
 bool turns(const RodProperties& rod, Eigen::Index node) {
@@ -29,7 +29,7 @@ Vec3 turn(const Points& position, Eigen::Index node) {
 /// kappa of a node: that of the turn within h to either side of it. Nodes turn evenly along their Voronoi lengths.
 double curvature(const RodProperties& rod, const Points& position, Eigen::Index node) {
   if (!turns(rod, node)) return 0.0;
-  const double h = rod.material.radius;
+  const double h = rod.material_at(node).radius;
   const auto half = [&](Eigen::Index i) { return 0.5 * rod.voronoi_length[i]; };
   Vec3 sum = turn(position, node) * std::min(1.0, h / half(node));
   for (const int step : {-1, 1}) {
@@ -43,12 +43,18 @@ double curvature(const RodProperties& rod, const Points& position, Eigen::Index 
   return sum.norm() / (2.0 * h);
 }
 
-/// Calls use(j, LoadedEdge) for all edges that are not cut.
+/// Edges of whole ropes of one material.
+struct EdgesOfRopes {
+  Eigen::Index begin, end;
+};
+
+/// Calls use(j, LoadedEdge) for those that are not cut.
 template <class Law, class Use>
-void each_edge(const Law& law, const RodProperties& rod, const Points& position, const Use& use) {
-  const double h = rod.material.radius;
+void each_edge(const Law& law, const RodProperties& rod, const Points& position, const EdgesOfRopes& edges,
+               const Use& use) {
+  const double h = rod.material_at(edges.begin).radius;
   double bend_before = 0.0;
-  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+  for (Eigen::Index j = edges.begin; j < edges.end; ++j) {
     const double bend = law.kBends ? h * curvature(rod, position, j + 1) : 0.0;
     const StretchedEdge stretched = stretched_edge(rod, position, j);
     if (!rod.is_cut(j))
@@ -58,23 +64,25 @@ void each_edge(const Law& law, const RodProperties& rod, const Points& position,
 }
 
 template <class Law>
-Exposure worst_edge(const Law& law, const RodProperties& rod, const Points& position) {
+Exposure worst_edge(const Law& law, const RodProperties& rod, const Points& position, const EdgesOfRopes& edges) {
   Exposure out;
-  each_edge(law, rod, position, [&](Eigen::Index j, const LoadedEdge& edge) {
+  each_edge(law, rod, position, edges, [&](Eigen::Index j, const LoadedEdge& edge) {
     const double fraction = law.fraction(edge);
     if (fraction > out.fraction) out = {fraction, static_cast<int>(j), Law::kLimit, law.limited(edge)};
   });
   return out;
 }
 
-Exposure exposure(const TensionBreaking& law, const RodProperties& rod, const Points& position) {
-  return worst_edge(law, rod, position);
+Exposure exposure(const TensionBreaking& law, const RodProperties& rod, const Points& position,
+                  const EdgesOfRopes& edges) {
+  return worst_edge(law, rod, position, edges);
 }
 
-Exposure exposure(const FibreBreaking& law, const RodProperties& rod, const Points& position) {
-  Exposure out = worst_edge(law, rod, position);
+Exposure exposure(const FibreBreaking& law, const RodProperties& rod, const Points& position,
+                  const EdgesOfRopes& edges) {
+  Exposure out = worst_edge(law, rod, position, edges);
   WeakestLink::Sum sum(law.link);
-  each_edge(law, rod, position,
+  each_edge(law, rod, position, edges,
             [&](Eigen::Index j, const LoadedEdge& edge) { sum.add(law.fraction(edge), rod.rest_length[j]); });
   out.fraction = sum.fraction();
   return out;
@@ -82,12 +90,28 @@ Exposure exposure(const FibreBreaking& law, const RodProperties& rod, const Poin
 
 }  // namespace
 
-Exposure most_exposed(const BreakingLaws& law, const RodProperties& rod, const Points& position) {
-  return std::visit([&](const auto& of) { return exposure(of, rod, position); }, law);
+RopeStrengths::RopeStrengths(const Material& material, const RodProperties& rod) {
+  const Eigen::Index others = std::min(rod.first_of_other(), rod.edges());
+  if (material.breaking_force) ropes_.push_back({breaking_law_of(material), 0, others});
+  if (material.other && material.other->breaking_force)
+    ropes_.push_back({breaking_law_of(*material.other), others, rod.edges()});
+}
+
+Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& position) const {
+  Exposure out;
+  for (const Ropes& ropes : ropes_) {
+    const Exposure found = std::visit(
+        [&](const auto& law) {
+          return exposure(law, rod, position, {ropes.begin, ropes.end});
+        },
+        ropes.law);
+    if (found.fraction > out.fraction || out.edge < 0) out = found;
+  }
+  return out;
 }
 
 Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position) {
-  return most_exposed(breaking_law_of(material), rod, position);
+  return RopeStrengths(material, rod).most_exposed(rod, position);
 }
 
 double transit_time(const RodMaterial& material, double length) {
@@ -98,10 +122,10 @@ double transit_time(const RodMaterial& material, double length) {
 bool lies_in_knot(const RodProperties& rod, const Points& position, int edge) {
   const Eigen::VectorXd arclength = rod.arclength();
   const auto middle = [&](Eigen::Index j) -> Vec3 { return 0.5 * (position.col(j) + position.col(j + 1)); };
-  const double h = rod.material.radius;
+  const double h = rod.material_at(edge).radius;
   for (Eigen::Index j = 0; j < rod.edges(); ++j) {
     if (rod.is_cut(j) || std::abs(arclength[j] - arclength[edge]) <= kNeighbour * h) continue;
-    const double reach = kTouching * h + 0.5 * rod.rest_length[j];
+    const double reach = kTouching * (h + rod.material_at(j).radius) + 0.5 * rod.rest_length[j];
     if ((middle(j) - middle(edge)).squaredNorm() < reach * reach) return true;
   }
   return false;

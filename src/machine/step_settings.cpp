@@ -1,5 +1,7 @@
 #include "knot_utm/machine/step_settings.hpp"
 
+#include <algorithm>
+
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
@@ -28,8 +30,21 @@ NormalLaw normal_law(const Material& material, double tolerance) {
   return {default_contact_stiffness(material), tolerance, kStiffeningDepth * material.radius};
 }
 
+double pair_friction(const Material& material, const PhysicsOptions& physics) {
+  const double other = material.other->friction_coefficient;
+  return physics.pair_friction.value_or(std::min(material.friction_coefficient, other));
+}
+
+NormalLaw normal_law_between(const Material& a, const Material& b, double tolerance) {
+  const NormalLaw of_a = normal_law(a, tolerance), of_b = normal_law(b, tolerance);
+  const double softer = 2.0 * of_a.stiffness * of_b.stiffness / (of_a.stiffness + of_b.stiffness);
+  return {softer, tolerance, 0.5 * (of_a.stiffening + of_b.stiffening)};
+}
+
 bool friction_rolls(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics) {
-  const bool rubs = material.friction_coefficient > 0.0 || machine.roller_friction > 0.0;
+  bool rubs = material.friction_coefficient > 0.0 || machine.roller_friction > 0.0;
+  if (material.other)
+    rubs = rubs || material.other->friction_coefficient > 0.0 || pair_friction(material, physics) > 0.0;
   return rubs && friction_couple(material, physics) > 0.0;
 }
 
@@ -47,17 +62,31 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
     out.rolling = {
         material.rolling_resistance, h, tolerance.presliding * h,
         RollingResistance::growth_of_hysteresis(material.rolling_hysteresis, h, material.stretching_stiffness)};
+  if (material.other) {
+    const Material& other = *material.other;
+    const double h_other = other.radius, middle = 0.5 * (h + h_other);
+    const auto laws = [&](const NormalLaw& normal, double coefficient, double radius) {
+      return PairLaws{normal, Friction::of(physics.friction, {coefficient, radius, tolerance.presliding})};
+    };
+    const NormalLaw own = normal_law(other, tolerance.contact_tolerance * h_other),
+                    between = normal_law_between(material, other, tolerance.contact_tolerance * middle);
+    out.others = {laws(between, pair_friction(material, physics), middle),
+                  laws(own, other.friction_coefficient, h_other), laws(own, machine.roller_friction, h_other)};
+  }
   // A slow test; and a rod that is free to turn is then the same with twist and without. But where friction rolls
   // strands their spin can jump as they let go, and without inertia no step would be short enough.
   out.spin_inertia = friction_rolls(material, machine, physics);
   out.residual = tolerance.residual * material.bending_stiffness / (h * h);
+  if (material.other)
+    out.residual = std::min(out.residual, tolerance.residual * specimen_scales(*material.other).force);
   out.residual_from_step = kFullResidual * tolerance.longest_step;
   out.residual_of_tension = kResidualOfTension;
   out.residual_at_little_tension = kResidualAtLittleTension;
-  out.newton_cap = kNewtonCap * h;
-  out.motion_limit = kMotionLimit * h;
-  out.overlap_limit = kOverlapLimit * h;
-  out.candidate_margin = kCandidateMargin * h;
+  const double thin = thinnest(material);
+  out.newton_cap = kNewtonCap * thin;
+  out.motion_limit = kMotionLimit * thin;
+  out.overlap_limit = kOverlapLimit * thin;
+  out.candidate_margin = kCandidateMargin * thin;
   out.max_iterations = kMostIterations;
   return out;
 }

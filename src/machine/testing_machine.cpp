@@ -56,12 +56,12 @@ struct TestingMachine::Impl {
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
-  BreakingLaws breaking;              // of a rod that can part
-  std::optional<BreakWatch> breaks;   // where the rod can part
-  bool refused = false;               // by it, the step that was tried last, though it was solved
-  std::unique_ptr<Tying> tying;       // where it can be tied
-  std::optional<KnotWatch> watch;     // where it is knotted
-  std::optional<FreeEnds> free_ends;  // where its file says which they are
+  std::optional<RopeStrengths> strengths;  // of a rod that can part
+  std::optional<BreakWatch> breaks;        // where the rod can part
+  bool refused = false;                    // by it, the step that was tried last, though it was solved
+  std::unique_ptr<Tying> tying;            // where it can be tied
+  std::optional<KnotWatch> watch;          // where it is knotted
+  std::optional<FreeEnds> free_ends;       // where its file says which they are
   Boundary boundary;
 
   double time = 0.0;
@@ -102,7 +102,8 @@ struct TestingMachine::Impl {
     RodState state;
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
-    const RodProperties rod = make_rod(material, rest, centreline.cuts);
+    const RodProperties rod = material.other ? make_rod(material, *material.other, rest, centreline.cuts)
+                                             : make_rod(material, rest, centreline.cuts);
     const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
     if (takes_set || bends_on_frames(material)) remember_bends(rod, &state);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
@@ -110,13 +111,14 @@ struct TestingMachine::Impl {
     // A weight is that of the rod's own mass.
     gravity = settings.gravity = physics.gravity / inertia_factor(material_, physics, slack_of(specimen, centreline));
     stepper = TimeStep::make(rod, state, settings);
-    const double bending_time = specimen_scales(material).own_time;
+    double bending_time = specimen_scales(material).own_time;
+    if (material.other) bending_time = std::min(bending_time, specimen_scales(*material.other).own_time);
     StepControl::Options options;
     options.longest = options.first = tolerances(physics, specimen, material).longest_step;
     // A drawn shape springs apart at once.
     if (!knot_of(specimen).about().straight) options.first = std::min(bending_time, options.longest);
-    options.motion = kAimedMotion * material.radius;
-    options.slip = kAimedSlip * material.radius;
+    options.motion = kAimedMotion * thinnest(material);
+    options.slip = kAimedSlip * thinnest(material);
     options.shortest = std::min(options.shortest, kShortestStep * bending_time);
     control = StepControl(options);
     tying = make_tying(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
@@ -203,7 +205,9 @@ struct TestingMachine::Impl {
   double drag() const {
     const KnotDescription& knot = knot_of(specimen).about();
     const bool drawn_knot = knot.may_hold_a_knot() && !knot.loop;
-    return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material, knot.loop));
+    const auto to_rest = [&](const RodMaterial& rope) { return drag_to_rest(rope, knot.loop); };
+    const double usual = material.other ? std::max(to_rest(material), to_rest(*material.other)) : to_rest(material);
+    return physics.drag.value_or(pulled && drawn_knot ? 0.0 : usual);
   }
 
   void enter_step(const Command& command) {
@@ -226,15 +230,15 @@ struct TestingMachine::Impl {
   bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
   void watch_for_break(double shortest) {
-    breaking = breaking_law_of(material);
-    breaks.emplace(shortest, most_exposed(breaking, stepper->rod(), stepper->state().position));
+    strengths.emplace(material, stepper->rod());
+    breaks.emplace(shortest, strengths->most_exposed(stepper->rod(), stepper->state().position));
   }
 
   /// Why a step that was solved is none that the rod and the machine make. Empty: it is.
   std::string refuse(const Points& end, double dt) const {
     if (parted()) return "";
     if (breaks)
-      if (std::string why = breaks->refuse(most_exposed(breaking, stepper->rod(), end), dt); !why.empty()) return why;
+      if (std::string why = breaks->refuse(strengths->most_exposed(stepper->rod(), end), dt); !why.empty()) return why;
     const double least = kLeastPassed * material.bending_stiffness / (material.radius * material.radius);
     const bool passed =
         frame.passed_balance(grip_tried - grip, grip_tried, travel_tried, grips.tried_force_upper(*stepper),
@@ -245,7 +249,7 @@ struct TestingMachine::Impl {
   /// After an accepted step: does the rod part? The next step ends where at this pace it will.
   void judge_break(double dt) {
     if (!breaks || parted()) return;
-    const Exposure now = most_exposed(breaking, stepper->rod(), stepper->state().position);
+    const Exposure now = strengths->most_exposed(stepper->rod(), stepper->state().position);
     if (!breaks->judge(now, dt)) return control.at_most(breaks->next());
     message = not_by_tension(now, grips.force_upper(*stepper), grips.force_lower(*stepper));
     if (message.empty()) return part(now);
@@ -267,8 +271,9 @@ struct TestingMachine::Impl {
     status = BenchStatus::kBroken;
     message = text.str();
     stepper->part(edge);
-    recoil_end = time + kRecoilTransits * transit_time(material, grips.end_to_end(grip));
-    control.at_most(transit_time(material, stepper->rod().rest_length[edge]));
+    const RodMaterial& rope = stepper->rod().material_at(edge);
+    recoil_end = time + kRecoilTransits * transit_time(rope, grips.end_to_end(grip));
+    control.at_most(transit_time(rope, stepper->rod().rest_length[edge]));
     control.halt();
   }
 
@@ -324,7 +329,7 @@ struct TestingMachine::Impl {
     if (tying) tying->read(s);
     if (free_ends && knows_contacts()) s.tail_length = free_ends->lengths(stepper->readings().normal_forces());
     const ContactReading contact = stepper->readings().contact();
-    s.max_penetration = contact.largest_overlap / material.radius;
+    s.max_penetration = contact.largest_overlap / thinnest(material);
     s.normal_force = contact.normal_force;
     s.contacts = contact.touching;
     s.fastest_node = std::sqrt(stepper->state().velocity.colwise().squaredNorm().maxCoeff());

@@ -90,8 +90,8 @@ YAML::Node named_map(YAML::Node map, const fs::path& file) {
   return map;
 }
 
-std::string material_name(const YAML::Node& method) {
-  const YAML::Node node = method["material"];
+std::string material_name(const YAML::Node& method, const std::string& key) {
+  const YAML::Node node = method[key];
   return node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
 }
 

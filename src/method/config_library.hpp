@@ -42,8 +42,8 @@ YAML::Node read_material_file(const std::filesystem::path& file, const YAML::Nod
 /// The map of a file, with the file's name added, so that it can be put into the method.
 YAML::Node named_map(YAML::Node map, const std::filesystem::path& file);
 
-/// The name of the method's material; empty where the method gives none, or a map.
-std::string material_name(const YAML::Node& method);
+/// The name of the method's `material`, or `other_material`; empty where the method gives none, or a map.
+std::string material_name(const YAML::Node& method, const std::string& key = "material");
 
 /// The name of the load cell that `auto`, or a missing entry, stands for: that of the material. Empty where the
 /// material names no load cell.

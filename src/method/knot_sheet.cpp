@@ -46,7 +46,7 @@ Centreline centreline_of(const Method& method) {
 Centreline shown_centreline(Method& method) {
   Centreline tested = centreline_of(method);
   if (!method.specimen.drawing) return tested;
-  const double h = method.material.radius;
+  const double h = thickest(method.material);
   method.specimen.tail = kShownTail * h;
   method.specimen.edge_length = kShownEdge * h;
   method.specimen.end_to_end = least_end_to_end(*method.specimen.drawing, h);
@@ -96,7 +96,7 @@ std::string length_at(double length, const Vec3& place, const Vec3& origin, doub
 
 std::string facts_text(const Method& method, const Supports& supports, const KnotFacts& facts) {
   const KnotDrawing* drawing = method.specimen.drawing.get();
-  const double h = method.material.radius;
+  const double h = thickest(method.material);
   Vec3 origin = Vec3::Zero();
   if (drawing) origin.z() = height_of_origin(*drawing, {h, method.specimen.end_to_end, 0.0, 0.0});
   std::string out = "title: " + (drawing ? drawing->title : knot_of(method.specimen).about().title) + "\n";
@@ -125,9 +125,9 @@ KnotSheet knot_sheet(const std::string& knot, const std::string& option) {
   const KnotDrawing* drawing = method.specimen.drawing.get();
   KnotSheet out;
   out.name = drawing ? std::filesystem::path(drawing->name).stem().string() : knot_of(method.specimen).about().name;
-  out.facts = facts_text(method, supports, facts_of(shown, method.material.radius));
+  out.facts = facts_text(method, supports, facts_of(shown, thickest(method.material)));
   out.picture = knot_svg({drawing ? drawing->title : knot_of(method.specimen).about().title, shown,
-                          method.material.radius, supports.posts, names_of_ends(method)});
+                          thickest(method.material), supports.posts, names_of_ends(method)});
   return out;
 }
 

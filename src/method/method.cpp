@@ -35,22 +35,22 @@ using fields::Reader;
 
 constexpr double kCoupleOfFirstRelease = 0.0;  // friction acted on the centrelines then
 
-Material read_material(const YAML::Node& node, const YAML::Node& method, const std::string& file,
-                       const ConfigLibrary& library) {
+/// `key`: that of the method.
+Material read_material(const std::string& key, const YAML::Node& node, const YAML::Node& method,
+                       const std::string& file, const ConfigLibrary& library) {
   Material material;
   if (!node.IsDefined() || node.IsNull()) {
-    throw InvalidInput::missing("material", library.allowed("materials")).in_file(file);
+    throw InvalidInput::missing(key, library.allowed("materials")).in_file(file);
   }
-  if (!node.IsScalar() && !node.IsMap())
-    throw InvalidInput(file, "material", as_given(node), library.allowed("materials"));
+  if (!node.IsScalar() && !node.IsMap()) throw InvalidInput(file, key, as_given(node), library.allowed("materials"));
   if (node.IsScalar()) {
-    const fs::path path = library.find("materials", node.Scalar(), "material");
+    const fs::path path = library.find("materials", node.Scalar(), key);
     Reader reader(read_material_file(path, method), path.string(), "", "a material");
     fields::material(reader, material);
     reader.finish();
     if (material.name.empty()) material.name = path.stem().string();
   } else {
-    Reader reader(node, file, "material");
+    Reader reader(node, file, key);
     fields::material(reader, material);
     reader.finish();
     if (material.name.empty()) material.name = "own";
@@ -186,7 +186,10 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   Reader top(root, file, "");
   top.note_automatic(automatic);
   fields::compatibility(top, method.compatibility);
-  method.material = read_material(top.take("material"), root, file, library);
+  method.material = read_material("material", top.take("material"), root, file, library);
+  if (const YAML::Node other = top.take("other_material"); other.IsDefined())
+    method.material.other =
+        std::make_shared<const Material>(read_material("other_material", other, root, file, library));
   Reader specimen = top.in("specimen");
   YAML::Node knot = specimen.take("knot");
   method.specimen.drawing = read_drawing(knot, library);
@@ -268,6 +271,8 @@ Method parse_method(const std::string& text, const std::string& file, const std:
       method.physics.twist = TwistMode::kOn;  // of a straight rod, which has none by itself
       noted.emplace_back("physics.twist");
     }
+    if (method.material.other && !method.material.other->friction_couple)
+      change_other(method.material, [&](Material& o) { o.friction_couple = method.material.friction_couple; });
     drop_overruled_keys(parse_yaml(text, file), overrides, method);
     const Material& material = method.material;
     if (!method.specimen.preload && knot_of(method.specimen).has("preload")) {

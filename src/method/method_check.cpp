@@ -20,6 +20,7 @@
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "method_reader.hpp"
 #include "specimens_section.hpp"
 
@@ -63,16 +64,52 @@ void check_law(const LawOptions<Number>& given, const std::string& section, cons
 }
 
 /// A breaking law needs the strength of a straight rod, and a specimen is one of many only where they scatter.
-void check_breaking(const Material& material) {
-  check_law<BreakingRegistry>(material.breaking, "material.breaking.", "law");
+/// `section`: that of the material, with a dot.
+void check_breaking(const Material& material, const std::string& section) {
+  check_law<BreakingRegistry>(material.breaking, section + "breaking.", "law");
   const std::string law = BreakingRegistry::entry(material.breaking.law).name;
   if (law != TensionBreaking::kName && !material.breaking_force)
-    throw InvalidInput::missing("material.breaking_force",
-                                "a number of newtons, which material.breaking.law: " + law + " needs");
+    throw InvalidInput::missing(section + "breaking_force",
+                                "a number of newtons, which " + section + "breaking.law: " + law + " needs");
   const bool scatters = std::isfinite(material.breaking.number(FibreBreaking::kWeibullModulus));
   for (const LawKey& key : {FibreBreaking::kTestedLength, FibreBreaking::kWeakerShare})
-    has_effect(scatters, ("material.breaking." + std::string(key.name)).c_str(), material.breaking.number(key),
-               key.plain, "with material.breaking.weibull_modulus");
+    has_effect(scatters, (section + "breaking." + key.name).c_str(), material.breaking.number(key), key.plain,
+               "with " + section + "breaking.weibull_modulus");
+}
+
+/// The laws of a material have their keys, and no others.
+void check_laws(const Material& material, const std::string& section) {
+  check_law<StretchingRegistry>(material.stretching, section, "stretching_law");
+  check_law<BendingRegistry>(material.bending, section, "bending_law");
+  check_breaking(material, section);
+}
+
+/// What ropes of two materials have in common, as nothing in a time step tells them apart by it.
+void check_other_material(const Method& m) {
+  const bool several = m.specimen.drawing && m.specimen.drawing->strands.size() > 1;
+  has_effect(m.material.other != nullptr, "physics.friction.pair", m.physics.pair_friction.value_or(-1.0), -1.0,
+             "with other_material");
+  if (!m.material.other) return;
+  const Material &own = m.material, &other = *m.material.other;
+  has_effect(several, "other_material", other.name, std::string(),
+             "for a knot of two ropes or more, such as sheet_bend");
+  const auto same = [](const std::string& key, const std::string& of_other, const std::string& of_own) {
+    if (of_other != of_own) throw InvalidInput("other_material." + key, of_other, "that of material, " + of_own);
+  };
+  same("stretching_law", StretchingRegistry::entry(other.stretching.law).name,
+       StretchingRegistry::entry(own.stretching.law).name);
+  same("bending_law", BendingRegistry::entry(other.bending.law).name, BendingRegistry::entry(own.bending.law).name);
+  same("bending_set", format_number(other.bending_set), format_number(own.bending_set));
+  same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
+  for (const auto& [section, material] :
+       {std::pair<const char*, const Material*>{"material", &own}, {"other_material", &other}})
+    for (const auto& [key, value] :
+         {std::pair<const char*, double>{".rolling_resistance", material->rolling_resistance},
+          {".rolling_hysteresis", material->rolling_hysteresis}})
+      if (value != 0.0) reject(std::string(section) + key, value, "0 where there is an other_material");
+  if (m.physics.contact_law == ContactLaw::kEdge)
+    throw InvalidInput("physics.contact.law", "edge", "smooth where there is an other_material");
+  check_laws(other, "other_material.");
 }
 
 /// The keys of a specimen, each with its value as a message shows it.
@@ -128,14 +165,12 @@ void check_effects(const Method& m) {
   has_effect(is_solid(material), "material.rolling_hysteresis", material.rolling_hysteresis, 0.0,
              "in a solid rod, whose stretching_stiffness says how wide its contacts are");
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
-  check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
-  check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");
-  check_breaking(m.material);
+  check_laws(m.material, "material.");
 }
 
 void check_specimen(const Method& m) {
   const SpecimenOptions& s = m.specimen;
-  const double h = m.material.radius;
+  const double h = thickest(m.material);
   if (knot_of(s).about().knots > 0 && s.edge_length > 2.0 * h) {
     reject("specimen.edge_length", s.edge_length, "at most twice the radius, " + most_text(2.0 * h) + " m");
   }
@@ -144,7 +179,7 @@ void check_specimen(const Method& m) {
   if (m.machine.grips == GripKind::kRollers && !(m.machine.roller_diameter < apart))
     reject("machine.roller_diameter", m.machine.roller_diameter,
            "less than " + most_text(apart) + " m, specimen.end_to_end less the diameter of the rod");
-  const std::optional<double>& breaking = m.material.breaking_force;
+  const std::optional<double> breaking = weakest(m.material);
   if (s.to_be_tied && s.preload && breaking && *breaking <= *s.preload) {
     reject("material.breaking_force", *breaking,
            "more than specimen.preload, " + format_number(*s.preload) + " N, the force that ties the knots");
@@ -235,9 +270,9 @@ bool pulls_anything(const Method& m) {
 }
 
 void check_analysis(const Method& m) {
-  const bool has = m.specimen.to_be_tied && pulls_anything(m);
+  const bool has = m.specimen.to_be_tied && pulls_anything(m) && !m.material.other;
   has_effect(has, "analysis.margin", std::string(m.analysis.margin ? "true" : "false"), std::string("false"),
-             "with a program that ties the knots and pulls them");
+             "with a program that ties the knots and pulls them, and ropes of one material");
 }
 
 /// A page embeds its logo: larger than this it is a photograph [bytes].
@@ -256,6 +291,7 @@ void check_report(const Method& m) {
 }  // namespace
 
 void check_method(const Method& method) {
+  check_other_material(method);
   check_specimen(method);
   check_machine(method);
   check_bending(method);

@@ -60,7 +60,7 @@ double capacity(const Material& material, const Method* known) {
 }  // namespace
 
 Defaults defaults(const SpecimenOptions& specimen, const Material& material, const Method* known) {
-  const double h = material.radius, r = h / kPaperRadius;
+  const double h = thickest(material), r = h / kPaperRadius;
   Defaults out;
   out.scale = r;
   const Knot& knot = knot_of(specimen);

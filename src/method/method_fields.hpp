@@ -128,6 +128,7 @@ inline void physics(Fields& f, PhysicsOptions& o) {
     friction.choice("law", o.friction.law, kFrictionLawNames);
     friction.choice("at", o.friction_at, std::array{"surface", "centreline"});
     law_keys<FrictionRegistry>(friction, o.friction);
+    friction.optional_number("pair", o.pair_friction, Range{0.0, 5.0, "-"}, "smaller");
   });
   f.section("contact", [&o](Fields& contact) {
     contact.choice("law", o.contact_law, std::array{"smooth", "edge"});
@@ -146,6 +147,10 @@ inline void before_program(Fields& top, Method& m) {
   compatibility(top, m.compatibility);
   top.section("specimen", [&](Fields& f) { specimen(f, m.specimen); });
   top.section("material", [&](Fields& f) { material(f, m.material); });
+  if (m.material.other || top.lists_all()) {
+    Material other = m.material.other ? *m.material.other : Material();
+    top.section("other_material", [&](Fields& f) { material(f, other); });
+  }
   top.section("machine", [&](Fields& f) {
     machine(f, m.machine);
     f.section("load_cell", [&](Fields& cell) { load_cell(cell, m.machine.load_cell); });

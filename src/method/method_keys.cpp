@@ -129,6 +129,7 @@ constexpr Label kLabels[] = {
     {"machine.load_cell.overload", "Stop of the cell"},
     {"ends.break_at_fraction_of_peak", "Break at no more than"},
     {"physics.friction.at", "Friction acts at the"},
+    {"physics.friction.pair", "Friction of two materials"},
     {"physics.inertia", "Mass that is accelerated"},
     {"physics.max_step", "Longest step"},
 };
@@ -147,7 +148,7 @@ bool is_numbered(const std::string& key) {
 std::string words_of(const std::string& key) {
   std::string words = key.substr(key.rfind('.') + 1);
   std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
+  return key.rfind("other_material.", 0) == 0 ? words + " of the other ropes" : words;
 }
 
 }  // namespace

@@ -73,11 +73,13 @@ std::vector<Override> in_order(const std::vector<std::string>& overrides, const 
   return sets;
 }
 
-/// Puts the files behind `material` and `machine.load_cell` in place of their names when a key inside is to change.
+/// Puts the files behind `material`, `other_material` and `machine.load_cell` in place of their names when a key inside
+/// is to change.
 void expand(YAML::Node root, const Override& set, const ConfigLibrary& library) {
-  if (set.path.size() >= 2 && set.path[0] == "material" && !material_name(root).empty()) {
-    const fs::path file = library.find("materials", material_name(root), "material");
-    root["material"] = named_map(read_material_file(file, root), file);
+  const std::string& key = set.path[0];
+  if (set.path.size() >= 2 && (key == "material" || key == "other_material") && !material_name(root, key).empty()) {
+    const fs::path file = library.find("materials", material_name(root, key), key);
+    root[key] = named_map(read_material_file(file, root), file);
   }
   if (set.path.size() >= 3 && set.path[0] == "machine" && set.path[1] == "load_cell") {
     const YAML::Node machine = root["machine"];

@@ -34,21 +34,32 @@ void keep_own_keys(LawOptions<Number>& law) {
   }
 }
 
+void keep_own_keys(Material& material) {
+  keep_own_keys<StretchingRegistry>(material.stretching);
+  keep_own_keys<BendingRegistry>(material.bending);
+  keep_own_keys<BreakingRegistry>(material.breaking);
+}
+
+void drop_keys_of_former_laws(const std::string& section, const Source& by, Material& material) {
+  drop_keys_of_former_law<StretchingRegistry>(section, "stretching_law", by, material.stretching);
+  drop_keys_of_former_law<BendingRegistry>(section, "bending_law", by, material.bending);
+  drop_keys_of_former_law<BreakingRegistry>(section + "breaking.", "law", by, material.breaking);
+}
+
 }  // namespace
 
 void keep_own_keys(Method& method) {
   keep_own_keys<FrictionRegistry>(method.physics.friction);
-  keep_own_keys<StretchingRegistry>(method.material.stretching);
-  keep_own_keys<BendingRegistry>(method.material.bending);
-  keep_own_keys<BreakingRegistry>(method.material.breaking);
+  keep_own_keys(method.material);
+  if (method.material.other) change_other(method.material, [](Material& other) { keep_own_keys(other); });
 }
 
 void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>& overrides, Method& method) {
   const Source by = [&](const std::string& key) { return given_by(key, given, overrides); };
   Material& material = method.material;
-  drop_keys_of_former_law<StretchingRegistry>("material.", "stretching_law", by, material.stretching);
-  drop_keys_of_former_law<BendingRegistry>("material.", "bending_law", by, material.bending);
-  drop_keys_of_former_law<BreakingRegistry>("material.breaking.", "law", by, material.breaking);
+  drop_keys_of_former_laws("material.", by, material);
+  if (material.other)
+    change_other(material, [&](Material& other) { drop_keys_of_former_laws("other_material.", by, other); });
   drop_keys_of_former_law<FrictionRegistry>("physics.friction.", "law", by, method.physics.friction);
   const GivenBy rolls = std::max({by("material.friction_couple"), by("physics.friction.at"), by("compatibility")});
   if (friction_couple(material, method.physics) > 0.0) return;

@@ -18,4 +18,12 @@ void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>
 /// A law has the plain values of its own keys that were not given. Keys of other laws, which have no effect, go.
 void keep_own_keys(Method& method);
 
+/// Replaces the material of the other ropes by one that `change` has changed.
+template <class Change>
+void change_other(Material& material, const Change& change) {
+  Material other = *material.other;
+  change(other);
+  material.other = std::make_shared<const Material>(std::move(other));
+}
+
 }  // namespace knot_utm

@@ -69,6 +69,12 @@ void Archive::section(const char* tag) {
   next_ += given.size();
 }
 
+bool Archive::optional_section(const char* tag, bool there) {
+  if (loads()) there = from_.substr(next_, std::strlen(tag)) == tag;
+  if (there) section(tag);
+  return there;
+}
+
 void Archive::visit(int& value) {
   if (!loads()) return put(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
   const auto given = static_cast<std::int64_t>(take());

@@ -23,8 +23,8 @@ double isotropic_bending_energy(const RodProperties& rod, const Points& x) {
   double sum = 0.0;
   for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i) {
     if (ends_at_cut(rod, i)) continue;
-    sum += isotropic_bending_gradient(rod.material.bending_stiffness, rod.voronoi_length[i], x.col(i) - x.col(i - 1),
-                                      x.col(i + 1) - x.col(i))
+    sum += isotropic_bending_gradient(rod.material_at(i).bending_stiffness, rod.voronoi_length[i],
+                                      x.col(i) - x.col(i - 1), x.col(i + 1) - x.col(i))
                .energy;
   }
   return sum;
@@ -39,10 +39,10 @@ InnerNode inner_node(const RodProperties& rod, const RodState& state, Eigen::Ind
   node.on_e = material_directors(node.e.normalized(), state.reference_director.col(i - 1), state.twist[i - 1]);
   node.on_f = material_directors(node.f.normalized(), state.reference_director.col(i), state.twist[i]);
   node.twist = state.twist[i] - state.twist[i - 1] + state.reference_twist[i - 1];
-  node.bending.k_b = rod.material.bending_stiffness;
+  node.bending.k_b = rod.material_at(i).bending_stiffness;
   node.bending.voronoi_length = rod.voronoi_length[i];
   if (state.curved_at_rest()) node.bending.natural_curvature = state.natural_curvature.col(i - 1);
-  node.twisting.k_t = rod.material.twisting_stiffness;
+  node.twisting.k_t = rod.material_at(i).twisting_stiffness;
   node.twisting.voronoi_length = rod.voronoi_length[i];
   if (rod.natural_twist.size() > 0) node.twisting.natural_twist = rod.natural_twist[i - 1];
   return node;
@@ -67,7 +67,7 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
     if (ends_at_cut(rod, i)) continue;
     std::visit(
         [&](const auto& law) { add_node(inner_node(rod, state, i), state.bending_own.data() + own * (i - 1), law); },
-        rod.laws->bending);
+        rod.laws_at(i).bending);
   }
   return energy;
 }

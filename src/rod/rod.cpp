@@ -20,6 +20,12 @@ void require_size(const char* key, Eigen::Index size, Eigen::Index expected) {
 
 constexpr double kLengthOfCut = 10.0;  // more than least_loop [h]
 
+void archive_laws(Archive& archive, std::shared_ptr<const RodLaws>& laws) {
+  RodLaws own = archive.loads() ? RodLaws() : *laws;
+  archive(own);
+  if (archive.loads()) laws = std::make_shared<const RodLaws>(own);
+}
+
 }  // namespace
 
 RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length, const std::vector<int>& cuts) {
@@ -38,12 +44,30 @@ RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_
   return rod;
 }
 
+RodProperties make_rod(const RodMaterial& material, const RodMaterial& other, const Eigen::VectorXd& rest_length,
+                       const std::vector<int>& cuts) {
+  RodProperties rod = make_rod(material, rest_length, cuts);
+  if (cuts.empty()) throw InvalidInput("rod", "one rope", "two ropes or more where there is another material");
+  rod.other_material = other;
+  rod.other_laws = std::make_shared<const RodLaws>(RodLaws::of(other));
+  if (!of_one_kind(*rod.laws, *rod.other_laws))
+    throw InvalidInput("rod", "two materials with laws of different kinds", "two with laws of the same kinds");
+  for (const int cut : cuts) rod.rest_length[cut] = kLengthOfCut * std::max(material.radius, other.radius);
+  const Eigen::Index others = rod.nodes() - rod.first_of_other();
+  rod.mass.tail(others) = other.density * M_PI * other.radius * other.radius * rod.voronoi_length.tail(others);
+  return rod;
+}
+
 bool are_places(const Points& points) {
   constexpr double kFarthest = 1e6;  // [m]
   return (points.array().abs() <= kFarthest).all();
 }
 
 bool RodProperties::is_cut(Eigen::Index edge) const { return std::find(cuts.begin(), cuts.end(), edge) != cuts.end(); }
+
+double RodProperties::thinnest() const {
+  return other_material ? std::min(material.radius, other_material->radius) : material.radius;
+}
 
 double RodProperties::length() const {
   double length = rest_length.sum();
@@ -87,9 +111,13 @@ void RodProperties::state(Archive& archive) {
   const bool solid = positive(rest_length) && positive(voronoi_length) && positive(mass) && std::isfinite(length()) &&
                      material.radius > 0.0 && std::isfinite(material.radius);
   archive.require(solid, "rod", "one without a length, a radius or a mass");
-  RodLaws own = archive.loads() ? RodLaws() : *laws;
-  archive(own);
-  if (archive.loads()) laws = std::make_shared<const RodLaws>(own);
+  archive_laws(archive, laws);
+  if (!archive.optional_section("OTHR", other_material.has_value())) return other_material.reset();
+  if (archive.loads()) other_material.emplace();
+  archive(*other_material);
+  archive_laws(archive, other_laws);
+  const bool another = !cuts.empty() && other_material->radius > 0.0 && std::isfinite(other_material->radius);
+  archive.require(another && of_one_kind(*laws, *other_laws), "other material", "of no rope of this rod");
 }
 
 void remember_bends(const RodProperties& rod, RodState* state) {

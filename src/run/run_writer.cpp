@@ -32,6 +32,20 @@ bool holds_its_knot(const Results& results) {
   return results.break_place == BreakPlace::kNone && results.knot_type == KnotType::kKept;
 }
 
+/// Mean mass per length of ropes of two materials over that of the first one.
+double mass_over_that_of_the_first(const Material& material, const Centreline& drawn) {
+  double first = 0.0, all = 0.0;
+  const std::vector<Piece> ropes = pieces_between(drawn.points.cols(), drawn.cuts);
+  for (const Piece& rope : ropes) {
+    const Points x = drawn.points.middleCols(rope.begin, rope.nodes());
+    const double length = length_of_pieces(x, {});
+    if (&rope == &ropes.front()) first = length;
+    all += length;
+  }
+  const double heavier = specimen_scales(*material.other).mass / specimen_scales(material).mass;
+  return (first + heavier * (all - first)) / all;
+}
+
 /// What becomes of the records of a run.
 class RunWriter {
  public:
@@ -92,6 +106,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   known_.foreseen = foreseen_warnings(method);
   weight_per_length_ =
       method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
+  if (method.material.other) weight_per_length_ *= mass_over_that_of_the_first(method.material, drawn);
   if (rollers_hold(method.specimen, method.machine)) radius_on_rollers_ = method.material.radius;
   far_side_held_ = method.machine.far_side == FarSide::kHeld;
   if (method.analysis.margin)

@@ -18,7 +18,7 @@ constexpr Lanes kZero = {0.0, 0.0, 0.0, 0.0};
 CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
     : rod_(rod),
       bends_(bends),
-      stretching_stiffness_(static_cast<std::size_t>(rod.edges()), rod.material.stretching_stiffness),
+      stretching_stiffness_(static_cast<std::size_t>(rod.edges())),
       bending_stiffness_(static_cast<std::size_t>(rod.nodes())),
       tangent_(static_cast<std::size_t>(rod.edges())),
       inverse_length_(tangent_.size()),
@@ -29,8 +29,10 @@ CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
       cosine_(static_cast<std::size_t>(rod.nodes() + 3) / 4, constant<Lanes>(1.0)),
       bending_slope_(cosine_.size()),
       bending_curve_(cosine_.size()) {
-  for (std::size_t i = 0; i < bending_stiffness_.size(); ++i)
-    bending_stiffness_[i] = rod.material.bending_stiffness / rod.voronoi_length[static_cast<Eigen::Index>(i)];
+  for (Eigen::Index j = 0; j < rod.edges(); ++j)
+    stretching_stiffness_[static_cast<std::size_t>(j)] = rod.material_at(j).stretching_stiffness;
+  for (Eigen::Index i = 0; i < rod.nodes(); ++i)
+    bending_stiffness_[static_cast<std::size_t>(i)] = rod.material_at(i).bending_stiffness / rod.voronoi_length[i];
 }
 
 void CentrelineTerms::part(int edge) {

@@ -95,8 +95,8 @@ class ContactTerm {
   void account(const SolvedStep& step, StepAccount& account) const {
     for (const ContactPoint& contact : points()) {
       const ContactMotion motion = contacts_.motion(contact, step.end, step.state.position);
-      const double now = contact.weight * contacts_.energy(contact.overlap);
-      const double before = contact.weight * contacts_.energy(motion.overlap_before);
+      const double now = contact.weight * contacts_.energy(contact.pair, contact.overlap);
+      const double before = contact.weight * contacts_.energy(contact.pair, motion.overlap_before);
       account.energies.contact += now;
       account.work.reweighting -= before;
       account.work.numerical += before - now;

@@ -12,13 +12,23 @@
 
 namespace knot_utm {
 
+namespace {
+
+/// The bending law of the ropes behind the first one, which is of the same kind.
+template <typename Law>
+const Law& other_law(const RodProperties& rod, const Law& law) {
+  return rod.other_laws ? std::get<Law>(rod.other_laws->bending) : law;
+}
+
+}  // namespace
+
 FrameBending::FrameBending(const RodProperties& rod) : rod_(rod), own_(own_numbers(rod.laws->bending)) {}
 
 void FrameBending::begin(const RodState& start, double dt) {
   nodes_.resize(at(static_cast<int>(rod_.edges())));
   for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) {
     BendingNode& node = nodes_[at(i)];
-    node.k_b = rod_.material.bending_stiffness;
+    node.k_b = rod_.material_at(i).bending_stiffness;
     node.voronoi_length = rod_.voronoi_length[i];
     node.natural = start.natural_curvature.col(i - 1);
     node.dt = dt;
@@ -92,16 +102,16 @@ void FrameBending::set_curvatures(const FourPairs& pair, const FourDirectors& di
 }
 
 template <typename Law>
-void FrameBending::respond(const Law& law, const Lanes bend[2], std::size_t group) {
+void FrameBending::respond(const Law& law, const Law& other, const Lanes bend[2], std::size_t group) {
   // Gathered as numbers: a register that is written lane by lane in memory would be slow to read.
   double moment[2][4] = {}, beyond[2][4] = {}, tangent[3][4] = {};
-  const std::size_t first = 4 * group + 1;
+  const std::size_t first = 4 * group + 1, others = static_cast<std::size_t>(rod_.first_of_other());
   for (std::size_t i = first; i < std::min(first + 4, nodes_.size()); ++i) {
     const std::size_t k = i - first;
     BendingNode& node = nodes_[i];
     node.before = node.bend - node.natural;
     node.bend = {bend[0][k], bend[1][k]};
-    const BendingResponse response = law.respond(node);
+    const BendingResponse response = (i < others ? law : other).respond(node);
     for (int m = 0; m < 2; ++m) {
       moment[m][k] = response.moment[m];
       beyond[m][k] = response.beyond[m];
@@ -128,7 +138,7 @@ void FrameBending::evaluate(const std::vector<FourPairs>& pairs, const std::vect
   const auto evaluate_four = [&](const auto& law, std::size_t g) {
     Lanes bend[2];
     set_curvatures(pairs[g], directors(g), fours_[g], bend);
-    respond(law, bend, g);
+    respond(law, other_law(rod_, law), bend, g);
     for (int k = 0; k < 2; ++k) slopes[g] += fours_[g].moment[k] * fours_[g].slope[k];
   };
   std::visit(
@@ -222,8 +232,9 @@ FrameBending::Energy FrameBending::energy() const {
   Energy out;
   std::visit(
       [&](const auto& law) {
+        const std::size_t others = static_cast<std::size_t>(rod_.first_of_other());
         for (std::size_t i = 1; i < nodes_.size(); ++i) {
-          const BendingMemory memory = law.remember(nodes_[i]);
+          const BendingMemory memory = (i < others ? law : other_law(rod_, law)).remember(nodes_[i]);
           out.stored += memory.stored;
           out.dissipated += memory.dissipated;
         }
@@ -243,7 +254,8 @@ void FrameBending::commit(const std::vector<double>& tension, RodState& state) c
   std::visit(
       [&](const auto& law) {
         if constexpr (std::decay_t<decltype(law)>::kRemembers)
-          for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) keep(law, i);
+          for (int i = 1; i < static_cast<int>(nodes_.size()); ++i)
+            keep(i < rod_.first_of_other() ? law : other_law(rod_, law), i);
       },
       rod_.laws->bending);
 }

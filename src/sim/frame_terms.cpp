@@ -103,13 +103,17 @@ FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
       pairs_(start_pairs_),
       twists_(start_pairs_.size()),
       slopes_(start_pairs_.size()) {
-  const double h2 = rod.material.radius * rod.material.radius;
   const double counts = settings.spin_inertia ? 1.0 : 0.0;
-  inertia_ = (counts * 0.5 * rod.material.density * M_PI * h2 * h2) * rod.rest_length;
-  drag_ = (counts * settings.drag * h2) * rod.rest_length;
-  rest_ = ((1.0 - counts) * kRest * rod.material.twisting_stiffness) * rod.rest_length.cwiseInverse();
+  for (Eigen::VectorXd* each : {&inertia_, &drag_, &rest_}) each->resize(rod.edges());
+  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+    const RodMaterial& of = rod.material_at(j);
+    const double h2 = of.radius * of.radius;
+    inertia_[j] = (counts * 0.5 * of.density * M_PI * h2 * h2) * rod.rest_length[j];
+    drag_[j] = (counts * settings.drag * h2) * rod.rest_length[j];
+    rest_[j] = ((1.0 - counts) * kRest * of.twisting_stiffness) * (1.0 / rod.rest_length[j]);
+  }
   for (int i = 1; i + 1 < static_cast<int>(rod.nodes()); ++i)
-    stiffness_[at(i)] = rod.material.twisting_stiffness / rod.voronoi_length[i];
+    stiffness_[at(i)] = rod.material_at(i).twisting_stiffness / rod.voronoi_length[i];
 }
 
 void FrameTerms::part(int edge) {
@@ -252,7 +256,7 @@ void FrameTerms::set_turn(std::size_t j, double turned) {
 
 TwistingInput FrameTerms::twisting_input(int i) const {
   const double whole = stiffness_[at(i)] > 0.0 ? 1.0 : 0.0;
-  return {whole * rod_.material.twisting_stiffness, rod_.voronoi_length[i],
+  return {whole * rod_.material_at(i).twisting_stiffness, rod_.voronoi_length[i],
           rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0};
 }
 

@@ -55,12 +55,17 @@ struct Equation {
         matrix(static_cast<int>(rod.nodes())),
         force(static_cast<std::size_t>(rod.nodes())),
         change(force.size()) {
+    if (settings.others) {
+      if constexpr (std::is_same_v<StrandContact, SmoothContact>)
+        strands.contacts().tell_apart(settings.others->between, settings.others->own);
+      rollers.contacts().tell_apart(settings.others->on_rollers);
+    }
     if constexpr (D == 4)
       if (settings.friction_couple > 0.0) {
         const RollingResistance& rolling = settings.rolling;
-        if (settings.friction.on())
+        if (settings.friction.on() || (settings.others && strands_of_others_rub(*settings.others)))
           strands.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
-        if (settings.roller_friction.on())
+        if (settings.roller_friction.on() || (settings.others && settings.others->on_rollers.friction.on()))
           rollers.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
       }
   }
@@ -89,6 +94,10 @@ struct Equation {
   std::vector<Lanes> force, change;  // forces on the unknowns, and changes of the unknowns
 
  private:
+  static bool strands_of_others_rub(const StepSettings::OtherLaws& others) {
+    return others.between.friction.on() || others.own.friction.on();
+  }
+
   static StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
     if constexpr (std::is_same_v<StrandContact, SmoothContact>)
       return SmoothContact(rod, settings.pressure_law, settings.friction, settings.candidate_margin,
@@ -188,7 +197,7 @@ class Increment {
   /// nothing by more than 1e-7 h and the residual is within the tolerance of long steps.
   bool stands_still() const {
     constexpr double kStill = 1e-7;
-    return factor_ == 1.0 && motion_ <= kStill * eq_.rod.material.radius && worst_.residual <= eq_.settings.residual;
+    return factor_ == 1.0 && motion_ <= kStill * eq_.rod.thinnest() && worst_.residual <= eq_.settings.residual;
   }
 
   const WorstResidual& worst_residual() const { return worst_; }
@@ -209,7 +218,7 @@ class Increment {
     WorstResidual out = eq_.norm.worst_of_nodes(eq_.force, eq_.centreline, tolerance(), eq_.held);
     if (!std::isfinite(out.residual)) return out;
     if constexpr (D == 4) {
-      out = ResidualNorm::worst_of_spins(eq_.force, eq_.frames, eq_.rod.material.radius, out);
+      out = ResidualNorm::worst_of_spins(eq_.force, eq_.frames, eq_.rod.thinnest(), out);
       if (!std::isfinite(out.residual)) return out;
     }
     // A free roller may have a larger residual; the reported node then stays that of the rod.

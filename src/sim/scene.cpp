@@ -38,6 +38,18 @@ void StepSettings::state(Archive& archive) {
           overlap_limit, candidate_margin);
   if (friction_couple > 0.0) archive(rolling.coefficient, rolling.radius, rolling.presliding, rolling.growth);
   archive.number("iterations", max_iterations, 1, kMostIterations);
+  if (archive.optional_section("PAIR", others.has_value())) {
+    if (archive.loads()) others.emplace();
+    archive(*others);
+    const auto of_one_law = [&](const PairLaws& laws, const Friction& as) {
+      archive.require(std::string(laws.friction.name()) == as.name(), "friction law", laws.friction.name());
+    };
+    of_one_law(others->between, friction);
+    of_one_law(others->own, friction);
+    of_one_law(others->on_rollers, roller_friction);
+  } else {
+    others.reset();
+  }
   const double reach = -2.0 * pressure_law.begin();
   const bool finite =
       std::isfinite(reach) && std::isfinite(candidate_margin) && reach >= 0.0 && candidate_margin >= 0.0;

@@ -135,6 +135,9 @@ std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodStat
                                          const StepSettings& settings) {
   require_fits(rod, state);
   const bool edges = settings.contact_law == ContactLaw::kEdge;
+  if (edges && rod.other_material) throw InvalidInput("contact.law", "edge", "smooth for ropes of different material");
+  if (rod.other_material.has_value() != settings.others.has_value())
+    throw InvalidInput("rod", "other materials than its laws of contact", "one with laws for each material");
   if (state.twist.size() == 0) {
     if (edges) return std::make_unique<ImplicitStep<3, EdgeContact>>(rod, state, settings);
     return std::make_unique<ImplicitStep<3, SmoothContact>>(rod, state, settings);

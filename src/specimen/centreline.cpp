@@ -31,7 +31,8 @@ int Centreline::nearest_node(double arclength) const {
   return arclength - *(next - 1) < *next - arclength ? node - 1 : node;
 }
 
-void check_no_overlap(const Centreline& centreline, double radius, const char* key, const std::string& value) {
+void check_no_overlap(const Centreline& centreline, double radius, const char* key, const std::string& value,
+                      const std::vector<double>& radii) {
   const Points& points = centreline.points;
   const auto refuse = [&](const std::string& why) {
     throw InvalidInput::sentence(key, value, std::string(key) + " " + shown(value) + ": " + why);
@@ -40,13 +41,14 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
   // knot that a run left press on each other a little.
   constexpr double kMayOverlap = 0.07;  // by choice: overlap of a shape that may begin [h]
   const double exclusion = 1.5 * M_PI * radius;
-  const NearestPlaces nearest = nearest_places(points, exclusion, centreline.closed, centreline.cuts);
-  if (nearest.distance < 2.0 * radius &&
+  const NearestPlaces nearest = nearest_places(points, exclusion, centreline.closed, centreline.cuts, radii);
+  const double touching = 2.0 * radius - nearest.thinner;
+  if (nearest.distance < touching &&
       (centreline.closed || !centreline.cuts.empty() ||
        nearest_places(sampled_centreline(points), exclusion).distance < (2.0 - kMayOverlap) * radius))
     refuse("strands overlap at " + text(nearest.first) + " m and " + text(nearest.second) +
-           " m along the rod, where they are " + text(nearest.distance) +
-           " m apart, but must be at least a diameter apart, " + text(2.0 * radius) + " m");
+           " m along the rod, where they are " + text(nearest.distance) + " m apart, but must be at least " +
+           (nearest.thinner > 0.0 ? "both radii" : "a diameter") + " apart, " + text(touching) + " m");
   TunnellingSearch search(points.cols());
   for (const int cut : centreline.cuts) search.part(cut);
   if (const std::optional<Tunnelling> passage = search.find(points, points)) {

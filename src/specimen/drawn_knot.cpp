@@ -53,7 +53,7 @@ class DrawnKnot final : public Knot {
 
   Supports supports(const SpecimenOptions& specimen, const Material& material) const override {
     Supports out;
-    const double h = material.radius;
+    const double h = thickest(material);
     const Vec3 origin(0.0, 0.0, height_of_origin(*specimen.drawing, size_of(specimen, material, 1.0)));
     for (const KnotDrawing::Post& drawn : specimen.drawing->posts) {
       Roller post;
@@ -67,7 +67,8 @@ class DrawnKnot final : public Knot {
 
  private:
   static DrawnSize size_of(const SpecimenOptions& specimen, const Material& material, double refinement) {
-    return {material.radius, specimen.end_to_end, specimen.tail, specimen.edge_length / refinement};
+    const double h = thickest(material), others = material.other ? material.other->radius : material.radius;
+    return {h, specimen.end_to_end, specimen.tail, specimen.edge_length / refinement, material.radius / h, others / h};
   }
 };
 

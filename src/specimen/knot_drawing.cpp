@@ -40,8 +40,9 @@ class Drawer {
   Drawer(const KnotDrawing& drawing, const DrawnSize& size)
       : drawing_(drawing), size_(size), origin_(height_of_origin(drawing, size)) {}
 
-  Points strand(const KnotDrawing::Strand& strand) const {
-    const double spacing = drawing_spacing(size_.radius, size_.edge_length);
+  /// `part`: its radius and edge length over those of the thickest one.
+  Points strand(const KnotDrawing::Strand& strand, double part) const {
+    const double spacing = drawing_spacing(part * size_.radius, part * size_.edge_length);
     std::vector<Vec3> points;
     for (const Vec3& point : strand.points) points.push_back(placed(point));
     const Vec3 begin = run_out(strand.ends[0], points[0], points[1]),
@@ -56,7 +57,7 @@ class Drawer {
       path.add_curve((p[2] - p[1]).norm(), [&](double t) { return catmull_rom(p, t); });
     }
     path.add(end);
-    const EdgeGrading even{size_.edge_length, {}};
+    const EdgeGrading even{part * size_.edge_length, {}};
     return Resampled(path, smoothed(path, size_.radius, spacing), even).points;
   }
 
@@ -165,8 +166,9 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
   std::vector<Points> strands;
   Eigen::Index nodes = 0;
   for (const KnotDrawing::Strand& strand : drawing.strands) {
-    strands.push_back(drawer.strand(strand));
-    check_bends(drawing, size.radius, strands.back());
+    const double part = strands.empty() ? size.first : size.others;
+    strands.push_back(drawer.strand(strand, part));
+    check_bends(drawing, part * size.radius, strands.back());
     nodes += strands.back().cols();
   }
   Centreline out;
@@ -195,7 +197,12 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
     return found;
   };
   for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) out.tied.push_back(pulled(together));
-  check_no_overlap(out, size.radius, "specimen.knot", drawing.name);
+  std::vector<double> radii;
+  if (size.first != size.others) {
+    radii.assign(strands.size(), size.others * size.radius);
+    radii.front() = size.first * size.radius;
+  }
+  check_no_overlap(out, size.radius, "specimen.knot", drawing.name, radii);
   check_posts(drawing, size, out);
   return out;
 }

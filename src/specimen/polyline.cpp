@@ -126,7 +126,8 @@ Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vec
   return nodes;
 }
 
-NearestPlaces nearest_places(const Points& points, double exclusion, bool closed, const std::vector<int>& cuts) {
+NearestPlaces nearest_places(const Points& points, double exclusion, bool closed, const std::vector<int>& cuts,
+                             const std::vector<double>& radii) {
   const Eigen::Index edges = points.cols() - 1;
   const Points edge = points.rightCols(edges) - points.leftCols(edges);
   const Points middle = 0.5 * (points.rightCols(edges) + points.leftCols(edges));
@@ -140,21 +141,26 @@ NearestPlaces nearest_places(const Points& points, double exclusion, bool closed
     piece.segment(one.begin, one.nodes() - 1).setConstant(number++);
     if (one.end <= edges) piece[one.end - 1] = -1;
   }
+  const double thickest = radii.empty() ? 1.0 : *std::max_element(radii.begin(), radii.end());
+  const auto radius = [&](Eigen::Index i) {
+    return radii.empty() ? thickest : radii[static_cast<std::size_t>(piece[i])];
+  };
   NearestPlaces best;
   best.distance = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < edges; ++i) {
     if (piece[i] < 0) continue;
     for (Eigen::Index j = i + 1; j < edges; ++j) {
       if (piece[j] < 0) continue;
-      if (piece[i] == piece[j] && begin[j] - begin[i + 1] < exclusion) continue;
+      if (piece[i] == piece[j] && begin[j] - begin[i + 1] < exclusion * (radius(i) / thickest)) continue;
       if (closed && total - begin[j + 1] + begin[i] < exclusion) continue;
-      const double reach = best.distance + 0.5 * (length[i] + length[j]);
+      const double thinner = 2.0 * thickest - radius(i) - radius(j), nearer = best.distance + best.thinner - thinner;
+      const double reach = std::max(nearer + 0.5 * (length[i] + length[j]), 0.0);
       if ((middle.col(i) - middle.col(j)).squaredNorm() >= reach * reach) continue;
       const ClosestPoints at = closest_points(points.col(i), edge.col(i), points.col(j), edge.col(j), 0.0);
       const Vec3 gap = points.col(i) + at.t * edge.col(i) - points.col(j) - at.u * edge.col(j);
       const double distance = gap.norm();
-      if (distance < best.distance)
-        best = {distance, begin[i] + at.t * length[i], begin[j] + at.u * length[j],
+      if (distance < nearer)
+        best = {distance, thinner, begin[i] + at.t * length[i], begin[j] + at.u * length[j],
                 points.col(j) + at.u * edge.col(j) + 0.5 * gap};
     }
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "knot_utm/specimen/material.hpp"
 
@@ -48,8 +50,18 @@ double inertia_factor(const RodMaterial& material, const PhysicsOptions& physics
   return physics.inertia.value_or(std::min(mass, own) / own);
 }
 
+double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack) {
+  const auto of = [&](const RodMaterial& rope) { return inertia_factor(rope, physics, slack); };
+  return material.other ? std::min(of(material), of(*material.other)) : of(material);
+}
+
 Material as_it_moves(Material material, const PhysicsOptions& physics, double slack) {
-  material.density *= inertia_factor(material, physics, slack);
+  const double factor = inertia_factor(material, physics, slack);
+  material.density *= factor;
+  if (!material.other) return material;
+  Material other = *material.other;
+  other.density *= factor;
+  material.other = std::make_shared<const Material>(std::move(other));
   return material;
 }
 

@@ -7,7 +7,7 @@
 namespace knot_utm {
 
 /// The sections of a method on which depends what the simulated machine answers.
-inline constexpr const char* kPhysicalSections[] = {"specimen", "material", "machine", "physics"};
+inline constexpr const char* kPhysicalSections[] = {"specimen", "material", "other_material", "machine", "physics"};
 
 /// The values of a method but its names and notes, which change nothing. A specimen's file is named as the copy in a
 /// run's folder is.

@@ -36,7 +36,7 @@ std::string tied_from(const Method& method, int step, bool shapes) {
   const YAML::Node values = physical_values(method);
   std::string text = code + (shapes ? "with shapes\n" : "without shapes\n");
   for (const char* section : kPhysicalSections)
-    text += std::string(section) + ":\n" + YAML::Dump(values[section]) + '\n';
+    if (values[section]) text += std::string(section) + ":\n" + YAML::Dump(values[section]) + '\n';
   for (int i = 0; i < step; ++i) text += "step: " + YAML::Dump(values["program"][i]) + '\n';
   if (knot_of(method.specimen).has("file")) text += "shape:\n" + read_whole(method.specimen.file);
   return text;

@@ -7,6 +7,7 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/machine/before_tying.hpp"
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/method/method_keys.hpp"
@@ -125,7 +126,7 @@ void add_never_reached(const Method& method, std::vector<std::string>& all) {
             "the crosshead is at the end of machine.travel after " + short_number(longest) + " s at " +
                 short_number(pull->speed) + " m/s");
     const Material& rod = method.material;
-    if (until.broken && !until.extension && !until.load && !until.time && !rod.breaking_force &&
+    if (until.broken && !until.extension && !until.load && !until.time && !can_part(rod) &&
         !ends.break_at_fraction_of_peak)
       all.push_back(key +
                     ".break is the only end of the pull, but nothing breaks this rod, so that the pull goes on to "
@@ -156,24 +157,26 @@ std::string pascals(double value) {
   return short_number(value) + " Pa";
 }
 
-void ask_about(const Material& material, std::vector<std::string>& all) {
+/// `section`: that of the material, with a dot.
+void ask_about(const Material& material, const std::string& section, std::vector<std::string>& all) {
   const double density = material.density, stretched = modulus(material), bent = bending(material);
   if (density < kLightest || density > kHeaviest)
-    all.push_back("material.density is " + short_number(density) +
-                  " kg/m3, where cork has 200, water 1000 and steel 7850: is it in kg/m3, and material.radius, " +
+    all.push_back(section + "density is " + short_number(density) +
+                  " kg/m3, where cork has 200, water 1000 and steel 7850: is it in kg/m3, and " + section + "radius, " +
                   short_number(material.radius) + ", in m?");
   if (stretched < kSoftest || stretched > kStiffest)
     all.push_back(
-        "material.stretching_stiffness is " + short_number(material.stretching_stiffness) +
+        section + "stretching_stiffness is " + short_number(material.stretching_stiffness) +
         " N, which is E = " + pascals(stretched) +
         ", where rubber has 1 MPa, nylon 2 GPa and steel 200 GPa: is it E times the cross-section, in Pa times "
-        "m2, and material.radius in m?");
+        "m2, and " +
+        section + "radius in m?");
   else if (bent < kLeastBending || bent > kMostBending)
-    all.push_back("material.bending_stiffness is " + short_number(material.bending_stiffness) + " N m2, which is " +
+    all.push_back(section + "bending_stiffness is " + short_number(material.bending_stiffness) + " N m2, which is " +
                   short_number(bent) +
                   " of that of a solid rod that stretches alike, where ropes have 0.0001 to 1: is it in N m2?");
   if (material.breaking_force && *material.breaking_force < kLeastStrain * material.stretching_stiffness)
-    all.push_back("material.breaking_force is " + short_number(*material.breaking_force) +
+    all.push_back(section + "breaking_force is " + short_number(*material.breaking_force) +
                   " N, with which the rod breaks at a strain of " +
                   short_number(*material.breaking_force / material.stretching_stiffness) + ": is it in N?");
 }
@@ -225,14 +228,15 @@ std::vector<std::string> foreseen_warnings(const Method& method) {
                                    scatters(method), too_rough(method)})
     if (!found.empty()) all.push_back(found);
   add_never_reached(method, all);
-  ask_about(method.material, all);
+  ask_about(method.material, "material.", all);
+  if (method.material.other) ask_about(*method.material.other, "other_material.", all);
   return all;
 }
 
 std::vector<std::string> speed_warnings(const Method& method) {
   std::vector<std::string> all;
   for (const ProgramStep& step : method.program) {
-    const double speed = step->speed / method.material.radius;
+    const double speed = step->speed / thickest(method.material);
     const std::string told = format_number(std::round(10.0 * speed) / 10.0);
     if (step.as<TieStep>() && speed > kTiedSlow)
       all.push_back("the knots are tied at " + told + " radii a second, by default at " +

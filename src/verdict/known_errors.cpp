@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/sample.hpp"
 
@@ -47,9 +48,9 @@ std::optional<double> error_of_peak(const Results& results, const RunFacts& fact
     return *errors.break_in_bend + errors.plateau_force.value_or(0.0);
   constexpr double kBreakOfAStrand = 2e-3;  // twice the scatter of nylon's loop
   const bool in_a_strand = results.break_place == BreakPlace::kStrand || results.break_place == BreakPlace::kGrip;
-  if (in_a_strand && facts.material.breaking_force) {
+  if (in_a_strand && can_part(facts.material)) {
     // At high speed the last step passes the strength by more than that.
-    const double passed = *results.true_peak_force / (facts.strands * *facts.material.breaking_force) - 1.0;
+    const double passed = *results.true_peak_force / (facts.strands * *weakest(facts.material)) - 1.0;
     return std::max(kBreakOfAStrand, passed);
   }
   if (results.break_place == BreakPlace::kKnot || slid_to_the_end(results)) return errors.plateau_force;

@@ -98,9 +98,10 @@ std::string why_no_force_ratio(const Source& of) {
 /// The largest load over what as many straight rods would bear. Where tension alone parts the rod, it parts at the
 /// tension of a straight one, which predicts nothing.
 Number over_straight_strands(const Source& of, const Number& force) {
-  if (!force || !of.facts.may_hold_a_knot || !of.results.break_extension || !parts_by_bending(of.facts.material))
-    return std::nullopt;
-  return *force / (of.facts.strands * *of.facts.material.breaking_force);
+  const Material& material = of.facts.material;
+  const bool bends = parts_by_bending(material) && (!material.other || parts_by_bending(*material.other));
+  if (!force || !of.facts.may_hold_a_knot || !of.results.break_extension || !bends) return std::nullopt;
+  return *force / (of.facts.strands * *weakest(material));
 }
 Number knot_efficiency(const Source& of) { return over_straight_strands(of, of.results.true_peak_force); }
 Number knot_efficiency_error(const Source& of) { return over_straight_strands(of, of.errors.peak_force); }

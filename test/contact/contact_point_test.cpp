@@ -30,25 +30,28 @@ ContactPoint drawn_apart() {
 TEST(ContactModel, FrictionOfADrawnApartContactThatIsExpectedToPressHoldsIt) {
   const NormalLaw normal{1e6, 0.02 * kRadius};
   const MemoryFriction friction{0.5, 1e-5};
+  const ContactLaws laws(normal, friction);
   std::vector<ContactPoint> contacts = {drawn_apart()};
   ContactPoint& contact = contacts[0];
   contact.prediction = 100.0;
-  evaluate_forces(normal, friction, kStep, contacts);
+  evaluate_forces(laws, kStep, contacts);
   EXPECT_EQ(contact.pressure, 0.0);
   std::vector<ContactModel> models;
-  linearise(normal, friction, kStep, expecting, contacts, models);
+  linearise(laws, kStep, expecting, contacts, models);
   EXPECT_LT(models[0].pressure, 0.0) << "the tangent at the prediction, so far out";
   // Across both strands: what holds is mu w p/xi_s, what turns with n is w p/d.
   const Vec3 across = to_vec3(models[0].still[1]);
   const double hold = friction.coefficient * contact.weight * contact.prediction / friction.presliding;
   EXPECT_NEAR(across.y(), hold, 0.02 * hold);
-  linearise(normal, friction, kStep, {}, contacts, models);
+  linearise(laws, kStep, {}, contacts, models);
   EXPECT_LT(models[0].still[1][1], 0.0) << "the tangent's pressure drives it on";
 }
 
 TEST(ContactModel, EachContactHasItsOwnHoweverManyThereAre) {
   const NormalLaw normal{1e6, 0.02 * kRadius, 0.05 * kRadius};
-  const MemoryFriction friction{0.5, 1e-5};
+  ContactLaws laws(normal, MemoryFriction{0.5, 1e-5});
+  laws.of[1] = {NormalLaw{2e6, 0.02 * kRadius, 0.05 * kRadius}, MemoryFriction{0.3, 1e-5}};
+  laws.of[2] = {NormalLaw{4e6, 0.02 * kRadius, 0.05 * kRadius}, MemoryFriction{0.1, 2e-5}};
   std::vector<ContactPoint> many;
   for (int i = 0; i < 11; ++i) {
     ContactPoint& contact = many.emplace_back(drawn_apart());
@@ -56,21 +59,25 @@ TEST(ContactModel, EachContactHasItsOwnHoweverManyThereAre) {
     contact.x = contact.d * contact.n;
     contact.overlap = 2.0 * kRadius - contact.d;
     contact.begins = normal.begin();
+    contact.pair = i / 2 % 3;
     contact.slip *= i;  // some stick, some slip
     contact.turn = 1e-7 * i * Vec3::UnitX();
     if (i % 3 == 0) contact.prediction = 10.0 * (i - 1);
   }
   std::vector<ContactModel> models;
-  evaluate_forces(normal, friction, kStep, many);
-  linearise(normal, friction, kStep, expecting, many, models);
+  evaluate_forces(laws, kStep, many);
+  linearise(laws, kStep, expecting, many, models);
   std::size_t n = 0;
   for (const ContactPoint& contact : many) {
     if (!contact.active()) continue;
     std::vector<ContactPoint> alone = {contact};
     std::vector<ContactModel> own;
-    evaluate_forces(normal, friction, kStep, alone);
-    linearise(normal, friction, kStep, expecting, alone, own);
+    evaluate_forces(laws, kStep, alone);
+    linearise(laws, kStep, expecting, alone, own);
     EXPECT_EQ(alone[0].force, contact.force);
+    const PairLaws& pair = laws[contact.pair];
+    EXPECT_EQ(contact.pressure, pair.normal.pressure(contact.overlap));
+    EXPECT_LE(contact.mu, pair.friction.coefficient());
     // The overlap of an prediction is found to 1e-9 of the pressure, or better beside one that takes longer.
     const double rounding = 1e-8 * (own[0].slope * kRadius + std::abs(own[0].pressure));
     EXPECT_NEAR(own[0].pressure, models[n].pressure, rounding);

@@ -35,15 +35,22 @@ struct Wound {
   std::vector<Vec3> lean;  // of every edge, as if the frames had moved so
   Roller roller;
 
-  Wound() {
+  /// `second`: radius of its second half.
+  explicit Wound(double second = kRadius) {
     Material material;
     material.radius = kRadius;
     material.density = 1000.0;
-    rod = make_rod(material, Eigen::VectorXd::Constant(2 * kHalf + kDetour - 1, kEdge));
+    const Eigen::VectorXd edges = Eigen::VectorXd::Constant(2 * kHalf + kDetour - 1, kEdge);
+    rod = make_rod(material, edges);
+    if (second != kRadius) {
+      Material other = material;
+      other.radius = second;
+      rod = make_rod(material, other, edges, {kHalf});
+    }
     position.resize(3, rod.nodes());
     position.col(kHalf) << 1.0, 0.0, 0.0;
     position.col(kHalf + 1) << 1.0, 0.0, 0.1;
-    const double away = 1.95 * kRadius;
+    const double away = 0.975 * (kRadius + second);
     for (int i = 0; i < kHalf; ++i) {
       const double angle = 0.3 * i;
       position.col(i) << 0.0, 0.0, kEdge * i;
@@ -95,6 +102,7 @@ constexpr double kStiffness = 1e6, kTolerance = 0.05 * kRadius;
 /// Each kind of contact in the scene, as it is evaluated first in a step.
 template <typename Contact>
 struct BetweenStrands {
+  static constexpr double kSecond = kRadius;
   Wound& scene;
   Contact contact;
   BetweenStrands(Wound& wound, const Friction& friction)
@@ -109,8 +117,17 @@ struct BetweenStrands {
   }
 };
 using Smooth = BetweenStrands<SmoothContact>;
+/// A thinner strand of another material winds around the first one.
+struct OfTwoMaterials : BetweenStrands<SmoothContact> {
+  static constexpr double kSecond = 0.6 * kRadius;
+  OfTwoMaterials(Wound& wound, const Friction& friction) : BetweenStrands(wound, friction) {
+    contact.tell_apart({NormalLaw{0.5 * kStiffness, kTolerance}, friction},
+                       {NormalLaw{kStiffness, kTolerance}, friction});
+  }
+};
 using Edges = BetweenStrands<EdgeContact>;
 struct OnARoller {
+  static constexpr double kSecond = kRadius;
   Wound& scene;
   RollerContact contact;
   OnARoller(Wound& wound, const Friction& friction)
@@ -131,7 +148,7 @@ struct OnARoller {
 template <typename Kind>
 class Surface : public testing::Test {
  protected:
-  Wound scene;
+  Wound scene{Kind::kSecond};
 
   static Eigen::VectorXd forces(Kind& kind) {
     kind.evaluate();
@@ -223,7 +240,7 @@ class Surface : public testing::Test {
   }
 };
 
-using Kinds = testing::Types<Smooth, Edges, OnARoller>;
+using Kinds = testing::Types<Smooth, Edges, OnARoller, OfTwoMaterials>;
 TYPED_TEST_SUITE(Surface, Kinds);
 
 TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWhereItSlides) {
@@ -382,8 +399,9 @@ TYPED_TEST(Surface, MomentsBalanceWithTheWholeCouple) {
       if (!contact.touches()) continue;
       const SurfacePoint& surface = kind.contact.surfaces()[i];
       // A torque on a spin is one about the section's tangent.
-      const Vec3 m = surface.lever * contact.x.cross(contact.force);
-      for (const Vec3& along : {surface.along_a, contact.db}) moment -= along.dot(m) / along.squaredNorm() * along;
+      const Vec3 m = surface.lever * contact.x.cross(contact.force), on_b = surface.uneven * m;
+      moment -= surface.along_a.dot(m) / surface.along_a.squaredNorm() * surface.along_a;
+      moment -= contact.db.dot(on_b) / contact.db.squaredNorm() * contact.db;
       friction_arm += contact.x.cross(contact.force).norm();
     }
     EXPECT_LT(moment.norm(), 1e-12 * friction_arm);

@@ -84,6 +84,31 @@ TEST(KnotDrawing, IsRefusedWhereStrandsOverlap) {
   }
 }
 
+TEST(KnotDrawing, RopesOfTwoRadiiMayComeAsNearAsBothAreThick) {
+  DrawnSize one = kSize, thin = kSize, first_thin = kSize;
+  thin.others = first_thin.first = 0.5;
+  const auto side_by_side = [](double apart) {
+    KnotDrawing out;
+    out.name = "two";
+    out.strands = {{{"lower", "lower_tail"}, {{0, 0, -8}, {0, 0, -4}, {0, 0, 0}, {0, 0, 4}}},
+                   {{"upper_tail", "upper"}, {{apart, 0, -4}, {apart, 0, 0}, {apart, 0, 4}, {apart, 0, 8}}}};
+    out.lower = {"lower"};
+    out.upper = {"upper"};
+    return out;
+  };
+  EXPECT_NO_THROW(draw(side_by_side(2.1), one));
+  EXPECT_THROW(draw(side_by_side(1.9), one), InvalidInput);
+  for (const DrawnSize& size : {thin, first_thin}) {
+    EXPECT_NO_THROW(draw(side_by_side(1.55), size));
+    try {
+      draw(side_by_side(1.45), size);
+      FAIL();
+    } catch (const InvalidInput& refused) {
+      EXPECT_THAT(refused.what(), HasSubstr("must be at least both radii apart, 0.0045 m"));
+    }
+  }
+}
+
 TEST(KnotDrawing, IsRefusedWhereAStrandBendsMoreSharplyThanTheRodIsThick) {
   KnotDrawing knot;
   knot.name = "hairpin";

@@ -34,8 +34,9 @@ class Candidates {
   };
 
   /// `reach` is the distance of centrelines that must be found [m]; pairs closer than `exclusion` along the rod
-  /// never count [m]. `extent` is the fraction of the two edges at its node that a segment covers: a half as a rule, 1
-  /// where it stands for whole edges [-].
+  /// never count [m]. `exclusion` is that of the rod's own material, and in proportion to the radius that of another.
+  /// `extent` is the fraction of the two edges at its node that a segment covers: a half as a rule, 1 where it stands
+  /// for whole edges [-].
   Candidates(const RodProperties& rod, double reach, double margin, double exclusion, double extent = 0.5);
 
   /// Rebuilds the list where something moved far enough; true if it did.
@@ -48,7 +49,8 @@ class Candidates {
   /// Segments that have neighbours, ascending.
   const std::vector<int>& segments() const { return segments_; }
 
-  double exclusion() const { return exclusion_; }
+  /// Of the rope that a segment belongs to; two ropes are further apart along the rod than any.
+  double exclusion(int segment) const { return segment < first_of_other_ ? exclusion_ : other_exclusion_; }
 
   /// From now on the rod is cut at this edge, too, and the two segments that reach into it touch nothing.
   void part(int edge);
@@ -85,7 +87,8 @@ class Candidates {
   /// Whether the rod is drawn out so far that it cannot come back to itself.
   bool is_taut(const Points& position) const;
 
-  double reach_, margin_, exclusion_, extent_;
+  double reach_, margin_, exclusion_, other_exclusion_, extent_;
+  int first_of_other_;         // RodProperties::first_of_other
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd size_;       // of segment i about its node [m]
   Points built_at_;

@@ -9,6 +9,26 @@
 
 namespace knot_utm {
 
+/// The laws of contacts between two materials.
+struct PairLaws {
+  NormalLaw normal;
+  Friction friction;
+
+  void state(Archive& archive) { archive(normal, friction); }
+};
+
+/// Those of all pairs of materials, by ContactPoint::pair: of the first rope on itself, of that on another rope, of the
+/// other ropes on themselves. A rod of one material has the first alone. All friction laws are of the same kind.
+struct ContactLaws {
+  PairLaws of[3];
+
+  explicit ContactLaws(const NormalLaw& normal, const Friction& friction)
+      : of{{normal, friction}, {normal, friction}, {normal, friction}} {}
+
+  const PairLaws& operator[](int pair) const { return of[pair]; }
+  bool rub() const { return of[0].friction.on() || of[1].friction.on() || of[2].friction.on(); }
+};
+
 /// A contact between two points of the rod, or between the rod and a roller, in the terms that all contact laws share.
 ///
 /// Point a stands on nodes a0..a0+2 with weights c_0..c_2; point b on nodes b0..b0+2 with weights -c_3..-c_5, so
@@ -24,6 +44,7 @@ struct ContactPoint {
   int b0 = -1;                ///< -1: none, on a roller
   int point = 0;              ///< which of its segment's two integration points a is
   int roller = -1;            ///< number of the roller; -1: between strands
+  int pair = 0;               ///< of materials (ContactLaws); on a roller that of the strand with itself
   double c[6] = {};           ///< [-]
   double beta[6] = {};        ///< [-], zero for a
   double arclength_a = 0.0;   ///< [m], at rest
@@ -31,7 +52,7 @@ struct ContactPoint {
   Vec3 x = Vec3::Zero();      ///< a - b [m]
   Vec3 n = Vec3::Zero();      ///< x/d
   double d = 0.0;             ///< [m]
-  double overlap = 0.0;       ///< D = 2h - d, plus o where the strand of b lies outwards of its spline [m]
+  double overlap = 0.0;       ///< D = h_a + h_b - d, plus o where the strand of b lies outwards of its spline [m]
   double begins = 0.0;        ///< overlap at which the pressure law begins [m]
   double weighting = 1.0;     ///< omega, weighting factor of this side of the contact
   double weight = 0.0;        ///< w: rest length it stands for, times its weighting factor [m]
@@ -112,8 +133,8 @@ Real predicted_pressure(const Real& prediction, const Real& of_tangent) {
 /// Fills z, mu and force of the active contacts from pressure, n, slip and weight, in a step of length dt [s].
 void evaluate_forces(const Friction& friction, double dt, std::vector<ContactPoint>& contacts);
 
-/// The same with the pressure from the overlap.
-void evaluate_forces(const NormalLaw& normal, const Friction& friction, double dt, std::vector<ContactPoint>& contacts);
+/// The same with the pressure from the overlap, by the laws of each contact's pair.
+void evaluate_forces(const ContactLaws& laws, double dt, std::vector<ContactPoint>& contacts);
 
 /// The friction law's input for a contact that has been evaluated.
 FrictionInput<Vec3> friction_input(const ContactPoint& contact, double dt);
@@ -122,9 +143,9 @@ FrictionMemory remember(const Friction& friction, const ContactPoint& contact, d
 
 /// The consistent linearisation of `evaluate_forces`, which includes the motion of the foot; the weight w is constant.
 /// `models` are those of the active contacts, in order; unused ones may follow.
-void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const ContactLaws& laws, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models);
-void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const ContactLaws& laws, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<RollerModel>& models);
 
 }  // namespace knot_utm

@@ -92,7 +92,7 @@ class EdgeContact {
   void commit(const Points& position);
 
   /// Energy of the pressure law per length of rod [N]
-  double energy(double overlap) const { return normal_.energy(overlap); }
+  double energy(int, double overlap) const { return normal_.energy(overlap); }
 
   /// Saves or loads what the last accepted step left.
   void state(Archive& archive);

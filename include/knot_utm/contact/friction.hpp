@@ -33,6 +33,12 @@ class Friction {
     return std::visit(std::forward<Use>(use), law_);
   }
 
+  /// The law itself, where it is known to be of this type.
+  template <typename Law>
+  const Law& as() const {
+    return std::get<Law>(law_);
+  }
+
   bool on() const { return on_; }
   const char* name() const { return kFrictionLawNames[law_.index()]; }
   double coefficient() const {

@@ -61,6 +61,9 @@ class RollerContact {
   /// a step begins are left out of that step.
   RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
 
+  /// From now on the ropes behind the first one, of another material, have these laws.
+  void tell_apart(const PairLaws& others) { laws_.of[2] = others; }
+
   /// As SmoothContact's.
   void act_at_surface(double couple, const SectionTurns& turns, const RollingResistance& rolling = {}) {
     couple_ = couple;
@@ -91,11 +94,11 @@ class RollerContact {
 
   /// The consistent linearisation of the active contacts, in order; unused models may follow.
   void linearise(const ContactLinearisation& how, double dt, std::vector<RollerModel>& models) const {
-    knot_utm::linearise(normal_, friction_, dt, how, contacts_, models);
+    knot_utm::linearise(laws_, dt, how, contacts_, models);
   }
   /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).
   std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
-    return knot_utm::linearise(normal_, friction_, rolling_, dt, how, contacts_, surfaces_, from, models);
+    return knot_utm::linearise(laws_, rolling_, dt, how, contacts_, surfaces_, from, models);
   }
 
   /// From now on the rod is cut at this edge, too, and segments that reach into it touch nothing.
@@ -113,7 +116,7 @@ class RollerContact {
   void commit(const std::vector<Roller>& rollers);
 
   /// e(D) of the pressure law [N]
-  double energy(double overlap) const { return normal_.energy(overlap); }
+  double energy(int pair, double overlap) const { return laws_[pair].normal.energy(overlap); }
 
   /// Saves or loads what the last accepted step left.
   void state(Archive& archive);
@@ -137,11 +140,14 @@ class RollerContact {
   double lever_of(const ContactPoint& contact) const;
   Vec3 couple_of(const ContactPoint& contact) const;  // C of RollingResistance
 
-  NormalLaw normal_;
-  double begins_;  // overlap at which its pressure begins [m]
-  Friction friction_;
-  double dt_ = 0.0;  // of this step [s]
-  double radius_;
+  /// Of a segment: as ContactPoint::pair [-], and its rope's radius [m].
+  int pair_of(int segment) const { return segment < first_of_other_ ? 0 : 2; }
+  double radius(int segment) const { return radius_[segment < first_of_other_ ? 0 : 1]; }
+
+  ContactLaws laws_;
+  double dt_ = 0.0;     // of this step [s]
+  int first_of_other_;  // node of the ropes of another material
+  double radius_[2];    // of these materials [m]
   double farthest_;
   std::vector<Near> near_;  // of this step
   std::vector<int> cuts_;   // edges

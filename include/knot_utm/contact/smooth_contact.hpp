@@ -39,11 +39,17 @@ class SmoothContact {
   SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
                 double catch_up = 0.05);
 
+  /// From now on the ropes behind the first one, of another material, have these laws with it and among themselves.
+  void tell_apart(const PairLaws& between, const PairLaws& others) {
+    laws_.of[1] = between;
+    laws_.of[2] = others;
+  }
+
   /// From now on friction acts at the surfaces of the strands, whose sections transmit the fraction `couple` of its
   /// couple (SurfacePoint), and contacts resist rolling. Otherwise it acts on the centrelines. `turns` belong to the
   /// positions that are evaluated and must outlive this object.
   void act_at_surface(double couple, const SectionTurns& turns, const RollingResistance& rolling = {}) {
-    lever_ = 0.5 * couple;
+    couple_ = couple;
     rolling_ = rolling;
     turns_ = &turns;
   }
@@ -66,11 +72,11 @@ class SmoothContact {
 
   /// The consistent linearisation of the active contacts, in order; unused models may follow.
   void linearise(const ContactLinearisation& how, double dt, std::vector<ContactModel>& models) const {
-    knot_utm::linearise(normal_, friction_, dt, how, contacts_, models);
+    knot_utm::linearise(laws_, dt, how, contacts_, models);
   }
   /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).
   std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
-    return knot_utm::linearise(normal_, friction_, rolling_, dt, how, contacts_, surfaces_, from, models);
+    return knot_utm::linearise(laws_, rolling_, dt, how, contacts_, surfaces_, from, models);
   }
 
   /// The motion of one of `contacts()` in this step. The overlap at the beginning neglects the third order in the
@@ -81,7 +87,7 @@ class SmoothContact {
   void commit(const Points& position);
 
   /// e(D) of the pressure law [N]
-  double energy(double overlap) const { return normal_.energy(overlap); }
+  double energy(int pair, double overlap) const { return laws_[pair].normal.energy(overlap); }
 
   /// Saves or loads what the last accepted step left.
   void state(Archive& archive);
@@ -113,6 +119,7 @@ class SmoothContact {
     Memory memory;
     std::size_t foot;     // number of it in search_
     std::size_t contact;  // number of it; kNone where it is left out
+    int pair;             // of materials (ContactLaws)
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
@@ -159,11 +166,15 @@ class SmoothContact {
   double largest_weighting(const Memory& memory) const;
   double offset_at(const FootSearch::Foot& foot, const Points& position) const;
 
-  NormalLaw normal_;
-  double begins_;  // overlap at which its pressure begins [m]
-  Friction friction_;
-  double dt_ = 0.0;  // of this step [s]
-  double diameter_;
+  /// Whether a segment belongs to a rope of another material, as a number: 1 or 0.
+  int is_other(int segment) const { return segment < first_of_other_ ? 0 : 1; }
+
+  ContactLaws laws_;
+  double dt_ = 0.0;            // of this step [s]
+  int first_of_other_;         // node of the ropes of another material
+  double radius_[2];           // of these materials [m]
+  double distance_[3];         // of centrelines that touch, by pair [m]
+  double diameter_;            // of the thinnest rope [m]
   double window_;              // of arclength within which a foot is the same one [m]
   double reach_;               // of centrelines within which feet are followed [m]
   Eigen::VectorXd arclength_;  // of the nodes
@@ -173,7 +184,7 @@ class SmoothContact {
   FootSearch search_;
   std::vector<Tracked> tracked_;
   std::vector<ContactPoint> contacts_;
-  double lever_ = 0.0;                   // lambda of SurfacePoint
+  double couple_ = 0.0;                  // eta of SurfacePoint
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
   RollingResistance rolling_;

@@ -29,8 +29,9 @@ struct SectionTurns {
 /// sections with it, however it is bent. The strands' surfaces meet half way between the centrelines, at lambda x from
 /// either, lambda = 1/2, x the gap. A soft section transmits only the fraction eta of the couple
 /// (material.friction_couple), and its surface moves as if it lay at lambda = eta/2. On a roller of radius R, whose own
-/// turn RollerContact adds, lambda = eta h/(R + h). Material points of the two surfaces slid against each other in this
-/// step by
+/// turn RollerContact adds, lambda = eta h/(R + h). Strands of different radii meet at lambda x = eta h_a/(h_a + h_b) x
+/// from a and at q lambda x from b, q = h_b/h_a: below, phi_b is to be read as q phi_b in u, and m as q m on b.
+/// Material points of the two surfaces slid against each other in this step by
 ///
 ///     u = Dx_a - Dx_b - (phi_a + phi_b) x lambda x,
 ///
@@ -60,6 +61,7 @@ struct SurfacePoint {
   double spin_b = 0.0;              ///< Psi of b [m]
   double spin_slope_b = 0.0;        ///< dPsi_b/du [m]
   double lever = 0.0;               ///< lambda [-]
+  double uneven = 1.0;              ///< q [-]
   double d_a[3] = {};               ///< da'/dq_k [-]
   double s_a[2] = {}, s_b[2] = {};  ///< of the spins of edges a0, a0 + 1, and b0, b0 + 1 [m]
   double s_slope_b[2] = {};         ///< ds_b/du [m]
@@ -160,9 +162,9 @@ struct SurfaceModels {
 };
 
 /// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
-/// four active contacts from number `from` on, or as many as are left. `surfaces`: one for each of `contacts`. Returns
-/// the number from which to go on.
-std::size_t linearise(const NormalLaw& normal, const Friction& friction, const RollingResistance& rolling, double dt,
+/// four active contacts of one pair of materials from number `from` on, or as many as follow each other. `surfaces`:
+/// one for each of `contacts`. Returns the number from which to go on.
+std::size_t linearise(const ContactLaws& laws, const RollingResistance& rolling, double dt,
                       const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
                       const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models);
 

@@ -16,9 +16,9 @@ using BreakingRegistry = LawRegistry<BreakingLaws>;
 /// The law that a material with a breaking force names.
 BreakingLaws breaking_law_of(const Material& material);
 
-bool can_part(const Material& material);  ///< it has a breaking force
+bool can_part(const Material& material);  ///< it has a breaking force, or that of another rope has one
 
-/// Whether the bend of a rod helps to part it, so that a knot costs strength.
+/// Whether the bend of a rope of this material helps to part it, so that a knot costs strength.
 bool parts_by_bending(const Material& material);
 
 }  // namespace knot_utm

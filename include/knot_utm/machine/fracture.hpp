@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -25,13 +27,26 @@ struct Exposure {
 /// A rod bends no sharper than its section is wide. Without the mean, a limp rope would be bent over a length of
 /// (k_b/T)^1/2 where a strand presses on it, some hundredths of h at the loads that part it, so that the largest
 /// curvature would grow as edges get shorter. Cut edges, and ends of ropes, bear nothing.
-Exposure most_exposed(const BreakingLaws& law, const RodProperties& rod, const Points& position);
+class RopeStrengths {
+ public:
+  /// By the breaking laws of the materials of its ropes, which say all about those that can part.
+  RopeStrengths(const Material& material, const RodProperties& rod);
+
+  Exposure most_exposed(const RodProperties& rod, const Points& position) const;
+
+ private:
+  struct Ropes {
+    BreakingLaws law;
+    Eigen::Index begin, end;  // their edges
+  };
+  std::vector<Ropes> ropes_;
+};
 Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position);
 
 /// Time that a wave of tension takes along a length [m] of the rod: length sqrt(rho pi h^2/k_s) [s].
 double transit_time(const RodMaterial& material, double length);
 
-/// Whether another strand lies against an edge, nearer than 2.2 h to it and further than 5 h along the rod.
+/// Whether another strand lies against an edge, nearer than 1.1 (h_a + h_b) to it and further than 5 h along the rod.
 bool lies_in_knot(const RodProperties& rod, const Points& position, int edge);
 
 }  // namespace knot_utm

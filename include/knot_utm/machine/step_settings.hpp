@@ -21,6 +21,13 @@ double friction_couple(const Material& material, const PhysicsOptions& physics);
 /// The pressure law of contacts between strands of this material, and on rollers, with the contact tolerance delta [m].
 NormalLaw normal_law(const Material& material, double tolerance);
 
+/// That of strands of two materials, which give way one behind the other: half of each one's own contact is its, so
+/// that 2/K = 1/K_a + 1/K_b.
+NormalLaw normal_law_between(const Material& a, const Material& b, double tolerance);
+
+/// Friction coefficient between ropes of two materials (physics.friction.pair) [-].
+double pair_friction(const Material& material, const PhysicsOptions& physics);
+
 /// Whether friction turns the rod about itself, so that the scene must solve for twist.
 bool friction_rolls(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics);
 

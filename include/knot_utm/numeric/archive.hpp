@@ -55,6 +55,10 @@ class Archive {
   /// A mark of four letters, by which loading notices an order that differs from that of saving.
   void section(const char* tag);
 
+  /// The same of a part that a state may lack. Returns whether it is there, which loading tells by the mark: what else
+  /// may follow must not begin with it.
+  bool optional_section(const char* tag, bool there);
+
   template <typename... Values>
   void operator()(Values&... values) {
     (visit(values), ...);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "knot_utm/numeric/archive.hpp"
@@ -21,18 +22,31 @@ bool are_places(const Points& points);
 /// Several ropes are one rod with cut edges. A cut edge joins the last node of a rope to the first one of the next, and
 /// has no mass and no stiffness, nor do nodes bend or twist at its ends. Its l_j is no length of rod: it only keeps the
 /// two ropes further apart along the rod than where a strand touches itself (least_loop in contact/candidates.hpp).
+///
+/// The ropes behind the first one may be of another material, with laws of the same kinds.
 struct RodProperties {
-  RodMaterial material;
+  RodMaterial material;                 ///< of all ropes, or of the first one
   std::shared_ptr<const RodLaws> laws;  ///< of stretching and bending (rod_laws.hpp)
-  Eigen::VectorXd rest_length;          ///< l_j [m], N-1
-  Eigen::VectorXd voronoi_length;       ///< lbar_i [m], N (half an edge at the ends)
-  Eigen::VectorXd mass;                 ///< m_i [kg], N
-  Eigen::VectorXd natural_twist;        ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
-  std::vector<int> cuts;                ///< edges that are cut, ascending
+  /// Of the ropes behind the first one, where they are of another material.
+  std::optional<RodMaterial> other_material;
+  std::shared_ptr<const RodLaws> other_laws;  ///< null where there is none
+  Eigen::VectorXd rest_length;                ///< l_j [m], N-1
+  Eigen::VectorXd voronoi_length;             ///< lbar_i [m], N (half an edge at the ends)
+  Eigen::VectorXd mass;                       ///< m_i [kg], N
+  Eigen::VectorXd natural_twist;              ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
+  std::vector<int> cuts;                      ///< edges that are cut, ascending
 
   Eigen::Index nodes() const { return voronoi_length.size(); }
   Eigen::Index edges() const { return rest_length.size(); }
   bool is_cut(Eigen::Index edge) const;
+  /// The first node and edge of the other material; there is none from nodes() on.
+  Eigen::Index first_of_other() const { return other_material ? cuts.front() + 1 : nodes(); }
+  /// Of a node, or of an edge that is not cut.
+  const RodMaterial& material_at(Eigen::Index node) const {
+    return node < first_of_other() ? material : *other_material;
+  }
+  double thinnest() const;  ///< radius of the thinnest rope [m]
+  const RodLaws& laws_at(Eigen::Index node) const { return node < first_of_other() ? *laws : *other_laws; }
   double length() const;  ///< of all ropes [m]
   /// Arclength at rest of every node from the first, with the l_j of cut edges [m], N
   Eigen::VectorXd arclength() const;
@@ -49,6 +63,10 @@ struct RodProperties {
 /// `rest_length` says of cut edges does not count.
 RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length,
                        const std::vector<int>& cuts = {});
+/// The same with ropes behind the first one of another material. Throws InvalidInput where there are none, or where the
+/// two materials have laws of different kinds.
+RodProperties make_rod(const RodMaterial& material, const RodMaterial& other, const Eigen::VectorXd& rest_length,
+                       const std::vector<int>& cuts);
 
 /// What moves, and what the laws of the rod remember. Twist members are empty where the scene does not solve for twist.
 struct RodState {

@@ -17,4 +17,9 @@ struct RodLaws {
   void state(Archive& archive);
 };
 
+/// Whether the laws of two ropes go by the same names. Their parameters may differ.
+inline bool of_one_kind(const RodLaws& a, const RodLaws& b) {
+  return a.stretching.index() == b.stretching.index() && a.bending.index() == b.bending.index();
+}
+
 }  // namespace knot_utm

@@ -43,7 +43,7 @@ StretchingLocal stretching(const Law& law, double k_s, double l0, const Vec3& ed
 /// Edge j of a rod. A cut one has k_s = 0.
 inline StretchedEdge stretched_edge(const RodProperties& rod, const Points& position, Eigen::Index j) {
   const Vec3 edge = position.col(j + 1) - position.col(j);
-  const double k_s = rod.is_cut(j) ? 0.0 : rod.material.stretching_stiffness;
+  const double k_s = rod.is_cut(j) ? 0.0 : rod.material_at(j).stretching_stiffness;
   return {k_s, rod.rest_length[j], edge.norm() / rod.rest_length[j]};
 }
 

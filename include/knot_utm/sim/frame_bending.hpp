@@ -75,7 +75,7 @@ class FrameBending {
   FourDirectors directors(std::size_t group) const;
   static void set_curvatures(const FourPairs& pair, const FourDirectors& directors, FourNodes& four, Lanes bend[2]);
   template <typename Law>
-  void respond(const Law& law, const Lanes bend[2], std::size_t group);
+  void respond(const Law& law, const Law& other, const Lanes bend[2], std::size_t group);
 
   const RodProperties& rod_;
   int own_;                // numbers that the law keeps of a node

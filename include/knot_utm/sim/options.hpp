@@ -17,9 +17,10 @@ struct PhysicsOptions {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< g [m/s^2]
   FrictionOptions friction;                           ///< friction.law and the keys of that law
   FrictionAt friction_at = FrictionAt::kSurface;      ///< friction.at: surface | centreline
-  ContactLaw contact_law = ContactLaw::kSmooth;       ///< contact.law: smooth | edge
-  TwistMode twist = TwistMode::kAuto;                 ///< twist: auto (where the scene can twist) | on | off
-  Accuracy accuracy = Accuracy::kNormal;              ///< accuracy: draft | normal | fine
+  std::optional<double> pair_friction;  ///< friction.pair: coefficient of two materials; unset: the smaller of theirs
+  ContactLaw contact_law = ContactLaw::kSmooth;  ///< contact.law: smooth | edge
+  TwistMode twist = TwistMode::kAuto;            ///< twist: auto (where the scene can twist) | on | off
+  Accuracy accuracy = Accuracy::kNormal;         ///< accuracy: draft | normal | fine
   std::optional<double> drag;  ///< viscous drag per length of rod [N s/m^2]; unset: what brings it to rest (scales.hpp)
   std::optional<double> inertia;            ///< mass that is accelerated, over the rod's own [-]; unset: see scales.hpp
   std::optional<double> contact_tolerance;  ///< contact.tolerance delta [fraction of radius]

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "knot_utm/contact/roller_contact.hpp"
@@ -83,6 +84,13 @@ struct StepSettings {
   NormalLaw pressure_law;                        ///< between strands, and on rollers
   Friction friction;                             ///< between strands
   Friction roller_friction;
+  /// Laws of the ropes behind the first one, where they are of another material (RodProperties::other_material): with
+  /// the first one, among themselves, and on rollers.
+  struct OtherLaws {
+    PairLaws between, own, on_rollers;
+    void state(Archive& archive) { archive(between, own, on_rollers); }
+  };
+  std::optional<OtherLaws> others;
   double friction_couple =
       0.0;                    ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
   RollingResistance rolling;  ///< of all contacts; only where friction acts at the surfaces

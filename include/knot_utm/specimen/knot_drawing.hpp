@@ -9,7 +9,8 @@
 
 namespace knot_utm {
 
-/// A knot as its file describes it (method/knot_file.hpp). All lengths are in radii h of the rod; the load axis is z.
+/// A knot as its file describes it (method/knot_file.hpp). All lengths are in radii h of the rod, of the thickest
+/// one where ropes differ; the load axis is z.
 /// Each strand is a rope. Its ends have names, by which grips hold and pull them.
 struct KnotDrawing {
   struct Strand {
@@ -46,10 +47,12 @@ struct KnotDrawing {
 
 /// How large a drawing is made.
 struct DrawnSize {
-  double radius = 0.0;       ///< h [m]
+  double radius = 0.0;       ///< h, of the thickest strand [m]
   double end_to_end = 0.0;   ///< L, from the lower grip to the upper one [m]
   double tail = 0.0;         ///< straight length of each free end beyond its last point [m]
-  double edge_length = 0.0;  ///< [m]
+  double edge_length = 0.0;  ///< of the thickest strand [m]
+  double first = 1.0;        ///< radius and edge length of the first strand over those
+  double others = 1.0;       ///< and of all others
 };
 
 /// A drawing as a rod. Each strand is a centripetal Catmull-Rom curve through its points. A held end runs on straight

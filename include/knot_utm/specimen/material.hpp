@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -26,14 +27,34 @@ struct Material : RodMaterial {
   LawOptions<BreakingLaw> breaking;         ///< breaking.law and the keys of that law
   std::string load_cell;                    ///< name of the load cell that suits it
   std::string notes;
+  std::shared_ptr<const Material> other;  ///< of the ropes behind the first one, `other_material`; null: of this, too
 };
 
+/// Radius of the thickest rope, the unit of a drawing, and of the thinnest one [m].
+inline double thickest(const Material& material) {
+  return material.other ? std::max(material.radius, material.other->radius) : material.radius;
+}
+inline double thinnest(const Material& material) {
+  return material.other ? std::min(material.radius, material.other->radius) : material.radius;
+}
+
+/// Breaking force of the weakest rope [N]; unset: none parts.
+inline std::optional<double> weakest(const Material& material) {
+  if (!material.other || !material.other->breaking_force) return material.breaking_force;
+  const double other = *material.other->breaking_force;
+  return std::min(material.breaking_force.value_or(other), other);
+}
+
 /// Pre-load F_p of `specimen.preload: auto` [N]: the material's own, else 4 k_b/h^2, with which a knot holds together
-/// once its tails are let go, but at most half of the breaking force.
+/// once its tails are let go, but at most half of the breaking force. Of two materials the larger one of both, but at
+/// most half of what the weaker rope bears.
 inline double default_preload(const Material& material) {
   const double holds = 4.0 * material.bending_stiffness / (material.radius * material.radius);
-  return material.tying_preload.value_or(material.breaking_force ? std::min(holds, 0.5 * *material.breaking_force)
-                                                                 : holds);
+  const double own = material.tying_preload.value_or(
+      material.breaking_force ? std::min(holds, 0.5 * *material.breaking_force) : holds);
+  if (!material.other) return own;
+  const double larger = std::max(own, default_preload(*material.other));
+  return weakest(material) ? std::min(larger, 0.5 * *weakest(material)) : larger;
 }
 
 /// Contact stiffness K of `auto` [N/m^2]: the material's own, else 300 k_b/h^4. Strands that are pressed together by

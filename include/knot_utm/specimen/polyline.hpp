@@ -33,6 +33,7 @@ Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vec
 /// Two places of a polyline, and how far apart they are [m].
 struct NearestPlaces {
   double distance = 0.0;
+  double thinner = 0.0;              ///< by which both radii together are less than those of the thickest rope [m]
   double first = 0.0, second = 0.0;  ///< arclengths [m]
   Vec3 middle = Vec3::Zero();        ///< half-way between them [m]
 };
@@ -40,7 +41,9 @@ struct NearestPlaces {
 /// The two places of a polyline that are nearest to each other among those at least `exclusion` [m] apart along it;
 /// their distance is infinite where there are none. Closed: its last point lies on its first, and the distance along it
 /// is that of the shorter way round. What lies on different sides of one of its `cuts` is always far enough apart.
+/// `radii`: of the ropes between the cuts [m]; none: all are alike. What counts then is the distance of their surfaces,
+/// and the exclusion, that of the thickest one, is in proportion to the radius.
 NearestPlaces nearest_places(const Points& points, double exclusion, bool closed = false,
-                             const std::vector<int>& cuts = {});
+                             const std::vector<int>& cuts = {}, const std::vector<double>& radii = {});
 
 }  // namespace knot_utm

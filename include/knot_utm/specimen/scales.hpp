@@ -37,6 +37,8 @@ SpecimenScales specimen_scales(const RodMaterial& material);
 /// R = slack/2 pi springs in the time R^2 sqrt(m/k_b), which is 0.1 s at most. The weight always follows from the rod's
 /// own mass.
 double inertia_factor(const RodMaterial& material, const PhysicsOptions& physics, double slack);
+/// Of two materials the smaller one, so that gravity accelerates both ropes alike.
+double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack);
 
 /// The same material with the density of its accelerated mass.
 Material as_it_moves(Material material, const PhysicsOptions& physics, double slack);

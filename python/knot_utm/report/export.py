@@ -72,11 +72,11 @@ def export(arguments):
         print("export:", note.replace(" is shown", " is written"), file=sys.stderr)
     shapes = [series.shape(i) for i in range(len(series))]
     if arguments.vtk is not None:
-        return over_time(arguments.vtk, shapes, run.method["material"]["radius"])
+        return over_time(arguments.vtk, run, shapes)
     return at_one_time(arguments, run, shapes, shapes[-1] if arguments.time is None else series.at(arguments.time))
 
 
-def over_time(folder, shapes, radius):
+def over_time(folder, run, shapes):
     """rod.pvd, and of each shape rod_000.vtp and so on. Every file has the same arrays: NaN where a value is not known."""
     os.makedirs(folder, exist_ok=True)
     names, files = names_known(shapes), [f"rod_{number:03d}.vtp" for number in range(len(shapes))]
@@ -86,7 +86,7 @@ def over_time(folder, shapes, radius):
     for file, shape in zip(files, shapes):
         unknown = np.full(len(shape.points), np.nan)
         of_nodes = {**dict.fromkeys(names, unknown), **node_values(shape), "arclength": along if len(along) == len(unknown) else unknown}
-        mesh = rod_mesh(shape.points, pieces(shape, shapes[0]), radius)
+        mesh = mesh_of(run, shape, shapes[0])
         write_vtp(os.path.join(folder, file), mesh, {name: values[mesh.along.astype(int)] for name, values in of_nodes.items()})
     pvd = os.path.join(folder, "rod.pvd")
     write_pvd(pvd, [shape.time for shape in shapes], files)
@@ -100,12 +100,17 @@ def at_one_time(arguments, run, shapes, shape):
         raise CannotReport(f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
                            f"{', '.join(name for name in values if name in scales)}")
     scale = scales.get(arguments.color or "tension")
-    mesh = rod_mesh(shape.points, pieces(shape, shapes[0]), radius)
+    mesh = mesh_of(run, shape, shapes[0])
     colours = scale.of(values[scale.name][mesh.along.astype(int)]) if scale else np.tile(UNKNOWN, (len(mesh.points), 1))
     with open(arguments.gltf, "wb") as out:
         out.write(glb(mesh, colours, "rod"))
     in_colours = f"coloured by its {scale.label()}" if scale else "in one colour, as no tension is known then"
     return f"{arguments.gltf}: the rod at {shape.time:g} s, {in_colours}"
+
+
+def mesh_of(run, shape, whole):
+    parts = pieces(shape, whole)
+    return rod_mesh(shape.points, parts, run.radii(shape, parts))
 
 
 def glb(mesh, colours, name):

@@ -121,12 +121,15 @@ def method_facts(method, units):
     """[(title, [(label, text)], remark)]"""
     method = without_idle_keys(method)
     specimen, material, machine = method["specimen"], method["material"], method["machine"]
+    other = method.get("other_material")
     cell = machine.get("load_cell")
     cell = cell if isinstance(cell, dict) else {}
     facts = Facts(method, units)
     return [
         ("Specimen", [("Knot", knot_of(method)), *facts.of("specimen", specimen, keys_of_specimen(specimen))], ""),
         ("Material", [("Name", str(material.get("name", "own"))), *facts.of("material", material)], material.get("notes") or ""),
+        *([("Material of the other ropes", [("Name", str(other.get("name", "own"))), *facts.of("other_material", other)],
+            other.get("notes") or "")] if other else []),
         ("Machine", [*facts.of("machine", machine),
                      *([("Load cell", str(cell["name"]))] if "name" in cell else []), *facts.of("machine.load_cell", cell)],
          cell.get("notes") or ""),

@@ -134,7 +134,7 @@ class Stage:
         left, wide = column * width, width
         shape = test.at(time)
         rod = figure.add_axes([left + 0.01, 0.47, wide - 0.02, 0.42])
-        tubes_of(shape, test.shapes[0], test.run.method["material"]["radius"], self.scale).draw(rod)
+        tubes_of(test.run, shape, test.shapes[0], self.scale).draw(rod)
         draw_rollers(rod, test.run, shape)
         rod.set_xlim(*test.box[:2])
         rod.set_ylim(*test.box[2:])

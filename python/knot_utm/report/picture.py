@@ -52,7 +52,7 @@ def draw_shape(axes, run, shape):
     """Its ropes, and a rod that has parted in its pieces."""
     broke, series = run.time_of_break() is not None, series_of(run)[0]
     parts = pieces(shape, series.shape(0)) if broke else ropes(shape)
-    Tubes(shape.points, parts, run.method["material"]["radius"], lambda node: np.where(
+    Tubes(shape.points, parts, run.radii(shape, parts), lambda node: np.where(
         (node < 0.5 * (len(shape.points) - 1))[:, None], FIRST_HALF, SECOND_HALF)).draw(axes)
     if run.method["specimen"]["knot"] == "fisherman":
         draw_rollers(axes, run, shape)

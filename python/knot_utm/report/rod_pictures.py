@@ -25,7 +25,7 @@ def pictures(run, marks, shapes, looks):
     """For each look all of them in one picture, one below the other, with one scale of colours."""
     radius = run.method["material"]["radius"]
     scale = next((one for one in colour_scales(shapes, radius, run.units) if one.name == "tension"), None)
-    rods = [tubes_of(shape, shapes[0], radius, scale) for shape in shapes]
+    rods = [tubes_of(run, shape, shapes[0], scale) for shape in shapes]
     views = [view(run, shape, radius) for shape in shapes]
     return [picture(run, list(zip(marks, shapes, rods, views)), scale, look) for look in looks]
 
@@ -54,7 +54,7 @@ def width_of(views):
     return max(max(right - left, (top - bottom) / HIGHEST) for left, right, bottom, top in views)
 
 
-def tubes_of(shape, whole, radius, scale):
+def tubes_of(run, shape, whole, scale):
     values = node_values(shape).get(scale.name) if scale else None
 
     def colours(node):
@@ -62,19 +62,20 @@ def tubes_of(shape, whole, radius, scale):
             return np.tile(UNKNOWN, (len(node), 1))
         return scale.of(np.interp(node, np.arange(len(values)), values))
 
-    return Tubes(shape.points, pieces(shape, whole), radius, colours)
+    parts = pieces(shape, whole)
+    return Tubes(shape.points, parts, run.radii(shape, parts), colours)
 
 
 class Tubes:
     """Around parts of the rod, for as many pictures as there are. `colours_at`: of places along it, as numbers of nodes."""
 
-    def __init__(self, points, parts, radius, colours_at):
-        tubes = [(part, SeenTube(smooth(to_picture(points[part])), radius)) for part in parts]
+    def __init__(self, points, parts, radii, colours_at):
+        tubes = [(part, SeenTube(smooth(to_picture(points[part])), radius)) for part, radius in zip(parts, radii)]
         colours = np.concatenate([tube.shaded(colours_at(part.start + tube.along * (part.stop - 1 - part.start)))
                                   for part, tube in tubes])
         depth = np.concatenate([tube.depth for _, tube in tubes])
         # What is farther from the eye is paler.
-        away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * radius)
+        away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * max(radii))
         colours = colours + 0.35 * away[:, None] * (0.93 - colours)
         order = np.argsort(depth, kind="stable")
         outlines = np.concatenate([tube.outlines for _, tube in tubes])[order]

@@ -72,13 +72,19 @@ class Run:
         value = self.result.get(key)
         return value if is_number(value) else None
 
+    def radii(self, shape, parts):
+        """Of the ropes that parts of a shape belong to [m]."""
+        first, other = self.method["material"]["radius"], self.method.get("other_material")
+        return [other["radius"] if other and part.start > shape.cuts[0] else first for part in parts]
+
     def has_knot(self):
         return self.reasons.get("knot_efficiency") != "there is no knot"
 
     def given_strength(self):
         """The breaking force of the material with its unit, where the rod parted at it; else None. What is read at such a
         break follows from it."""
-        force = self.method["material"].get("breaking_force")
+        other = self.method.get("other_material", {})
+        force = min(filter(is_number, (self.method["material"].get("breaking_force"), other.get("breaking_force"))), default=None)
         parted = self.value("break_extension") is not None and "at a tension of" in (self.result.get("reason") or "")
         return with_unit(force, self.units.force) if parted and is_number(force) else None
 

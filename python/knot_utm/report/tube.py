@@ -52,9 +52,9 @@ def joined(meshes):
                 np.concatenate([mesh.quads + begin for mesh, begin in zip(meshes, before)]))
 
 
-def rod_mesh(points, pieces, radius):
+def rod_mesh(points, pieces, radii):
     """Around each piece, a slice of the nodes. `along` is the number of the node."""
-    meshes = [tube(points[piece], radius) for piece in pieces]
+    meshes = [tube(points[piece], radius) for piece, radius in zip(pieces, radii)]
     for mesh, piece in zip(meshes, pieces):
         mesh.along += piece.start
     return joined(meshes)

@@ -1,0 +1,189 @@
+// Ropes of two materials as a method gives them: what it reads, what follows from it, what is refused.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "knot_utm/machine/breaking_laws.hpp"
+#include "knot_utm/machine/fracture.hpp"
+#include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/method/method.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/scales.hpp"
+
+namespace knot_utm {
+namespace {
+
+using ::testing::HasSubstr;
+
+Method sheet_bend(std::vector<std::string> more) {
+  more.insert(more.begin(), {"specimen.knot=sheet_bend", "material=polyester_cord", "physics.accuracy=draft"});
+  return load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knot.yaml", more);
+}
+
+Centreline laid(const Method& m) { return specimen_centreline(m.specimen, m.material, m.machine, m.physics); }
+
+std::string refusal_of(const std::vector<std::string>& more) {
+  try {
+    sheet_bend(more);
+  } catch (const InvalidInput& refused) {
+    return refused.what();
+  }
+  return "accepted";
+}
+
+TEST(OtherMaterial, IsReadAsAMaterialIsAndWrittenBack) {
+  EXPECT_FALSE(sheet_bend({}).material.other);
+  const Method method =
+      sheet_bend({"other_material=nylon", "other_material.radius=0.001", "physics.friction.pair=0.2"});
+  ASSERT_TRUE(method.material.other);
+  EXPECT_EQ(method.material.other->name, "nylon");
+  EXPECT_EQ(method.material.other->radius, 0.001);
+  EXPECT_EQ(method.physics.pair_friction, 0.2);
+  const Method again = parse_method(method_yaml(method), std::string(KNOT_UTM_SOURCE_DIR) + "/config/again.yaml");
+  EXPECT_EQ(method_yaml(again), method_yaml(method));
+  EXPECT_EQ(number_at(again, "other_material.radius"), 0.001);
+  EXPECT_FALSE(number_at(sheet_bend({}), "other_material.radius"));
+}
+
+TEST(OtherMaterial, TheThickestRopeIsTheUnitAndThinnerOnesHaveShorterEdges) {
+  const Method one = sheet_bend({}),
+               thin = sheet_bend({"other_material=polyester_cord", "other_material.radius=0.001"}),
+               first_thin = sheet_bend({"material.radius=0.001", "other_material=polyester_cord"});
+  for (const Method& method : {thin, first_thin}) {
+    EXPECT_EQ(method.specimen.tail, one.specimen.tail);
+    EXPECT_EQ(method.specimen.end_to_end, one.specimen.end_to_end);
+    EXPECT_EQ(method.specimen.edge_length, one.specimen.edge_length);
+  }
+  const double share = 0.001 / one.material.radius;
+  const auto edges = [](const Centreline& rod) {
+    const auto edge = [&](Eigen::Index j) { return (rod.points.col(j + 1) - rod.points.col(j)).norm(); };
+    return std::make_pair(edge(0), edge(rod.points.cols() - 2));
+  };
+  const auto [of_first, of_second] = edges(laid(thin));
+  EXPECT_NEAR(of_second / of_first, share, 0.02 * share);
+  const auto [of_thin, of_thick] = edges(laid(first_thin));
+  EXPECT_NEAR(of_thin / of_thick, share, 0.02 * share);
+}
+
+TEST(OtherMaterial, FrictionOfThePairIsTheSmallerOneUnlessItIsGiven) {
+  const std::vector<std::string> slippery = {"other_material=polyester_cord",
+                                             "other_material.friction_coefficient=0.1"};
+  const Method smaller = sheet_bend(slippery);
+  EXPECT_EQ(pair_friction(smaller.material, smaller.physics), 0.1);
+  std::vector<std::string> given = slippery;
+  given.push_back("physics.friction.pair=0.3");
+  const Method set = sheet_bend(given);
+  const StepSettings settings = step_settings(set.specimen, set.material, set.machine, set.physics);
+  ASSERT_TRUE(settings.others);
+  EXPECT_EQ(settings.others->between.friction.coefficient(), 0.3);
+  EXPECT_EQ(settings.others->own.friction.coefficient(), 0.1);
+  EXPECT_EQ(settings.friction.coefficient(), set.material.friction_coefficient);
+}
+
+/// Under the same pressure a strand gives way by half of what a contact of its material does.
+TEST(OtherMaterial, AContactOfTwoMaterialsGivesWayAsBothDoOneBehindTheOther) {
+  const Method method = sheet_bend({"other_material=nylon"});
+  const double tolerance = 1e-6, pressure = 10.0;
+  const NormalLaw a = normal_law(method.material, tolerance), b = normal_law(*method.material.other, tolerance),
+                  both = normal_law_between(method.material, *method.material.other, tolerance);
+  const auto linear = [&](const NormalLaw& law) { return pressure / law.stiffness; };
+  EXPECT_NEAR(linear(both), 0.5 * (linear(a) + linear(b)), 1e-12 * linear(both));
+  EXPECT_NEAR(normal_law_between(method.material, method.material, tolerance).stiffness, a.stiffness,
+              1e-12 * a.stiffness);
+}
+
+TEST(OtherMaterial, BothRopesAreLighterByTheSameFactor) {
+  const Method method = sheet_bend({"other_material=nylon", "other_material.radius=0.001"});
+  const Material moving = as_it_moves(method.material, method.physics, 0.1);
+  const double factor = inertia_factor(method.material, method.physics, 0.1);
+  EXPECT_EQ(moving.density, factor * method.material.density);
+  EXPECT_EQ(moving.other->density, factor * method.material.other->density);
+  EXPECT_LE(factor, inertia_factor(static_cast<const RodMaterial&>(method.material), method.physics, 0.1));
+}
+
+TEST(OtherMaterial, TheRopeThatIsNearestToItsOwnBreakingForceParts) {
+  const Method method = sheet_bend({"other_material=polyester_cord", "other_material.breaking_force=1000"});
+  EXPECT_EQ(weakest(method.material), 1000.0);
+  const double force = *method.material.breaking_force, h = method.material.radius;
+  EXPECT_GT(force, 1000.0);
+  // Both ropes along z, stretched alike.
+  const RodProperties rod = make_rod(method.material, *method.material.other, Eigen::VectorXd::Constant(9, h), {4});
+  Points x = Points::Zero(3, 10);
+  for (int i = 0; i < 10; ++i) x(2, i) = 1.01 * h * i;
+  const Exposure found = most_exposed(method.material, rod, x);
+  EXPECT_GE(found.edge, 5);
+  EXPECT_NEAR(found.fraction, 0.01 * method.material.stretching_stiffness / 1000.0, 1e-9);
+  const Method unbreakable = sheet_bend({"other_material=polyester_cord", "material.breaking_force=none"});
+  EXPECT_TRUE(can_part(unbreakable.material));
+  EXPECT_GE(most_exposed(unbreakable.material, rod, x).edge, 5);
+}
+
+TEST(OtherMaterial, TheAutomaticPreloadTiesTheStifferRopeAndSparesTheWeakerOne) {
+  const Method stiff =
+      sheet_bend({"material=steel_wire", "other_material=steel_wire", "other_material.bending_stiffness=1e-3"});
+  EXPECT_EQ(stiff.specimen.preload, default_preload(*stiff.material.other));
+  const Method weak = sheet_bend({"other_material=polyester_cord", "other_material.breaking_force=10"});
+  EXPECT_EQ(weak.specimen.preload, 5.0);
+}
+
+/// Laid, and moved for a while, the same material twice is as it is once: up to the compliances of contacts, whose sums
+/// round otherwise.
+TEST(OtherMaterial, TheSameOneTwiceIsAsOne) {
+  const auto after = [](const std::vector<std::string>& more) {
+    const Method method = sheet_bend(more);
+    TestingMachine machine(method.specimen, method.material, method.machine, method.physics);
+    Command tie;
+    tie.time = 0.3;
+    tie.step = 0;
+    tie.phase = Phase::kTie;
+    tie.speed = method.program[0]->speed;
+    machine.respond(tie);
+    return machine.state().position;
+  };
+  const Points one = after({}), two = after({"other_material=polyester_cord"});
+  const double h = sheet_bend({}).material.radius;
+  ASSERT_EQ(one.cols(), two.cols());
+  // The residual of Newton's method leaves a thousandth of a radius where strands have not met yet.
+  EXPECT_LT((one - two).cwiseAbs().maxCoeff(), 1e-3 * h);
+}
+
+struct Refused {
+  std::vector<std::string> more;
+  std::string says;
+};
+
+TEST(OtherMaterial, IsRefusedInOneLineWhereNothingTellsRopesApart) {
+  const std::string other = "other_material=polyester_cord";
+  for (const Refused& one :
+       std::vector<Refused>{{{other, "specimen.knot=bowline"},
+                             "other_material is polyester_cord, but has an effect only for a knot of two ropes"},
+                            {{other, "specimen.knot=straight", "program=[hold: {duration: 1}]"}, "other_material"},
+                            {{"other_material=steel_wire"},
+                             "other_material.bending_law is elastic, but must be that of material, frictional"},
+                            {{other, "other_material.stretching_law=neo_hookean"}, "other_material.stretching_law"},
+                            {{other, "other_material.friction_couple=0.5"}, "other_material.friction_couple"},
+                            {{other, "other_material.rolling_resistance=0.1"}, "other_material.rolling_resistance"},
+                            {{other, "material.rolling_resistance=0.1"}, "material.rolling_resistance"},
+                            {{other, "physics.contact.law=edge"}, "physics.contact.law"},
+                            {{other, "analysis.margin=true"}, "analysis.margin"},
+                            {{other, "other_material.radius=2"}, "other_material.radius"},
+                            {{other, "other_material.colour=red"}, "other_material.colour"},
+                            {{"other_material=nyloon"}, "other_material"},
+                            {{"physics.friction.pair=0.2"},
+                             "physics.friction.pair is 0.2, but has an effect only with other_material"}}) {
+    const std::string line = refusal_of(one.more);
+    EXPECT_THAT(line, HasSubstr(one.says));
+    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 0) << line;
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm

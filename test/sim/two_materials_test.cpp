@@ -1,0 +1,304 @@
+// Ropes of two materials in one rod.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/rod/energy.hpp"
+#include "knot_utm/rod/frames.hpp"
+#include "knot_utm/sim/saved_step.hpp"
+#include "sim/balance.hpp"
+#include "sim/scenes.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr int kEdgesOfRope = 12;
+
+/// A rope through the given points, one behind the other.
+struct LaidRopes {
+  Points position;
+  std::vector<int> cuts;
+
+  void add(const Vec3& begin, const Vec3& edge, int edges = kEdgesOfRope) {
+    const Eigen::Index before = position.cols();
+    if (before > 0) cuts.push_back(static_cast<int>(before) - 1);
+    position.conservativeResize(3, before + edges + 1);
+    for (int i = 0; i <= edges; ++i) position.col(before + i) = begin + i * edge;
+  }
+  Eigen::VectorXd lengths() const {
+    const Eigen::Index edges = position.cols() - 1;
+    return (position.rightCols(edges) - position.leftCols(edges)).colwise().norm();
+  }
+  RodState state() const {
+    RodState out;
+    out.position = position;
+    out.velocity = Points::Zero(3, position.cols());
+    return out;
+  }
+};
+
+Material soft_cord(double radius) {
+  Material out = braided_rope();
+  out.radius = radius;
+  out.density *= 0.5;
+  out.stretching_stiffness *= 0.2;
+  out.bending_stiffness *= 0.05;
+  out.twisting_stiffness *= 0.05;
+  return out;
+}
+
+StepSettings settings_of(const Material& material, double mu_between, double mu_others) {
+  StepSettings out = closed_form_settings(material);
+  const double presliding = 1e-3 * material.radius;
+  out.others = {{out.pressure_law, MemoryFriction{mu_between, presliding}},
+                {out.pressure_law, MemoryFriction{mu_others, presliding}},
+                {out.pressure_law, out.roller_friction}};
+  return out;
+}
+
+TEST(TwoMaterials, TheSameOneTwiceIsOneToTheLastBit) {
+  const Material material = braided_rope();
+  const double h = material.radius;
+  LaidRopes ropes;
+  ropes.add(Vec3(-6.0 * h, 0.0, 0.0), Vec3(h, 0.0, 0.0));
+  ropes.add(Vec3(0.0, -6.0 * h, 1.9 * h), Vec3(0.0, h, 0.0));
+  for (const bool twist : {false, true}) {
+    RodState state = ropes.state();
+    if (twist) initialise_frames(&state);
+    StepSettings one = closed_form_settings(material);
+    one.friction = MemoryFriction{0.4, 1e-3 * h};
+    if (twist) one.friction_couple = 1.0;
+    StepSettings two = one;
+    two.others = {
+        {one.pressure_law, one.friction}, {one.pressure_law, one.friction}, {one.pressure_law, one.roller_friction}};
+    const auto as_one = TimeStep::make(make_rod(material, ropes.lengths(), ropes.cuts), state, one);
+    const auto as_two = TimeStep::make(make_rod(material, material, ropes.lengths(), ropes.cuts), state, two);
+    double pressed = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      ASSERT_TRUE(as_one->step({}, 1e-5).accepted());
+      ASSERT_TRUE(as_two->step({}, 1e-5).accepted());
+      pressed = std::max(pressed, as_one->readings().contact().normal_force);
+    }
+    EXPECT_GT(pressed, 0.0);
+    EXPECT_EQ(as_one->state().position, as_two->state().position);
+    EXPECT_EQ(as_one->state().twist, as_two->state().twist);
+  }
+}
+
+/// Under a dead load F each rope is longer by F l/k_s of its own.
+TEST(TwoMaterials, EachRopeStretchesByItsOwnStiffness) {
+  const Material rope = braided_rope(), cord = soft_cord(0.5 * rope.radius);
+  const double h = rope.radius, load = 10.0, length = kEdgesOfRope * h;
+  LaidRopes ropes;
+  ropes.add(Vec3::Zero(), Vec3(h, 0.0, 0.0));
+  ropes.add(Vec3(0.0, 100.0 * h, 0.0), Vec3(h, 0.0, 0.0));
+  StepSettings settings = settings_of(rope, 0.0, 0.0);
+  settings.motion_limit = settings.newton_cap = 1.0;
+  const auto step = TimeStep::make(make_rod(rope, cord, ropes.lengths(), ropes.cuts), ropes.state(), settings);
+  Boundary boundary;
+  for (const int first : {0, kEdgesOfRope + 1}) {
+    boundary.fixed_nodes.push_back({first, ropes.position.col(first)});
+    boundary.forces.push_back({first + kEdgesOfRope, load * Vec3::UnitX()});
+  }
+  for (int i = 0; i < 40; ++i) ASSERT_TRUE(step->step(boundary, 1.0).accepted());
+  const auto longer = [&](int last) { return step->state().position(0, last) - length; };
+  // The residual, 1e-8 N and 1e-9 of the load, over the load.
+  EXPECT_NEAR(longer(kEdgesOfRope) / (load * length / rope.stretching_stiffness), 1.0, 1e-6);
+  EXPECT_NEAR(longer(2 * kEdgesOfRope + 1) / (load * length / cord.stretching_stiffness), 1.0, 1e-6);
+  const ElasticEnergy energy = elastic_energy(step->rod(), step->state());
+  const double expected =
+      0.5 * load * load * length * (1.0 / rope.stretching_stiffness + 1.0 / cord.stretching_stiffness);
+  EXPECT_NEAR(energy.stretching / expected, 1.0, 1e-6);
+}
+
+TEST(TwoMaterials, ARopeHasTheMassOfItsOwn) {
+  const Material rope = braided_rope(), cord = soft_cord(0.5 * rope.radius);
+  LaidRopes ropes;
+  ropes.add(Vec3::Zero(), Vec3(rope.radius, 0.0, 0.0));
+  ropes.add(Vec3(0.0, 1.0, 0.0), Vec3(cord.radius, 0.0, 0.0));
+  const RodProperties rod = make_rod(rope, cord, ropes.lengths(), ropes.cuts);
+  const auto mass = [](const Material& of) {
+    return of.density * M_PI * of.radius * of.radius * kEdgesOfRope * of.radius;
+  };
+  EXPECT_NEAR(rod.mass.head(kEdgesOfRope + 1).sum() / mass(rope), 1.0, 1e-12);
+  EXPECT_NEAR(rod.mass.tail(kEdgesOfRope + 1).sum() / mass(cord), 1.0, 1e-12);
+}
+
+/// Two rods that cross at right angles, the thin one above the thick one or below it.
+TEST(TwoMaterials, CrossingRodsTouchAtTheSumOfTheirRadii) {
+  const Material rope = braided_rope(), cord = soft_cord(0.4 * rope.radius);
+  const double h = rope.radius, touching = rope.radius + cord.radius;
+  for (const double side : {1.0, -1.0})
+    for (const double overlap : {-0.01 * h, 0.02 * h}) {
+      LaidRopes ropes;
+      ropes.add(Vec3(-6.0 * h, 0.0, 0.0), Vec3(h, 0.0, 0.0));
+      ropes.add(Vec3(0.1 * h, -6.0 * cord.radius, side * (touching - overlap)), Vec3(0.0, cord.radius, 0.0));
+      const NormalLaw law{1e6, 1e-3 * h};
+      SmoothContact contact(make_rod(rope, cord, ropes.lengths(), ropes.cuts), law, MemoryFriction{0.0, h}, 0.5 * h);
+      contact.begin(ropes.position);
+      contact.evaluate(ropes.position, ropes.position, 1e-3);
+      double deepest = -h;
+      for (const ContactPoint& one : contact.contacts()) {
+        EXPECT_EQ(one.pair, 1);
+        deepest = std::max(deepest, one.overlap);
+      }
+      if (overlap < 0.0)
+        EXPECT_TRUE(std::none_of(contact.contacts().begin(), contact.contacts().end(),
+                                 [](const ContactPoint& one) { return one.touches(); }));
+      else  // Of straight strands the foot nearest to the crossing is within a quarter of an edge of the thin one.
+        EXPECT_NEAR(deepest, overlap, 0.03 * h);
+    }
+}
+
+/// Three ropes lie along each other: the first one is drawn along its axis between the other two, which are of another
+/// material, or is at rest while one of these is drawn along the other. What slides bears mu times the normal force.
+TEST(TwoMaterials, RopesSlideAtTheFrictionOfTheirPair) {
+  constexpr double kBetween = 0.2, kOthers = 0.7;
+  const Material rope = braided_rope(), cord = soft_cord(0.5 * rope.radius);
+  const double h = rope.radius, pressed = 1e-3 * h;
+  const StepSettings settings = settings_of(rope, kBetween, kOthers);
+  for (const bool others : {false, true}) {
+    LaidRopes ropes;
+    const double z = rope.radius + cord.radius - pressed, far = others ? 50.0 * h : 0.0;
+    ropes.add(Vec3(-3.0 * h, far, 0.0), Vec3(0.5 * h, 0.0, 0.0));
+    ropes.add(Vec3(-3.0 * h, 0.0, z), Vec3(0.5 * h, 0.0, 0.0));
+    ropes.add(Vec3(-3.0 * h, 0.0, others ? z + 2.0 * cord.radius - pressed : -z), Vec3(0.5 * h, 0.0, 0.0));
+    const auto step = TimeStep::make(make_rod(rope, cord, ropes.lengths(), ropes.cuts), ropes.state(), settings);
+    const int drawn = others ? 1 : 0, nodes = kEdgesOfRope + 1;
+    Boundary boundary;
+    for (int i = 0; i < ropes.position.cols(); ++i) boundary.fixed_nodes.push_back({i, ropes.position.col(i)});
+    for (int k = 0; k < 20; ++k) {
+      for (int i = drawn * nodes; i < (drawn + 1) * nodes; ++i)
+        boundary.fixed_nodes[static_cast<std::size_t>(i)].position[0] += 0.01 * h;
+      ASSERT_TRUE(step->step(boundary, 1.0).accepted());
+    }
+    double drag = 0.0;
+    for (int i = drawn * nodes; i < (drawn + 1) * nodes; ++i) drag += step->readings().reaction(i)[0];
+    const double normal = step->readings().contact().normal_force;
+    EXPECT_GT(normal, 1.0);
+    EXPECT_NEAR(drag / normal, others ? kOthers : kBetween, 1e-9);
+  }
+}
+
+/// A limp cord lies half around a thick rope that is held: T2/T1 = exp(mu pi), mu that of the pair.
+TEST(TwoMaterials, ALimpCordOnAThickRopeIsACapstan) {
+  constexpr double kMu = 0.25, kTail = 20.0;
+  Material rope = braided_rope(), cord = rope;
+  cord.radius = 0.1 * rope.radius;
+  cord.density = 100.0;
+  cord.bending_stiffness = 1e-4 * kTail * cord.radius * cord.radius;
+  cord.twisting_stiffness = cord.bending_stiffness;
+  cord.stretching_stiffness = 1e4 * kTail;
+  const double h = rope.radius, rho = h + cord.radius, edge = 0.1 * rho;
+  LaidRopes ropes;
+  ropes.add(Vec3(0.0, -6.0 * h, 0.0), Vec3(0.0, h, 0.0));
+  const int around = static_cast<int>(std::ceil(M_PI * rho / edge)), straight = 20;
+  ropes.add(Vec3::Zero(), Vec3::UnitX(), around + 2 * straight);
+  for (int i = 0; i <= around + 2 * straight; ++i) {
+    const double angle = std::clamp(M_PI * (i - straight) / around, 0.0, M_PI),
+                 below = edge * std::max({0, straight - i, i - straight - around});
+    ropes.position.col(13 + i) = Vec3(-rho * std::cos(angle), 0.0, rho * std::sin(angle) - below);
+  }
+  StepSettings settings = settings_of(cord, kMu, 0.0);
+  // It presses with T/rho or more, and so sinks in by a hundredth of its radius.
+  settings.pressure_law = {100.0 * kTail / (rho * cord.radius), 1e-3 * cord.radius};
+  settings.others->between.normal = settings.others->own.normal = settings.pressure_law;
+  settings.residual = 1e-6 * kTail;
+  settings.residual_of_tension = 0.0;
+  settings.drag = 100.0;
+  Eigen::VectorXd rest = ropes.lengths();
+  rest.tail(around + 2 * straight) /= 1.0 + kTail / cord.stretching_stiffness;  // it begins under its load
+  const auto step = TimeStep::make(make_rod(rope, cord, rest, ropes.cuts), ropes.state(), settings);
+  Boundary boundary;
+  for (int i = 0; i <= kEdgesOfRope; ++i) boundary.fixed_nodes.push_back({i, ropes.position.col(i)});
+  const int first = 13, last = static_cast<int>(ropes.position.cols()) - 1;
+  boundary.forces = {{first, -kTail * Vec3::UnitZ()}};
+  boundary.fixed_nodes.push_back({last, ropes.position.col(last)});
+  const Vec3 from = ropes.position.col(last);
+  double time = 0.0, sum = 0.0, span = 0.0;
+  StepControl::Options options;
+  options.longest = 0.05;
+  options.motion = 0.5 * settings.motion_limit;
+  StepControl control(options);
+  // Three edges until it slides all along, then one more.
+  const std::string gave_up = control.advance(
+      *step, time, 4.0,
+      [&](double, double to) -> const Boundary& {
+        boundary.fixed_nodes.back().position = from - to * edge * Vec3::UnitZ();
+        return boundary;
+      },
+      [&](double to, double dt, const StepSummary&) {
+        if (to <= 3.0) return;
+        sum += dt * step->readings().reaction(last).norm();
+        span += dt;
+      });
+  ASSERT_EQ(gave_up, "");
+  // Edges of a tenth of rho: second order in their length, as R8Capstan.
+  EXPECT_NEAR(sum / span / kTail, std::exp(kMu * M_PI), 0.01 * std::exp(kMu * M_PI));
+}
+
+/// Two ropes of different radii and materials collide and roll on each other with friction at their surfaces: forces
+/// and moments sum to nothing, and work is accounted for.
+TEST(TwoMaterials, ForcesMomentsAndWorkBalance) {
+  const Material rope = braided_rope(), cord = soft_cord(0.5 * rope.radius);
+  const double h = rope.radius, touching = rope.radius + cord.radius;
+  LaidRopes ropes;
+  ropes.add(Vec3(-6.0 * h, 0.0, 0.0), Vec3(h, 0.0, 0.0));
+  ropes.add(Vec3(0.2 * h, -6.0 * cord.radius, 0.99 * touching), Vec3(0.3 * h, cord.radius, 0.0));
+  RodState state = ropes.state();
+  state.velocity.rightCols(kEdgesOfRope + 1).colwise() = Vec3(0.02, 0.01, -0.05);
+  initialise_frames(&state);
+  StepSettings settings = settings_of(rope, 0.4, 0.2);
+  settings.friction_couple = 1.0;
+  settings.spin_inertia = false;
+  settings.others->between.normal = settings.others->own.normal = settings.pressure_law =
+      NormalLaw{300.0 * rope.bending_stiffness / std::pow(h, 4.0), 0.05 * h};
+  Balance balance(TimeStep::make(make_rod(rope, cord, ropes.lengths(), ropes.cuts), state, settings), settings, 1e-3);
+  const Boundary free;
+  double largest = 0.0, friction = 0.0;
+  balance.run(
+      0.1, [&](double) -> const Boundary& { return free; },
+      [&] {
+        const double normal = balance.stepper().readings().contact().normal_force;
+        largest = std::max(largest, normal);
+        EXPECT_LT(balance.force().norm(), balance.force_bound() + 1e-9 * normal);
+        EXPECT_LT(balance.moment().norm(), balance.moment_bound() + 1e-9 * normal * h);
+      });
+  friction = balance.sum().friction;
+  EXPECT_GT(largest, 0.0);
+  EXPECT_GT(friction, 0.0);
+  EXPECT_LT(std::abs(balance.gap()), balance.rounding());
+}
+
+TEST(TwoMaterials, ASavedStepOfThemComesToTheSameBitsElsewhere) {
+  const Material rope = braided_rope(), cord = soft_cord(0.5 * rope.radius);
+  const double h = rope.radius;
+  LaidRopes ropes;
+  ropes.add(Vec3(-6.0 * h, 0.0, 0.0), Vec3(h, 0.0, 0.0));
+  ropes.add(Vec3(0.0, -6.0 * h, 0.99 * (h + cord.radius)), Vec3(0.0, h, 0.0));
+  const auto step =
+      TimeStep::make(make_rod(rope, cord, ropes.lengths(), ropes.cuts), ropes.state(), settings_of(rope, 0.4, 0.2));
+  ASSERT_TRUE(step->step({}, 1e-5).accepted());
+  SavedStep elsewhere = load_step(save_step(*step, {}, 0.0, 1e-5), "here");
+  EXPECT_EQ(save_step(*elsewhere.stepper, {}, 0.0, 1e-5), save_step(*step, {}, 0.0, 1e-5));
+  ASSERT_TRUE(step->step({}, 1e-5).accepted());
+  ASSERT_TRUE(elsewhere.try_again().accepted());
+  EXPECT_EQ(elsewhere.stepper->state().position, step->state().position);
+}
+
+TEST(TwoMaterials, AreRefusedWhereTheirLawsAreOfDifferentKinds) {
+  const Material rope = braided_rope();
+  Material rubber = rope;
+  rubber.stretching.law = static_cast<StretchingLaw>(1);
+  const Eigen::VectorXd lengths = Eigen::VectorXd::Constant(10, rope.radius);
+  EXPECT_THROW(make_rod(rope, rubber, lengths, {4}), InvalidInput);
+  EXPECT_THROW(make_rod(rope, rope, lengths, {}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace knot_utm
