@@ -45,12 +45,13 @@ double curvature(const RodProperties& rod, const Points& position, Eigen::Index 
 
 /// Calls use(j, LoadedEdge) for all edges that are not cut.
 template <class Law, class Use>
-void each_edge(const Law& law, const RodProperties& rod, const Points& position, const Use& use) {
+void each_edge(const Law& law, const RodProperties& rod, const Points& position, const StretchedBefore& before,
+               const Use& use) {
   const double h = rod.material.radius;
   double bend_before = 0.0;
   for (Eigen::Index j = 0; j < rod.edges(); ++j) {
     const double bend = law.kBends ? h * curvature(rod, position, j + 1) : 0.0;
-    const StretchedEdge stretched = stretched_edge(rod, position, j);
+    const StretchedEdge stretched = stretched_edge(rod, position, j, before);
     if (!rod.is_cut(j))
       use(j, LoadedEdge{respond(rod, stretched).tension, stretched.stretch - 1.0, std::max(bend, bend_before)});
     bend_before = bend;
@@ -58,23 +59,25 @@ void each_edge(const Law& law, const RodProperties& rod, const Points& position,
 }
 
 template <class Law>
-Exposure worst_edge(const Law& law, const RodProperties& rod, const Points& position) {
+Exposure worst_edge(const Law& law, const RodProperties& rod, const Points& position, const StretchedBefore& before) {
   Exposure out;
-  each_edge(law, rod, position, [&](Eigen::Index j, const LoadedEdge& edge) {
+  each_edge(law, rod, position, before, [&](Eigen::Index j, const LoadedEdge& edge) {
     const double fraction = law.fraction(edge);
     if (fraction > out.fraction) out = {fraction, static_cast<int>(j), Law::kLimit, law.limited(edge)};
   });
   return out;
 }
 
-Exposure exposure(const TensionBreaking& law, const RodProperties& rod, const Points& position) {
-  return worst_edge(law, rod, position);
+Exposure exposure(const TensionBreaking& law, const RodProperties& rod, const Points& position,
+                  const StretchedBefore& before) {
+  return worst_edge(law, rod, position, before);
 }
 
-Exposure exposure(const FibreBreaking& law, const RodProperties& rod, const Points& position) {
-  Exposure out = worst_edge(law, rod, position);
+Exposure exposure(const FibreBreaking& law, const RodProperties& rod, const Points& position,
+                  const StretchedBefore& before) {
+  Exposure out = worst_edge(law, rod, position, before);
   WeakestLink::Sum sum(law.link);
-  each_edge(law, rod, position,
+  each_edge(law, rod, position, before,
             [&](Eigen::Index j, const LoadedEdge& edge) { sum.add(law.fraction(edge), rod.rest_length[j]); });
   out.fraction = sum.fraction();
   return out;
@@ -82,8 +85,9 @@ Exposure exposure(const FibreBreaking& law, const RodProperties& rod, const Poin
 
 }  // namespace
 
-Exposure most_exposed(const BreakingLaws& law, const RodProperties& rod, const Points& position) {
-  return std::visit([&](const auto& of) { return exposure(of, rod, position); }, law);
+Exposure most_exposed(const BreakingLaws& law, const RodProperties& rod, const Points& position,
+                      const StretchedBefore& before) {
+  return std::visit([&](const auto& of) { return exposure(of, rod, position, before); }, law);
 }
 
 Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position) {

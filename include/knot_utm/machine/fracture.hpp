@@ -2,7 +2,7 @@
 
 #include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
@@ -25,7 +25,8 @@ struct Exposure {
 /// A rod bends no sharper than its section is wide. Without the mean, a limp rope would be bent over a length of
 /// (k_b/T)^1/2 where a strand presses on it, some hundredths of h at the loads that part it, so that the largest
 /// curvature would grow as edges get shorter. Cut edges, and ends of ropes, bear nothing.
-Exposure most_exposed(const BreakingLaws& law, const RodProperties& rod, const Points& position);
+Exposure most_exposed(const BreakingLaws& law, const RodProperties& rod, const Points& position,
+                      const StretchedBefore& before = {});
 Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position);
 
 /// Time that a wave of tension takes along a length [m] of the rod: length sqrt(rho pi h^2/k_s) [s].

@@ -6,11 +6,12 @@
 #include "knot_utm/rod/elastic_bending.hpp"
 #include "knot_utm/rod/frictional_bending.hpp"
 #include "knot_utm/rod/plastic_bending.hpp"
+#include "knot_utm/rod/viscoelastic_bending.hpp"
 
 namespace knot_utm {
 
 /// All bending laws there are, in the order in which messages name them; the first is the default.
-using BendingLaws = std::variant<ElasticBending, PlasticBending, FrictionalBending>;
+using BendingLaws = std::variant<ElasticBending, PlasticBending, FrictionalBending, ViscoelasticBending>;
 
 using BendingRegistry = LawRegistry<BendingLaws>;
 
