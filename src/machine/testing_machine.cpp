@@ -25,6 +25,7 @@
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_watch.hpp"
+#include "knot_utm/specimen/rest_shape.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
@@ -101,10 +102,11 @@ struct TestingMachine::Impl {
     RodState state;
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
-    const RodProperties rod = make_rod(material, rest, centreline.cuts);
+    RodProperties rod = make_rod(material, rest, centreline.cuts);
     const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
     if (takes_set || bends_on_frames(material)) remember_bends(rod, &state);
     remember_stretches(rod, &state);
+    give_rest_shape(specimen, &rod, &state);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
     StepSettings settings = step_settings(specimen, material, machine, physics);
     // A weight is that of the rod's own mass.

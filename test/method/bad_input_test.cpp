@@ -332,6 +332,25 @@ TEST(BadInput, RelaxationNeedsAShareAndATimeAndLawsThatRelax) {
               HasSubstr("only with bending_law: viscoelastic"));
 }
 
+TEST(BadInput, ARestShapeNeedsALawThatKeepsItAndGripsThatHoldIt) {
+  const auto of_file = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {kElastic, "material.bending_law=elastic"});
+    return complaint(std::string(KNOT_UTM_SOURCE_DIR) + "/config/from_file.yaml", more);
+  };
+  const std::string curved = "specimen.natural_curvature=20", twisted = "specimen.pre_twist=3";
+  EXPECT_EQ(of_file({curved, twisted, "specimen.natural_towards=z", "machine.grips=clamps"}), "nothing was wrong");
+  EXPECT_THAT(of_file({curved, "material.bending_law=plastic", "material.yield_strain=0.05"}),
+              AllOf(HasSubstr("specimen.natural_curvature is 20, but material.bending_law is plastic: "),
+                    Not(HasSubstr("\n"))));
+  EXPECT_THAT(of_file({"specimen.natural_curvature=9000"}), HasSubstr("one over the radius"));
+  EXPECT_THAT(of_file({"specimen.natural_towards=y"}), HasSubstr("only with specimen.natural_curvature"));
+  EXPECT_THAT(of_file({twisted, "machine.grips=nodes"}), HasSubstr("only clamps hold a twist"));
+  EXPECT_THAT(of_file({"specimen.pre_twist=1000", "machine.grips=clamps"}), HasSubstr("an eighth of a turn"));
+  EXPECT_THAT(of_file({curved, "physics.twist=off"}),
+              AllOf(HasSubstr("a rod that is curved or twisted at rest"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(complaint(kTighten, {curved}), HasSubstr("only for knot: "));
+}
+
 class BadFile : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_ / "materials"); }
@@ -441,7 +460,8 @@ TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
 /// A value of a key of `specimen` that is not its plain one, in the range of each number.
 std::string other_value(const Method& method, const std::string& key) {
   if (!unit_of_key(method, "specimen." + key).empty()) return "2";
-  const std::map<std::string, std::string> words{{"handedness", "opposite"}, {"file", "shape.csv"}, {"closed", "true"}};
+  const std::map<std::string, std::string> words{
+      {"handedness", "opposite"}, {"file", "shape.csv"}, {"closed", "true"}, {"natural_towards", "y"}};
   return words.at(key);
 }
 

@@ -27,6 +27,9 @@ bool bends_on_frames(const RodMaterial& material);
 bool remembers(const BendingLaws& law);
 bool remembers_bends(const RodMaterial& material);
 
+/// Whether a natural curvature that the rod has stays as it is.
+bool keeps_natural_curvature(const RodMaterial& material);
+
 /// How many numbers it remembers of a node besides the natural curvature.
 int own_numbers(const BendingLaws& law);
 
