@@ -50,13 +50,13 @@ struct EdgesOfRopes {
 
 /// Calls use(j, LoadedEdge) for those that are not cut.
 template <class Law, class Use>
-void each_edge(const Law& law, const RodProperties& rod, const Points& position, const EdgesOfRopes& edges,
-               const Use& use) {
+void each_edge(const Law& law, const RodProperties& rod, const Points& position, const StretchedBefore& before,
+               const EdgesOfRopes& edges, const Use& use) {
   const double h = rod.material_at(edges.begin).radius;
   double bend_before = 0.0;
   for (Eigen::Index j = edges.begin; j < edges.end; ++j) {
     const double bend = law.kBends ? h * curvature(rod, position, j + 1) : 0.0;
-    const StretchedEdge stretched = stretched_edge(rod, position, j);
+    const StretchedEdge stretched = stretched_edge(rod, position, j, before);
     if (!rod.is_cut(j))
       use(j, LoadedEdge{respond(rod, stretched).tension, stretched.stretch - 1.0, std::max(bend, bend_before)});
     bend_before = bend;
@@ -64,9 +64,10 @@ void each_edge(const Law& law, const RodProperties& rod, const Points& position,
 }
 
 template <class Law>
-Exposure worst_edge(const Law& law, const RodProperties& rod, const Points& position, const EdgesOfRopes& edges) {
+Exposure worst_edge(const Law& law, const RodProperties& rod, const Points& position, const StretchedBefore& before,
+                    const EdgesOfRopes& edges) {
   Exposure out;
-  each_edge(law, rod, position, edges, [&](Eigen::Index j, const LoadedEdge& edge) {
+  each_edge(law, rod, position, before, edges, [&](Eigen::Index j, const LoadedEdge& edge) {
     const double fraction = law.fraction(edge);
     if (fraction > out.fraction) out = {fraction, static_cast<int>(j), Law::kLimit, law.limited(edge)};
   });
@@ -74,15 +75,15 @@ Exposure worst_edge(const Law& law, const RodProperties& rod, const Points& posi
 }
 
 Exposure exposure(const TensionBreaking& law, const RodProperties& rod, const Points& position,
-                  const EdgesOfRopes& edges) {
-  return worst_edge(law, rod, position, edges);
+                  const StretchedBefore& before, const EdgesOfRopes& edges) {
+  return worst_edge(law, rod, position, before, edges);
 }
 
 Exposure exposure(const FibreBreaking& law, const RodProperties& rod, const Points& position,
-                  const EdgesOfRopes& edges) {
-  Exposure out = worst_edge(law, rod, position, edges);
+                  const StretchedBefore& before, const EdgesOfRopes& edges) {
+  Exposure out = worst_edge(law, rod, position, before, edges);
   WeakestLink::Sum sum(law.link);
-  each_edge(law, rod, position, edges,
+  each_edge(law, rod, position, before, edges,
             [&](Eigen::Index j, const LoadedEdge& edge) { sum.add(law.fraction(edge), rod.rest_length[j]); });
   out.fraction = sum.fraction();
   return out;
@@ -97,12 +98,13 @@ RopeStrengths::RopeStrengths(const Material& material, const RodProperties& rod)
     ropes_.push_back({breaking_law_of(*material.other), others, rod.edges()});
 }
 
-Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& position) const {
+Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& position,
+                                     const StretchedBefore& before) const {
   Exposure out;
   for (const Ropes& ropes : ropes_) {
     const Exposure found = std::visit(
         [&](const auto& law) {
-          return exposure(law, rod, position, {ropes.begin, ropes.end});
+          return exposure(law, rod, position, before, {ropes.begin, ropes.end});
         },
         ropes.law);
     if (found.fraction > out.fraction || out.edge < 0) out = found;

@@ -25,6 +25,7 @@
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_watch.hpp"
+#include "knot_utm/specimen/rest_shape.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
@@ -102,10 +103,12 @@ struct TestingMachine::Impl {
     RodState state;
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
-    const RodProperties rod = material.other ? make_rod(material, *material.other, rest, centreline.cuts)
-                                             : make_rod(material, rest, centreline.cuts);
+    RodProperties rod = material.other ? make_rod(material, *material.other, rest, centreline.cuts)
+                                       : make_rod(material, rest, centreline.cuts);
     const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
     if (takes_set || bends_on_frames(material)) remember_bends(rod, &state);
+    remember_stretches(rod, &state);
+    give_rest_shape(specimen, &rod, &state);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
     StepSettings settings = step_settings(specimen, material, machine, physics);
     // A weight is that of the rod's own mass.
@@ -231,14 +234,19 @@ struct TestingMachine::Impl {
 
   void watch_for_break(double shortest) {
     strengths.emplace(material, stepper->rod());
-    breaks.emplace(shortest, strengths->most_exposed(stepper->rod(), stepper->state().position));
+    breaks.emplace(shortest, exposure());
+  }
+  Exposure exposure() const {
+    return strengths->most_exposed(stepper->rod(), stepper->state().position, StretchedBefore(stepper->state()));
   }
 
   /// Why a step that was solved is none that the rod and the machine make. Empty: it is.
   std::string refuse(const Points& end, double dt) const {
     if (parted()) return "";
-    if (breaks)
-      if (std::string why = breaks->refuse(strengths->most_exposed(stepper->rod(), end), dt); !why.empty()) return why;
+    if (breaks) {
+      const Exposure to = strengths->most_exposed(stepper->rod(), end, StretchedBefore(stepper->state(), dt));
+      if (std::string why = breaks->refuse(to, dt); !why.empty()) return why;
+    }
     const double least = kLeastPassed * material.bending_stiffness / (material.radius * material.radius);
     const bool passed =
         frame.passed_balance(grip_tried - grip, grip_tried, travel_tried, grips.tried_force_upper(*stepper),
@@ -249,7 +257,7 @@ struct TestingMachine::Impl {
   /// After an accepted step: does the rod part? The next step ends where at this pace it will.
   void judge_break(double dt) {
     if (!breaks || parted()) return;
-    const Exposure now = strengths->most_exposed(stepper->rod(), stepper->state().position);
+    const Exposure now = exposure();
     if (!breaks->judge(now, dt)) return control.at_most(breaks->next());
     message = not_by_tension(now, grips.force_upper(*stepper), grips.force_lower(*stepper));
     if (message.empty()) return part(now);

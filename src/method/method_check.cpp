@@ -203,6 +203,9 @@ void check_twist(const Method& m) {
        "physics.friction.at: centreline");
   need(knotted && m.specimen.to_be_tied && m.material.bending_set > 0.0,
        "material.bending_set curves the rod at rest, which takes part in its twist", "material.bending_set: 0");
+  need(m.specimen.natural_curvature != 0.0 || m.specimen.pre_twist != 0.0,
+       "a rod that is curved or twisted at rest takes part in its twist",
+       "specimen.natural_curvature: 0 and specimen.pre_twist: 0");
   need(bends_on_frames(m.material), "a rod of this material.bending_law bends on frames, which take part in its twist",
        "material.bending_law: elastic");
   if (!needs.empty())
@@ -215,6 +218,37 @@ void check_bending(const Method& m) {
   if (remembers && m.material.bending_set > 0.0)
     reject("material.bending_set", m.material.bending_set,
            "at most 0 where material.bending_law remembers bends itself: bending_law: elastic takes a set");
+}
+
+/// A natural curvature stays only where the bending law does not change it, and grips that let the rod turn would let a
+/// pre-twist out at once.
+void check_rest_shape(const Method& m) {
+  const SpecimenOptions& s = m.specimen;
+  const bool curved = s.natural_curvature != 0.0;
+  if (curved && !keeps_natural_curvature(m.material))
+    throw InvalidInput::sentence("material.bending_law", BendingRegistry::entry(m.material.bending.law).name,
+                                 "specimen.natural_curvature is " + format_number(s.natural_curvature) +
+                                     ", but material.bending_law is " +
+                                     BendingRegistry::entry(m.material.bending.law).name +
+                                     ": a rod keeps its natural curvature with elastic or viscoelastic only");
+  if (std::abs(s.natural_curvature) * m.material.radius >= 1.0) {
+    const std::string most = most_text(1.0 / m.material.radius);
+    reject("specimen.natural_curvature", s.natural_curvature,
+           "more than -" + most + " and less than " + most + " 1/m, one over the radius");
+  }
+  has_effect(curved, "specimen.natural_towards", std::string(kAxisNames[static_cast<std::size_t>(s.natural_towards)]),
+             std::string(kAxisNames[0]), "with specimen.natural_curvature");
+  if (s.pre_twist == 0.0) return;
+  if (m.machine.grips != GripKind::kClamps)
+    throw InvalidInput::sentence("machine.grips", "nodes",
+                                 "specimen.pre_twist is " + format_number(s.pre_twist) +
+                                     ", but machine.grips is nodes: only clamps hold a twist");
+  constexpr double kMostTurns = 0.125;  // from an edge to the next
+  if (std::abs(s.pre_twist) * s.edge_length > kMostTurns) {
+    const std::string most = most_text(kMostTurns / s.edge_length);
+    reject("specimen.pre_twist", s.pre_twist,
+           "-" + most + " to " + most + " turns/m, an eighth of a turn in specimen.edge_length");
+  }
 }
 
 void check_machine(const Method& m) {
@@ -299,6 +333,7 @@ void check_method(const Method& method) {
   check_program(method);
   check_ends(method);
   check_effects(method);
+  check_rest_shape(method);
   check_analysis(method);
   check_report(method);
   check_scatter(method);

@@ -57,6 +57,9 @@ inline void specimen(Fields& f, SpecimenOptions& o) {
   f.number("wrap", o.wrap, Range{0.1, 20.0, "rad"});
   f.scaled_number("post_diameter", o.post_diameter, Range{1e-5, 5.0, "m"});
   f.optional_number("tail_load", o.tail_load, Range{1e-9, 1e8, "N"}, "auto");
+  f.number("natural_curvature", o.natural_curvature, Range{-1e4, 1e4, "1/m"});
+  f.choice("natural_towards", o.natural_towards, kAxisNames);
+  f.number("pre_twist", o.pre_twist, Range{-1e4, 1e4, "turns/m"});
   f.scaled_number("edge_length", o.edge_length, Range{1e-6, 0.1, "m"});
   f.optional_number("refinement", o.refinement, Range{1.0, 8.0, "-"}, "auto");
 }

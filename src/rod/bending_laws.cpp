@@ -18,6 +18,11 @@ int own_numbers(const BendingLaws& law) {
   return std::visit([](const auto& of) { return of.kOwn; }, law);
 }
 
+bool keeps_natural_curvature(const RodMaterial& material) {
+  const BendingLaws law = bending_law_of(material);
+  return std::holds_alternative<ElasticBending>(law) || std::holds_alternative<ViscoelasticBending>(law);
+}
+
 bool remembers_bends(const RodMaterial& material) { return remembers(bending_law_of(material)); }
 
 }  // namespace knot_utm

@@ -12,10 +12,11 @@ bool has_frame(const RodState& state) { return state.twist.size() > 0; }
 
 bool ends_at_cut(const RodProperties& rod, Eigen::Index node) { return rod.is_cut(node - 1) || rod.is_cut(node); }
 
-double stretching_energy(const RodProperties& rod, const Points& x) {
+double stretching_energy(const RodProperties& rod, const RodState& state) {
+  const StretchedBefore before(state);
   double sum = 0.0;
   for (Eigen::Index j = 0; j < rod.edges(); ++j)
-    if (!rod.is_cut(j)) sum += respond(rod, stretched_edge(rod, x, j)).energy;
+    if (!rod.is_cut(j)) sum += respond(rod, stretched_edge(rod, state.position, j, before)).energy;
   return sum;
 }
 
@@ -50,7 +51,7 @@ InnerNode inner_node(const RodProperties& rod, const RodState& state, Eigen::Ind
 
 ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
   ElasticEnergy energy;
-  energy.stretching = stretching_energy(rod, state.position);
+  energy.stretching = stretching_energy(rod, state);
   if (!state.curved_at_rest()) energy.bending = isotropic_bending_energy(rod, state.position);
   if (!has_frame(state)) return energy;
   const Eigen::Index own = own_numbers(rod.laws->bending);
@@ -72,9 +73,11 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
   return energy;
 }
 
-Eigen::VectorXd edge_tension(const RodProperties& rod, const Points& position) {
+Eigen::VectorXd edge_tension(const RodProperties& rod, const RodState& state) {
+  const StretchedBefore before(state);
   Eigen::VectorXd tension(rod.edges());
-  for (Eigen::Index j = 0; j < rod.edges(); ++j) tension[j] = respond(rod, stretched_edge(rod, position, j)).tension;
+  for (Eigen::Index j = 0; j < rod.edges(); ++j)
+    tension[j] = respond(rod, stretched_edge(rod, state.position, j, before)).tension;
   return tension;
 }
 

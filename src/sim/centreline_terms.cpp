@@ -41,10 +41,12 @@ void CentrelineTerms::part(int edge) {
 }
 
 void CentrelineTerms::begin(const StepStart& start, bool predicts) {
+  before_ = StretchedBefore(start.state, start.dt);
   predicts_ = predicts;
   if (!predicts) return;
   for (std::size_t j = 0; j < predicted_tension_.size(); ++j) {
-    StretchedEdge edge = stretched_edge(rod_, start.state.position, static_cast<Eigen::Index>(j));
+    StretchedEdge edge =
+        stretched_edge(rod_, start.state.position, static_cast<Eigen::Index>(j), StretchedBefore(start.state));
     edge.k_s = stretching_stiffness_[j];
     predicted_tension_[j] = respond(rod_, edge).tension;
   }
@@ -102,13 +104,27 @@ void CentrelineTerms::add_bending_forces(std::vector<Lanes>& force) {
   }
 }
 
+template <typename Law>
+void CentrelineTerms::add_stretching_energy(const Law& law, Energy& out) const {
+  for (std::size_t j = 0; j < tangent_.size(); ++j) {
+    if (!(stretching_stiffness_[j] > 0.0)) continue;
+    if constexpr (Law::kRemembers) {
+      const StretchingMemory memory = law.remember(stretched(j));
+      out.stretching += memory.stored;
+      out.dissipated += memory.dissipated;
+    } else {
+      out.stretching += law.respond(stretched(j)).energy;
+    }
+  }
+}
+
 CentrelineTerms::Energy CentrelineTerms::energy(const Points& increment) const {
   Energy out;
+  std::visit([&](const auto& law) { add_stretching_energy(law, out); }, rod_.laws->stretching);
   Lanes before = kZero;  // of the edge before: its change over its length
   for (std::size_t j = 0; j < tangent_.size(); ++j) {
     const double* w = increment.data() + 3 * j;
     const Lanes change = {w[3] - w[0], w[4] - w[1], w[5] - w[2], 0.0};
-    if (stretching_stiffness_[j] > 0.0) out.stretching += respond(rod_, stretched(j)).energy;
     out.along += tension_[j] * dot(tangent_[j], change);
     const Lanes turned = inverse_length_[j] * change;
     if (bends_ && j > 0) {
@@ -127,7 +143,17 @@ void CentrelineTerms::account(const SolvedStep& step, StepAccount& account) cons
   const Energy energy = this->energy(step.increment);
   account.energies.stretching += energy.stretching;
   account.energies.bending += energy.bending;
-  account.work.numerical += energy.along;
+  account.work.numerical += energy.along - energy.dissipated;
+  account.work.plastic += energy.dissipated;
+}
+
+void CentrelineTerms::commit(RodState& state) const {
+  const auto keep = [&](const auto& law) {
+    if constexpr (std::decay_t<decltype(law)>::kRemembers)
+      for (std::size_t j = 0; j < tangent_.size(); ++j)
+        state.stretching_own[static_cast<Eigen::Index>(j)] = law.remember(stretched(j)).own;
+  };
+  std::visit(keep, rod_.laws->stretching);
 }
 
 CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) const {

@@ -25,6 +25,7 @@ struct Scene {
     straight.velocity = Points::Zero(3, rod.nodes());
     if (twist) initialise_frames(&straight);
     if (curved) remember_bends(rod, &straight);
+    remember_stretches(rod, &straight);
     return TimeStep::make(rod, straight, settings);
   }
 };

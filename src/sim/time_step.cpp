@@ -83,6 +83,7 @@ class ImplicitStep final : public TimeStep {
     account(step);
     equation_.strands.commit(step);
     equation_.rollers.commit(step);
+    equation_.centreline.commit(state_);
     equation_.matrix.commit();
     state_.velocity = step.increment / step.dt;
     equation_.frames.commit(equation_.centreline.tensions(), state_);
@@ -122,7 +123,7 @@ class ImplicitStep final : public TimeStep {
 }  // namespace
 
 Eigen::VectorXd TimeStep::tension() const {
-  Eigen::VectorXd out = edge_tension(rod_, state_.position);
+  Eigen::VectorXd out = edge_tension(rod_, state_);
   if (parted_edge_ >= 0) out[parted_edge_] = 0.0;
   return out;
 }

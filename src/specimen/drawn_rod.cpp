@@ -17,7 +17,7 @@ KnotDescription describe_drawn_rod() {
   KnotDescription out;
   out.name = "file";
   out.title = "Rod of a shape from a file";
-  out.keys = {"file", "closed"};
+  out.keys = {"file", "closed", "natural_curvature", "natural_towards", "pre_twist"};
   out.any_shape = true;
   return out;
 }

@@ -297,7 +297,7 @@ constexpr ResultKey kKeys[] = {
     {"stored_energy", "J", kEnergy, "Energy stored in rod and contacts", read<&E::stored>, why_not_pulled},
     {"kinetic_energy", "J", kEnergy, "Kinetic energy at the end", read<&R::kinetic_energy>, why_not_pulled},
     {"friction_loss", "J", kEnergy, "Energy lost to friction", read<&E::friction>, why_not_pulled},
-    {"plastic_loss", "J", kEnergy, "Energy lost in bending", read<&E::plastic>, why_not_pulled},
+    {"plastic_loss", "J", kEnergy, "Energy lost in the rod", read<&E::plastic>, why_not_pulled},
     {"drag_loss", "J", kEnergy, "Energy lost to drag", read<&E::drag>, why_not_pulled},
     {"numerical_dissipation", "J", kEnergy, "Energy lost in the time steps (numerical dissipation)",
      read<&E::numerical>, why_not_pulled},

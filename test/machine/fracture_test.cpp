@@ -17,6 +17,7 @@
 #include "knot_utm/specimen/material.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
+#include "rod/own_laws.hpp"
 
 namespace knot_utm {
 namespace {
@@ -240,6 +241,21 @@ TEST(Fracture, ARodOfRubberPartsStraightAtItsBreakingForceToo) {
   rubber.breaking_force = rubber.stretching_stiffness / 3.0 * (lambda - 1.0 / (lambda * lambda));
   const RodProperties rod = make_rod(rubber, Eigen::VectorXd::Constant(4, 0.01));
   EXPECT_NEAR(most_exposed(rubber, rod, along_z(std::vector<double>(4, 0.016))).fraction, 1.0, 1e-12);
+}
+
+/// Once half of its load has relaxed, a rod bears half of its tension, and parts at twice the stretch.
+TEST(Fracture, ARelaxedRodBearsTheTensionThatIsLeft) {
+  Material material = nylon();
+  material.breaking_force = 100.0;
+  RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(4, 0.01));
+  set_law(rod, StretchingLaws(ViscoelasticStretching{{0.5, 1.0}}));
+  const double strain = 1e-3, tension = material.stretching_stiffness * strain;
+  const Points position = along_z(std::vector<double>(4, 0.01 * (1.0 + strain)));
+  RodState relaxed;
+  relaxed.stretching_own = Eigen::VectorXd::Constant(4, strain);
+  EXPECT_NEAR(RopeStrengths(material, rod).most_exposed(rod, position).value, tension, 1e-9 * tension);
+  EXPECT_NEAR(RopeStrengths(material, rod).most_exposed(rod, position, StretchedBefore(relaxed)).value, 0.5 * tension,
+              1e-9 * tension);
 }
 
 /// A strand that lies around a frictionless post of radius R, with its centreline at R + h, parts at

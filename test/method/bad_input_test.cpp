@@ -58,7 +58,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"specimen.turns=[1", "--set specimen.turns=[1", "", "a list begins with"},
       {"specimen={turns: 1, turns: 2}", "specimen.turns", "", "stands twice"},
       // Types
-      {"material.stretching_law=hooke", "material.stretching_law", "hooke", "linear or neo_hookean"},
+      {"material.stretching_law=hooke", "material.stretching_law", "hooke", "linear, neo_hookean or viscoelastic"},
       {"specimen=3", "specimen", "3", "a map"},
       {"specimen.turns=one", "specimen.turns", "one", "a whole number from 1 to 4"},
       {"specimen.turns=1.5", "specimen.turns", "1.5", "a whole number from 1 to 4"},
@@ -306,6 +306,51 @@ TEST(BadInput, ABendWithFrictionNeedsItsMoment) {
               HasSubstr("only with bending_law: frictional"));
 }
 
+TEST(BadInput, RelaxationNeedsAShareAndATimeAndLawsThatRelax) {
+  using Settings = std::vector<std::string>;
+  const auto with = [&](const Settings& stretch, const Settings& bend) {
+    Settings all = {kElastic, "material.stretching_law=viscoelastic", "material.bending_law=viscoelastic"};
+    for (const std::string& each : stretch) all.push_back("material.relaxation_" + each);
+    for (const std::string& each : bend) all.push_back("material.bending_relaxation_" + each);
+    return complaint(kTighten, all);
+  };
+  const Settings right = {"share=0.2", "time=30"};
+  EXPECT_EQ(with(right, right), "nothing was wrong");
+  EXPECT_THAT(with({}, right), AllOf(HasSubstr("material.relaxation_share is missing"), HasSubstr("0 to 0.99"),
+                                     HasSubstr("stretching_law: viscoelastic needs"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(with(right, {"share=0.2"}), HasSubstr("material.bending_relaxation_time is missing"));
+  EXPECT_THAT(with({"share=1", "time=30"}, right),
+              AllOf(HasSubstr("material.relaxation_share"), HasSubstr("0 to 0.99"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(with(right, {"share=0.2", "time=0"}),
+              AllOf(HasSubstr("material.bending_relaxation_time"), HasSubstr("0.001 to 1e9 s"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(complaint(kTighten, {kElastic, "material.bending_law=viscoelastic", "material.bending_set=0.5",
+                                   "material.bending_relaxation_share=0.2", "material.bending_relaxation_time=30"}),
+              HasSubstr("bending_law: elastic takes a set"));
+  EXPECT_THAT(complaint(kTighten, {"material.stretching_law=neo_hookean", "material.relaxation_share=0.2"}),
+              AllOf(HasSubstr("only with stretching_law: viscoelastic"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(complaint(kTighten, {"material.bending_relaxation_time=30"}),
+              HasSubstr("only with bending_law: viscoelastic"));
+}
+
+TEST(BadInput, ARestShapeNeedsALawThatKeepsItAndGripsThatHoldIt) {
+  const auto of_file = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {kElastic, "material.bending_law=elastic"});
+    return complaint(std::string(KNOT_UTM_SOURCE_DIR) + "/config/from_file.yaml", more);
+  };
+  const std::string curved = "specimen.natural_curvature=20", twisted = "specimen.pre_twist=3";
+  EXPECT_EQ(of_file({curved, twisted, "specimen.natural_towards=z", "machine.grips=clamps"}), "nothing was wrong");
+  EXPECT_THAT(of_file({curved, "material.bending_law=plastic", "material.yield_strain=0.05"}),
+              AllOf(HasSubstr("specimen.natural_curvature is 20, but material.bending_law is plastic: "),
+                    Not(HasSubstr("\n"))));
+  EXPECT_THAT(of_file({"specimen.natural_curvature=9000"}), HasSubstr("one over the radius"));
+  EXPECT_THAT(of_file({"specimen.natural_towards=y"}), HasSubstr("only with specimen.natural_curvature"));
+  EXPECT_THAT(of_file({twisted, "machine.grips=nodes"}), HasSubstr("only clamps hold a twist"));
+  EXPECT_THAT(of_file({"specimen.pre_twist=1000", "machine.grips=clamps"}), HasSubstr("an eighth of a turn"));
+  EXPECT_THAT(of_file({curved, "physics.twist=off"}),
+              AllOf(HasSubstr("a rod that is curved or twisted at rest"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(complaint(kTighten, {curved}), HasSubstr("only for knot: "));
+}
+
 class BadFile : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_ / "materials"); }
@@ -416,7 +461,8 @@ TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
 /// A value of a key of `specimen` that is not its plain one, in the range of each number.
 std::string other_value(const Method& method, const std::string& key) {
   if (!unit_of_key(method, "specimen." + key).empty()) return "2";
-  const std::map<std::string, std::string> words{{"handedness", "opposite"}, {"file", "shape.csv"}, {"closed", "true"}};
+  const std::map<std::string, std::string> words{
+      {"handedness", "opposite"}, {"file", "shape.csv"}, {"closed", "true"}, {"natural_towards", "y"}};
   return words.at(key);
 }
 

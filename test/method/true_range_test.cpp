@@ -148,7 +148,7 @@ TEST(TrueRange, OfEveryOtherKnot) {
                          {"specimen.end_to_end"}, 1);
   expect_true_ranges({shipped("straight"), {}}, kOfTheSpecimen, 3);
   expect_true_ranges({shipped("capstan"), {}}, kOfTheSpecimen, 6);
-  expect_true_ranges({shipped("from_file"), {}}, kOfTheSpecimen, 2);
+  expect_true_ranges({shipped("from_file"), {"material.bending_law=elastic"}}, kOfTheSpecimen, 4);
 }
 
 TEST(TrueRange, OfLawsWithKeysOfTheirOwn) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kYield = 2.0, kHardening = 0.2;  // [1/m], [-]
 
-constexpr double kOwnNumbers[] = {4.0};  // T_max [N]
+constexpr double kOwnNumbers[] = {4.0, 0.06};  // T_max [N]; of a viscoelastic node, the bend of its dashpot [-]
 
 BendingNode node(const Eigen::Vector2d& bend) { return {3.0, 0.1, bend, {0.05, -0.02}, 0.3, kOwnNumbers}; }
 
@@ -51,11 +51,16 @@ FrictionalBending law() {
   return frictional();
 }
 
+template <>
+ViscoelasticBending law() {
+  return {{0.3, 2.0}};
+}
+
 template <typename Law>
 struct BendingLaw : testing::Test {
   Law law = knot_utm::law<Law>();
 };
-using Laws = testing::Types<ElasticBending, PlasticBending, FrictionalBending>;
+using Laws = testing::Types<ElasticBending, PlasticBending, FrictionalBending, ViscoelasticBending>;
 TYPED_TEST_SUITE(BendingLaw, Laws);
 
 TYPED_TEST(BendingLaw, MomentAndTangentAreDerivatives) {
@@ -117,6 +122,9 @@ TYPED_TEST(BendingLaw, RemembersWhatItsMomentIsOf) {
     BendingNode after = before;
     after.natural = memory.natural;
     after.dt = 0.0;
+    double own[] = {before.own[0], before.own[1]};
+    if constexpr (std::is_same_v<TypeParam, ViscoelasticBending>) this->law.keep_own(before, own);
+    after.own = own;
     const BendingResponse again = this->law.respond(after);
     EXPECT_LT((again.moment - response.moment).norm(), 1e-13 * response.moment.norm());
     const double rounding = 1e-13 * response.energy;

@@ -80,8 +80,8 @@ TEST(Energy, VanishesInTheNaturalShape) {
 
 TEST(Energy, TensionIsPositiveWhereTheEdgeIsLonger) {
   const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
-  EXPECT_LT((edge_tension(rod, arc(8, 0.12, 0.3).position).array() - 10.0).abs().maxCoeff(), 1e-12);
-  EXPECT_LT((edge_tension(rod, arc(8, 0.09, 0.3).position).array() + 5.0).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((edge_tension(rod, arc(8, 0.12, 0.3)).array() - 10.0).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((edge_tension(rod, arc(8, 0.09, 0.3)).array() + 5.0).abs().maxCoeff(), 1e-12);
   EXPECT_NEAR(elastic_energy(rod, arc(8, 0.12, 0.3)).stretching, 8 * 0.5 * 50.0 * 0.1 * 0.04, 1e-12);
 }
 

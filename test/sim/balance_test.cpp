@@ -12,6 +12,7 @@
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "rod/own_laws.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -72,7 +73,7 @@ TEST(EnergyBalance, ASlidingRodLosesFrictionTimesWay) {
 }
 
 enum class Turns { kNot, kFreely, kDriven };  // of a roller
-enum class Kind { kStraight, kOverhand, kFallsOnARoller, kCurved };
+enum class Kind { kStraight, kOverhand, kFallsOnARoller, kCurved, kRelaxing };
 
 struct Scene {
   Kind kind;
@@ -82,8 +83,10 @@ struct Scene {
   double couple = 0.0;  // of friction at the surface
   Turns turns = Turns::kNot;
 
+  bool curved() const { return kind == Kind::kCurved || kind == Kind::kRelaxing; }
+
   std::string name() const {
-    static const char* const kinds[] = {"Straight", "Overhand", "FallsOnARoller", "Curved"};
+    static const char* const kinds[] = {"Straight", "Overhand", "FallsOnARoller", "Curved", "CurvedAndRelaxing"};
     return std::string(kinds[static_cast<int>(kind)]) + (twist ? "WithTwist" : "") +
            (law == ContactLaw::kEdge ? "BetweenEdges" : "") + (friction > 0.0 ? "AndFriction" : "") +
            (couple > 0.0 ? "AtTheSurface" : "") + (couple > 0.0 && couple < 1.0 ? "InPart" : "") +
@@ -103,7 +106,7 @@ struct Running {
 
   explicit Running(const Scene& scene) {
     Material material = braided_rope();
-    if (scene.kind == Kind::kCurved) material.stretching_stiffness = 1e3;
+    if (scene.curved()) material.stretching_stiffness = 1e3;
     material.twisting_stiffness = material.bending_stiffness;
     StepSettings settings = closed_form_settings(material);
     settings.contact_law = scene.law;
@@ -114,7 +117,7 @@ struct Running {
         NormalLaw{300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
     settings.friction_couple = scene.couple;
     // A spin without inertia is in equilibrium, and so is the sum of all moments.
-    settings.spin_inertia = scene.kind == Kind::kCurved;
+    settings.spin_inertia = scene.curved();
 
     RodState state;
     RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(40, material.radius));
@@ -126,7 +129,14 @@ struct Running {
     } else {
       state = straight_state(rod);
     }
-    if (scene.kind == Kind::kCurved)
+    if (scene.kind == Kind::kRelaxing) {
+      const StandardSolid within_the_run{0.4, 30.0 * kStep};
+      set_law(rod, StretchingLaws(ViscoelasticStretching{within_the_run}));
+      set_law(rod, BendingLaws(ViscoelasticBending{within_the_run}));
+      remember_bends(rod, &state);
+      remember_stretches(rod, &state);
+    }
+    if (scene.curved())
       state.natural_curvature = Eigen::Matrix<double, 2, Eigen::Dynamic>::Constant(2, rod.nodes() - 2, 0.02);
     if (scene.twist) initialise_frames(&state);
 
@@ -145,7 +155,7 @@ struct Running {
       for (const int node : {0, 1, last - 1, last}) boundary.fixed_nodes.push_back({node, state.position.col(node)});
       way = 2e-2 * material.radius * (state.position.col(last) - state.position.col(0)).normalized();
       if (scene.kind == Kind::kStraight) way = 1e-4 * material.radius * Vec3(1.0, 0.5, 2.0);
-      if (scene.kind == Kind::kCurved) way = 1e-3 * material.radius * Vec3(-5.0, 2.0, 0.0);
+      if (scene.curved()) way = 1e-3 * material.radius * Vec3(-5.0, 2.0, 0.0);
       if (scene.twist) {
         boundary.fixed_twists = {{0, 0.0}, {last - 1, 0.0}};
         spin = 10.0;
@@ -177,7 +187,7 @@ class BalanceOf : public testing::TestWithParam<Scene> {};
 TEST_P(BalanceOf, EverySceneClosesStepByStep) {
   Running scene(GetParam());
   const Balance& books = *scene.balance;
-  const bool spins = GetParam().kind == Kind::kCurved;  // with inertia, of which the sums of loads do not know
+  const bool spins = GetParam().curved();  // with inertia, of which the sums of loads do not know
   double gap = 0.0;
   scene.run([&] {
     EXPECT_LT(std::abs(books.gap() - gap), books.rounding());
@@ -192,6 +202,7 @@ TEST_P(BalanceOf, EverySceneClosesStepByStep) {
   EXPECT_LT(std::abs(books.sum().residual), books.residual_bound());
   EXPECT_GT(books.sum().drag, 0.0);
   EXPECT_EQ(books.sum().friction > 0.0, GetParam().friction > 0.0);
+  EXPECT_EQ(books.sum().plastic > 0.0, GetParam().kind == Kind::kRelaxing);
   if (!spins) {
     EXPECT_GT(books.largest_load(), 100.0 * books.force_bound()) << "nothing to balance";
     EXPECT_GT(books.largest_moment(), 100.0 * books.moment_bound()) << "nothing to balance";
@@ -206,19 +217,18 @@ TEST_P(BalanceOf, EverySceneClosesStepByStep) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, BalanceOf,
-    testing::Values(Scene{Kind::kCurved, true, ContactLaw::kSmooth, 0.0},
-                    Scene{Kind::kStraight, false, ContactLaw::kSmooth, 0.0},
-                    Scene{Kind::kStraight, true, ContactLaw::kSmooth, 0.0},
-                    Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.3},
-                    Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3},
-                    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 0.4},
-                    Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3, 1.0},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0},
-                    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kFreely},
-                    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kDriven},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven}),
+    testing::Values(
+        Scene{Kind::kCurved, true, ContactLaw::kSmooth, 0.0}, Scene{Kind::kRelaxing, true, ContactLaw::kSmooth, 0.0},
+        Scene{Kind::kStraight, false, ContactLaw::kSmooth, 0.0}, Scene{Kind::kStraight, true, ContactLaw::kSmooth, 0.0},
+        Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.3}, Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3},
+        Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 0.4},
+        Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3, 1.0},
+        Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0},
+        Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0},
+        Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kFreely},
+        Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kDriven},
+        Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely},
+        Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven}),
     [](const auto& scene) { return scene.param.name(); });
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
@@ -32,7 +32,7 @@ class RopeStrengths {
   /// By the breaking laws of the materials of its ropes, which say all about those that can part.
   RopeStrengths(const Material& material, const RodProperties& rod);
 
-  Exposure most_exposed(const RodProperties& rod, const Points& position) const;
+  Exposure most_exposed(const RodProperties& rod, const Points& position, const StretchedBefore& before = {}) const;
 
  private:
   struct Ropes {

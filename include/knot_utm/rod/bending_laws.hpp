@@ -6,11 +6,12 @@
 #include "knot_utm/rod/elastic_bending.hpp"
 #include "knot_utm/rod/frictional_bending.hpp"
 #include "knot_utm/rod/plastic_bending.hpp"
+#include "knot_utm/rod/viscoelastic_bending.hpp"
 
 namespace knot_utm {
 
 /// All bending laws there are, in the order in which messages name them; the first is the default.
-using BendingLaws = std::variant<ElasticBending, PlasticBending, FrictionalBending>;
+using BendingLaws = std::variant<ElasticBending, PlasticBending, FrictionalBending, ViscoelasticBending>;
 
 using BendingRegistry = LawRegistry<BendingLaws>;
 
@@ -25,6 +26,9 @@ bool bends_on_frames(const RodMaterial& material);
 /// Whether the law has an internal variable that changes from step to step.
 bool remembers(const BendingLaws& law);
 bool remembers_bends(const RodMaterial& material);
+
+/// Whether a natural curvature that the rod has stays as it is.
+bool keeps_natural_curvature(const RodMaterial& material);
 
 /// How many numbers it remembers of a node besides the natural curvature.
 int own_numbers(const BendingLaws& law);

@@ -29,7 +29,7 @@ struct ElasticEnergy {
 ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state);
 
 /// Tension of every edge [N], N-1 values, positive where the edge is longer than at rest; of a cut one none.
-Eigen::VectorXd edge_tension(const RodProperties& rod, const Points& position);
+Eigen::VectorXd edge_tension(const RodProperties& rod, const RodState& state);
 
 /// What inner node i, 1 <= i <= N-2, contributes to the bending and the twisting energy of a rod whose state has a
 /// frame. The reference frame of `state` must belong to its positions (transport_frames).

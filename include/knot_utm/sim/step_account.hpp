@@ -41,7 +41,7 @@ struct ContactReading {
 ///                resistance to rolling. The energy of a presliding spring, less than mu p w xi_s/2 each, counts as
 ///                lost until it is given back
 ///   drag         sum c lbar |dx|^2/dt
-///   plastic      what bending dissipates by its law (bending_law.hpp)
+///   plastic      what bending and stretching dissipate by their laws (bending_law.hpp, stretching_law.hpp)
 ///   numerical    that of the implicit Euler step, which takes all forces at its end:
 ///                  sum 1/2 m |v - v_n|^2 + E_n - E + dE/dx . dx + sum w [e(D_n) - e(D) - p n . s]
 ///                less 1/2 (F - F_n) . dx, by which forces at the end overestimate the work of the boundary

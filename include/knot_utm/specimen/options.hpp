@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -10,6 +11,8 @@ namespace knot_utm {
 /// Number of a knot in the registry (knot.hpp); the first one, fisherman, is the default.
 enum class KnotKind : std::size_t {};
 enum class Handedness { kSame, kOpposite };
+enum class Axis { kX, kY, kZ };
+inline constexpr std::array kAxisNames{"x", "y", "z"};
 struct KnotDrawing;
 
 /// The `specimen` section of a method.
@@ -28,6 +31,9 @@ struct SpecimenOptions {
   double wrap = 3.141592653589793;             ///< capstan: angle by which the rod lies around the post [rad]
   double post_diameter = 0.0381;               ///< capstan [m]
   std::optional<double> tail_load;             ///< capstan: T1 [N]; unset: auto
+  double natural_curvature = 0.0;              ///< kappa_0 (rest_shape.hpp) [1/m]
+  Axis natural_towards = Axis::kX;             ///< the side of the drawing towards which it turns at its first edge
+  double pre_twist = 0.0;                      ///< rho (rest_shape.hpp) [turns/m]
   double edge_length = 0.0032;                 ///< discretisation [m]
   std::optional<double> refinement;            ///< edges between and within knots are shorter by this; unset: auto
   bool to_be_tied =
