@@ -171,6 +171,8 @@ const Shipped kShipped[] = {
     {"simple_simon_crossover", 2, 2, 0},
     {"simple_simon_over", 2, 2, 0},
     {"simple_simon_under", 2, 2, 0},
+    {"square_3", 2, 2, 0},
+    {"square_4", 2, 2, 0},
     {"surgeon", 2, 2, 0},
     {"surgeon_1", 1, 0, 0},
     {"surgeon_2", 1, 0, 0},
