@@ -4,6 +4,7 @@ import os
 import bend_orders
 import capstans
 import greased
+import hitches
 import inversions
 import predictions
 import surgeons
@@ -17,7 +18,7 @@ def report(runner):
     spent = Counted(runner)
     facts = read_yaml(FACTS)
     rows = inversions.rows(spent, facts["inversions"]) + surgeons.rows(spent, facts["surgeons"])
-    rows += capstans.rows(spent, facts["capstans"])
+    rows += capstans.rows(spent, facts["capstans"]) + hitches.rows(spent, facts["hitches"])
     loads = bend_orders.found(spent, facts["orders"])
     holding = greased.found(spent, facts["greased"])
     rows += bend_orders.rows(loads, facts["orders"]) + [greased.row(holding, facts["greased"])]

@@ -16,6 +16,7 @@ import bend_orders  # noqa: E402
 import bends  # noqa: E402
 import capstans  # noqa: E402
 import greased  # noqa: E402
+import hitches  # noqa: E402
 import inversions  # noqa: E402
 import measured  # noqa: E402
 import predictions  # noqa: E402
@@ -135,6 +136,38 @@ class Capstans(unittest.TestCase):
         self.assertIn("2 turns, touching lightly", self.failed([0.9, 1.0], [0.99, 1.0])[0])
         self.assertIn("2 turns, touching all along", self.failed([1.1, 1.0], [1.3, 1.11])[0])
         self.assertEqual(len(self.failed([1.1, 1.0], [None, None])), 3)
+
+
+class Hitches(unittest.TestCase):
+    FORCES = {"lightly": [(t, 5.0 * t ** 1.4) for t in (0.3, 1.0, 2.0)], "tightly": [(t, 12.0 * t) for t in (10.0, 20.0, 100.0)]}
+
+    def failed(self, **forces):
+        starts = {rope: [self.FORCES] * 3 for rope in FACTS["hitches"]["ropes"]}
+        starts["elastic braid"] = [{**self.FORCES, **forces}] * 3
+        return predictions.table_of(hitches.rows_of(starts, FACTS["hitches"])).failed()
+
+    def test_the_force_on_a_post_is_the_load_along_the_rod_at_rest_less_what_strands_press_on_each_other(self):
+        # Four edges of 0.1 m at rest, drawn out to 0.15 m by half their stiffness: 6 N/m presses on 0.4 m, of which 2 * 0.5 N is theirs.
+        shape = {"x": np.linspace(0.0, 0.6, 5), "y": np.zeros(5), "z": np.zeros(5), "tension": np.array([2.0, 2.0, 2.0, 2.0, math.nan]),
+                 "contact_force": np.full(5, 6.0)}
+        self.assertAlmostEqual(hitches.post_force(shape, 4.0, 0.5), 6.0 * 0.4 - 2 * 0.5, places=14)
+        self.assertEqual(hitches.tension_of(shape), 2.0)
+
+    def test_an_exponent_is_fitted_to_all_pre_loads(self):
+        self.assertAlmostEqual(hitches.exponent(self.FORCES["lightly"]), 1.4)
+        for point in (None, (1.0, 0.0), (1.0, -1.0)):
+            self.assertIsNone(hitches.exponent(self.FORCES["lightly"] + [point]))
+
+    def test_superlinear_then_linear_and_alike(self):
+        self.assertEqual(self.failed(), [])
+        self.assertIn("elastic braid, touching lightly", self.failed(lightly=[(t, 5.0 * t ** 0.9) for t, _ in self.FORCES["lightly"]])[0])
+        self.assertIn("elastic braid, touching all along", self.failed(tightly=[(t, t ** 1.11) for t, _ in self.FORCES["tightly"]])[0])
+        self.assertIn("3 ropes", self.failed(tightly=[(t, 1.11 * force) for t, force in self.FORCES["tightly"]])[0])
+        self.assertEqual(len(self.failed(lightly=[None])), 2)
+
+    def test_the_shape_that_counts_is_the_last(self):
+        shape = hitches.last_shape({"time": [1.0, 1.0, 2.0, 2.0], "x": [0.0, 1.0, 2.0, 3.0]})
+        np.testing.assert_array_equal(shape["x"], [2.0, 3.0])
 
 
 class Orders(unittest.TestCase):
