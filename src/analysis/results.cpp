@@ -294,6 +294,7 @@ class Course {
     if (sample.turn != 0.0 && std::abs(sample.torque) > results_.peak_torque.value_or(0.0)) {
       results_.peak_torque = std::abs(sample.torque);
       results_.tension_at_peak_torque = sample.force_upper;
+      results_.span_at_peak_torque = sample.end_to_end;
     }
     if (forms(sample.phase)) tied_ = &sample;
     if (pulls(sample.phase))

@@ -155,17 +155,22 @@ class Warnings {
           " until the knots lock, so a real test would have to be pulled more slowly");
   }
 
-  /// A long straight strand under the tension T writhes at the torque 2 sqrt(k_b T). Implicit steps that are longer
-  /// than that takes may keep it straight.
+  /// A straight strand of the length L between clamps, under the tension T, writhes at the torque M of
+  ///
+  ///     M^2 = 4 k_b T + (2 q k_b/L)^2,   q = tan q = 4.493.
+  ///
+  /// Implicit steps that are longer than that takes may keep it straight.
   ///
   /// Source: Greenhill 1883.
   void of_twist() {
     if (!results_.peak_torque) return;
-    const double tension = std::max(0.0, *results_.tension_at_peak_torque);
-    const double least = 2.0 * std::sqrt(facts_.material.bending_stiffness * tension);
+    constexpr double kQ = 4.493;
+    const double k_b = facts_.material.bending_stiffness, tension = std::max(0.0, results_.tension_at_peak_torque);
+    const double least = 2.0 * std::hypot(std::sqrt(k_b * tension), kQ * k_b / results_.span_at_peak_torque);
     if (*results_.peak_torque > least)
-      say("the torque reached " + short_number(*results_.peak_torque) + " N m, but a long strand writhes at " +
-          short_number(least) + " N m under its tension; time steps as long as these may keep it straight");
+      say("the torque reached " + short_number(*results_.peak_torque) +
+          " N m, but a straight strand between clamps writhes at " + short_number(least) +
+          " N m under its tension; time steps as long as these may keep it straight");
   }
 
   /// Elastic energy of stretchy strands or of a compliant frame that was released suddenly, although no knot jumped

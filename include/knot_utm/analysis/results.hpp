@@ -118,7 +118,8 @@ struct Results {
   std::optional<GripForces> at_start;    ///< where they differ most as the pull begins (forces_at_start)
 
   std::optional<double> peak_torque;             ///< largest magnitude once the clamp has been turned [N m]
-  std::optional<double> tension_at_peak_torque;  ///< [N]
+  double tension_at_peak_torque = 0.0;           ///< [N]
+  double span_at_peak_torque = 0.0;              ///< between the grips [m]
 
   double max_penetration = 0.0;  ///< largest overlap of the whole test [fraction of radius]
   /// largest difference of the forces on the two grips in the pull, over the peak force [-]
