@@ -18,8 +18,14 @@ def pulls(runner, name, knot, rope, settings):
 
 
 def load_of(run):
-    """Largest load in the pull [k_b/h^2], by when it slipped; None where the run gave up."""
+    """Largest load in the pull [k_b/h^2], whether it slipped or not; None where the run gave up."""
     if run.exit_code != 0:
         return None
     rod = run.method["material"]
     return divide(max(run.pulled()[1]), float(rod["bending_stiffness"]) / rod["radius"] ** 2)
+
+
+def slipping_load_of(run):
+    """The same; None, too, where it has not fallen to less than half in the end."""
+    load = load_of(run)
+    return None if load is None or run.pulled()[1][-1] > 0.5 * max(run.pulled()[1]) else load

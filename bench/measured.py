@@ -20,8 +20,10 @@ def report(runner):
     rows = inversions.rows(spent, facts["inversions"]) + surgeons.rows(spent, facts["surgeons"])
     rows += capstans.rows(spent, facts["capstans"]) + hitches.rows(spent, facts["hitches"])
     loads = bend_orders.found(spent, facts["orders"])
+    slipping = bend_orders.slipping(spent, facts["slipping"])
     holding = greased.found(spent, facts["greased"])
-    rows += bend_orders.rows(loads, facts["orders"]) + [greased.row(holding, facts["greased"])]
+    rows += bend_orders.rows(loads, facts["orders"]) + [bend_orders.slipping_row(slipping, facts["slipping"])]
+    rows += [greased.row(holding, facts["greased"])]
     return Report("What people measured on knots",
                   "Each prediction is a mean over starts that differ a little, with its standard error, and nothing is fitted but what "
                   "the column says. The factor is predicted over measured, the middle of a range; of an order it is Spearman's rank "
@@ -29,6 +31,7 @@ def report(runner):
                   f"The {spent.count} runs took {spent.cpu_time / 60:.0f} minutes of CPU time. Published values and their "
                   "sources are in `bench/measured.yaml`.",
                   [predictions.table_of(rows), bend_orders.table_of(loads, facts["orders"]),
+                   bend_orders.table_of({facts["slipping"]["rope"]: slipping}, facts["slipping"], bend_orders.SLIPPING),
                    greased.table_of(holding, facts["greased"]), not_yet(facts["not_yet"])])
 
 

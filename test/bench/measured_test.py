@@ -194,6 +194,19 @@ class Orders(unittest.TestCase):
         self.assertIn(FACTS["orders"]["if_it_fails"], table.markdown())
         self.assertNotIn(FACTS["orders"]["if_it_fails"], predictions.table_of([self.row(1.0, 2.0, 3.0, 4.0)]).markdown())
 
+    def test_a_bend_slips_where_its_load_falls_to_less_than_half(self):
+        method = {"material": {"bending_stiffness": 2.0, "radius": 0.5}}
+        for last, load in ((11.0, 3.0), (13.0, None)):
+            self.assertEqual(bends.slipping_load_of(a_run({}, method, pull=[(0.0, 3.0), (0.1, 24.0), (0.2, last)])), load)
+        self.assertIsNone(bends.slipping_load_of(a_run({}, method, exit_code=1, pull=[(0.1, 24.0), (0.2, 1.0)])))
+
+    def test_bends_that_slip_are_judged_by_their_ranks(self):
+        facts = FACTS["slipping"]
+        for loads, passes in (([1, 2, 3, 4, 5, 6], True), ([2, 1, 3, 4, 6, 5], True), ([1, 2, 3, 6, 5, 4], False),
+                              ([1, 2, 3, 4, 5, None], False)):
+            row = bend_orders.slipping_row({knot: (load, 0.0) for knot, load in zip(facts["order"], loads)}, facts)
+            self.assertEqual(predictions.table_of([row]).failed() == [], passes, loads)
+
     def test_a_knot_that_has_no_load_fails(self):
         self.assertEqual(len(predictions.table_of([self.row(1.0, None, 3.0, 4.0)]).failed()), 1)
 
@@ -223,9 +236,9 @@ class Greased(unittest.TestCase):
 
 class Facts(unittest.TestCase):
     def test_knots_and_ropes_are_shipped(self):
-        for knot in FACTS["orders"]["order"] + FACTS["greased"]["slip"] + FACTS["greased"]["hold"]:
+        for knot in FACTS["orders"]["order"] + FACTS["slipping"]["order"] + FACTS["greased"]["slip"] + FACTS["greased"]["hold"]:
             self.assertTrue(os.path.exists(os.path.join(ROOT, f"config/knots/{knot}.yaml")), knot)
-        for rope in FACTS["orders"]["ropes"] + [FACTS["greased"]["rope"]]:
+        for rope in FACTS["orders"]["ropes"] + [FACTS["slipping"]["rope"], FACTS["greased"]["rope"]]:
             self.assertTrue(os.path.exists(os.path.join(ROOT, f"config/materials/{rope}.yaml")), rope)
 
     def test_every_measurement_has_its_source_and_what_is_not_compared_a_reason(self):
