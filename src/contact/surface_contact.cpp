@@ -188,12 +188,13 @@ Lanes turned_from(const FourVectors& old, const FourVectors& z) {
 
 /// Four contacts at the point at which they are linearised; symbols as in SurfacePoint and ContactPoint.
 template <typename Law, typename Feet, typename Levers = EvenLevers>
-class FourSurfaces {
+class FourSurfaces : private Levers {
  public:
   FourSurfaces(const FourPressures& pressures, const Law& law, const RollingResistance& rolling, double dt,
                const ContactLinearisation& how, const std::array<const ContactPoint*, 4>& contacts,
                const Points4& surfaces, const Feet& feet, const Levers& levers = {})
-      : pressures_(pressures),
+      : Levers(levers),
+        pressures_(pressures),
         feet_(feet),
         a_(Section::of_a(surfaces)),
         b_(Section::of_b(Four<const ContactPoint>(contacts), surfaces)),
@@ -201,7 +202,6 @@ class FourSurfaces {
         bend_turn_b_(four(surfaces, &SurfacePoint::bend_turn_b)),
         spin_slope_b_(four(surfaces, &SurfacePoint::spin_slope_b)),
         lever_(lever_of(surfaces)),
-        levers_(levers),
         on_roller_(contacts[0]->on_roller()) {
     const Four<const ContactPoint> of(contacts);
     x_ = of(&ContactPoint::x);
@@ -215,7 +215,7 @@ class FourSurfaces {
     remembered_ = remembered_by(contacts);
     const FourVectors of_a = a_.rotation(), of_b = b_.rotation();
     rotation_ = of_a + of_b;
-    sweeping_ = of_a + levers_.times_q(of_b);
+    sweeping_ = of_a + this->times_q(of_b);
     carried_ = carried(*contacts[0]);
     alpha_ = carried_ * dot(n_, rotation_);
     away_ = dot(n_, r_);
@@ -233,7 +233,7 @@ class FourSurfaces {
   }
 
   void model(SurfaceModel* models) const {
-    const FourVectors m_a = m_ - couple_, m_b = levers_.times_q(m_) + couple_;
+    const FourVectors m_a = m_ - couple_, m_b = this->times_q(m_) + couple_;
     const Parted forces(force_), on_a(cross(a_.over, m_a), -1.0 * dot(a_.over, m_a)),
         on_b(cross(b_.over, m_b), -1.0 * dot(on_roller_ ? axis_ : b_.over, on_roller_ ? couple_ : m_b));
     for (std::size_t i = 0; i < 4; ++i) {
@@ -306,7 +306,7 @@ class FourSurfaces {
 
   /// To a force that changes by dg, and m by dm.
   Response responds(const FourVectors& dg, const FourVectors& dm) const {
-    const FourVectors& on_b = levers_.times_q(dm);
+    const FourVectors& on_b = this->times_q(dm);
     return {dg, cross(a_.over, dm), cross(b_.over, on_b), dot(a_.over, dm), dot(b_.over, on_b)};
   }
 
@@ -380,8 +380,8 @@ class FourSurfaces {
   /// To sections that change: they turn, and pass on their couples another way.
   Response sections_change(const Response* by_rotation, const Response& by_twirl, const Response* by_rolling,
                            const Section::Change& a, const Section::Change& b) const {
-    const FourVectors phi = a.rotation + levers_.times_q(b.rotation), m_a = m_ - couple_,
-                      m_b = levers_.times_q(m_) + couple_;
+    const FourVectors phi = a.rotation + this->times_q(b.rotation), m_a = m_ - couple_,
+                      m_b = this->times_q(m_) + couple_;
     Response out;
     out.on_a = cross(a.over, m_a);
     out.on_b = cross(b.over, m_b);
@@ -397,7 +397,7 @@ class FourSurfaces {
     out.add(phi.y, by_rotation[1]);
     out.add(phi.z, by_rotation[2]);
     // phi turns that memory with q phi_b, but it turns with phi_b.
-    if constexpr (!Levers::kEven) out.add(dot(n_, b.rotation - levers_.times_q(b.rotation)), by_twirl);
+    if constexpr (!Levers::kEven) out.add(dot(n_, b.rotation - this->times_q(b.rotation)), by_twirl);
     return out;
   }
 
@@ -413,7 +413,6 @@ class FourSurfaces {
   Section a_, b_;
   FourVectors bend_b_, bend_turn_b_;
   Lanes spin_slope_b_, lever_;
-  Levers levers_;
   FourVectors x_, n_, da_, db_, axis_, r_, remembered_;
   Lanes over_d_, turned_;
   FourVectors rotation_;  // phi_a + phi_b
