@@ -15,7 +15,6 @@ namespace {
 // less than the reach of the search exceeds the distance of contact.
 constexpr double kFarSinceSearch = 0.1;
 static_assert(2.0 * kFarSinceSearch < kReachMargin);
-constexpr double kUnknown = -1.0;  // weighting factor of a foot that recalls none yet
 constexpr double kSharpest = 2.0;  // turn of the centreline at a node that is no longer resolved [rad]
 constexpr double kSameFoot = 1.0;  // arclength within which a foot is that of the last step [h]
 constexpr double kDeepest = 0.5;   // overlap of a contact that may begin [fraction of radius]
@@ -145,14 +144,16 @@ std::size_t SmoothContact::follow(std::size_t foot) {
   const std::vector<FootSearch::Foot>& feet = search_.feet();
   const int point = feet[foot].point;
   const double arclength_a = arclength_at(arclength_, segment_of(point), kIntegrationPoints[point % 2]);
+  const double exclusion = candidates_.exclusion(segment_of(point));
+  const int mine = is_other(segment_of(point));
   const std::size_t first = tracked_.size();
   for (; foot < feet.size() && feet[foot].point == point; ++foot) {
     const double arclength_b = arclength_at(arclength_, feet[foot].segment, feet[foot].u);
-    if (std::abs(arclength_a - arclength_b) < candidates_.exclusion(segment_of(point))) continue;
-    tracked_.push_back({{arclength_b, kUnknown, 0.0, -1.0, {}, Vec3::Zero(), false, false},
-                        foot,
-                        kNone,
-                        is_other(segment_of(point)) + is_other(feet[foot].segment)});
+    if (std::abs(arclength_a - arclength_b) < exclusion) continue;
+    Tracked& tracked = tracked_.emplace_back();
+    tracked.memory.arclength_b = arclength_b;
+    tracked.foot = foot;
+    tracked.pair = mine + is_other(feet[foot].segment);
   }
   recall(row_of(point), first);
   return foot;

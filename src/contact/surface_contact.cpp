@@ -32,7 +32,26 @@ FourVectors four(const Points4& surfaces, Vec3 SurfacePoint::*vector) {
 }
 
 Lanes lever_of(const Points4& surfaces) { return four(surfaces, &SurfacePoint::lever); }
-Lanes uneven_of(const Points4& surfaces) { return four(surfaces, &SurfacePoint::uneven); }
+
+/// q of four contacts between strands of the same radius, or on rollers: 1, which costs nothing.
+struct EvenLevers {
+  static constexpr bool kEven = true;
+  const FourVectors& times_q(const FourVectors& of_b) const { return of_b; }
+};
+/// The same between strands of different radii.
+struct UnevenLevers {
+  static constexpr bool kEven = false;
+  Lanes q;
+  explicit UnevenLevers(const Points4& surfaces) : q(four(surfaces, &SurfacePoint::uneven)) {}
+  FourVectors times_q(const FourVectors& of_b) const { return q * of_b; }
+};
+
+/// Of all four contacts of one pair of materials, or of none.
+bool is_even(const Points4& surfaces) { return surfaces[0]->uneven == 1.0; }
+
+FourVectors times_q(const Points4& surfaces, const FourVectors& of_b) {
+  return is_even(surfaces) ? of_b : UnevenLevers(surfaces).times_q(of_b);
+}
 
 std::size_t number_of(const ContactPoint* contact, const std::vector<ContactPoint>& contacts) {
   return static_cast<std::size_t>(contact - contacts.data());
@@ -168,13 +187,14 @@ Lanes turned_from(const FourVectors& old, const FourVectors& z) {
 }
 
 /// Four contacts at the point at which they are linearised; symbols as in SurfacePoint and ContactPoint.
-template <typename Law, typename Feet>
-class FourSurfaces {
+template <typename Law, typename Feet, typename Levers = EvenLevers>
+class FourSurfaces : private Levers {
  public:
   FourSurfaces(const FourPressures& pressures, const Law& law, const RollingResistance& rolling, double dt,
                const ContactLinearisation& how, const std::array<const ContactPoint*, 4>& contacts,
-               const Points4& surfaces, const Feet& feet)
-      : pressures_(pressures),
+               const Points4& surfaces, const Feet& feet, const Levers& levers = {})
+      : Levers(levers),
+        pressures_(pressures),
         feet_(feet),
         a_(Section::of_a(surfaces)),
         b_(Section::of_b(Four<const ContactPoint>(contacts), surfaces)),
@@ -182,8 +202,6 @@ class FourSurfaces {
         bend_turn_b_(four(surfaces, &SurfacePoint::bend_turn_b)),
         spin_slope_b_(four(surfaces, &SurfacePoint::spin_slope_b)),
         lever_(lever_of(surfaces)),
-        q_(uneven_of(surfaces)),
-        uneven_(surfaces[0]->uneven != 1.0),
         on_roller_(contacts[0]->on_roller()) {
     const Four<const ContactPoint> of(contacts);
     x_ = of(&ContactPoint::x);
@@ -195,8 +213,9 @@ class FourSurfaces {
     da_ = four(surfaces, &SurfacePoint::along_a);
     turned_ = of(&ContactPoint::turned);
     remembered_ = remembered_by(contacts);
-    rotation_ = a_.rotation() + b_.rotation();
-    sweeping_ = uneven_ ? a_.rotation() + q_ * b_.rotation() : rotation_;
+    const FourVectors of_a = a_.rotation(), of_b = b_.rotation();
+    rotation_ = of_a + of_b;
+    sweeping_ = of_a + this->times_q(of_b);
     carried_ = carried(*contacts[0]);
     alpha_ = carried_ * dot(n_, rotation_);
     away_ = dot(n_, r_);
@@ -214,7 +233,7 @@ class FourSurfaces {
   }
 
   void model(SurfaceModel* models) const {
-    const FourVectors m_a = m_ - couple_, m_b = q_ * m_ + couple_;
+    const FourVectors m_a = m_ - couple_, m_b = this->times_q(m_) + couple_;
     const Parted forces(force_), on_a(cross(a_.over, m_a), -1.0 * dot(a_.over, m_a)),
         on_b(cross(b_.over, m_b), -1.0 * dot(on_roller_ ? axis_ : b_.over, on_roller_ ? couple_ : m_b));
     for (std::size_t i = 0; i < 4; ++i) {
@@ -227,7 +246,7 @@ class FourSurfaces {
     }
     Response by_rotation[3], by_rolling[3];
     for (int i = 0; i < 3; ++i) by_rotation[i] = rotated(unit_vector(i));
-    const Response by_twirl = uneven_ ? twirled() : Response();
+    const Response by_twirl = Levers::kEven ? Response() : twirled();
     if (resists_)
       for (int i = 0; i < 3; ++i) add_couple(by_rolling[i], rolled(radius_ * unit_vector(i)));
     const auto turned = [&](const Section::Change& a, const Section::Change& b) {
@@ -287,7 +306,7 @@ class FourSurfaces {
 
   /// To a force that changes by dg, and m by dm.
   Response responds(const FourVectors& dg, const FourVectors& dm) const {
-    const FourVectors on_b = q_ * dm;
+    const FourVectors& on_b = this->times_q(dm);
     return {dg, cross(a_.over, dm), cross(b_.over, on_b), dot(a_.over, dm), dot(b_.over, on_b)};
   }
 
@@ -361,7 +380,8 @@ class FourSurfaces {
   /// To sections that change: they turn, and pass on their couples another way.
   Response sections_change(const Response* by_rotation, const Response& by_twirl, const Response* by_rolling,
                            const Section::Change& a, const Section::Change& b) const {
-    const FourVectors phi = a.rotation + q_ * b.rotation, m_a = m_ - couple_, m_b = q_ * m_ + couple_;
+    const FourVectors phi = a.rotation + this->times_q(b.rotation), m_a = m_ - couple_,
+                      m_b = this->times_q(m_) + couple_;
     Response out;
     out.on_a = cross(a.over, m_a);
     out.on_b = cross(b.over, m_b);
@@ -377,7 +397,7 @@ class FourSurfaces {
     out.add(phi.y, by_rotation[1]);
     out.add(phi.z, by_rotation[2]);
     // phi turns that memory with q phi_b, but it turns with phi_b.
-    if (uneven_) out.add(dot(n_, b.rotation - q_ * b.rotation), by_twirl);
+    if constexpr (!Levers::kEven) out.add(dot(n_, b.rotation - this->times_q(b.rotation)), by_twirl);
     return out;
   }
 
@@ -392,7 +412,7 @@ class FourSurfaces {
   Feet feet_;
   Section a_, b_;
   FourVectors bend_b_, bend_turn_b_;
-  Lanes spin_slope_b_, lever_, q_;
+  Lanes spin_slope_b_, lever_;
   FourVectors x_, n_, da_, db_, axis_, r_, remembered_;
   Lanes over_d_, turned_;
   FourVectors rotation_;  // phi_a + phi_b
@@ -405,7 +425,6 @@ class FourSurfaces {
   FourVectors rho_, rolled_, unit_, couple_ = {}, couple_pressing_;
   Lanes couple_across_, couple_along_;
   double radius_ = 0.0, carried_ = 0.0;
-  bool uneven_;  // all four, or none
   bool on_roller_, resists_ = false;
 };
 
@@ -479,7 +498,7 @@ void add_shifts(std::vector<ContactPoint>& contacts, const std::vector<SurfacePo
     const FourVectors of_a = Section::of_a(points).rotation(), of_b = Section::of_b(of, points).rotation();
     const FourVectors n = of(&ContactPoint::n), remembered = remembered_by(four);
     const Parted shifts((carried(*four[0]) * dot(n, of_a + of_b)) * cross(n, remembered) -
-                        cross(of_a + uneven_of(points) * of_b, lever_of(points) * of(&ContactPoint::x)));
+                        cross(of_a + times_q(points, of_b), lever_of(points) * of(&ContactPoint::x)));
     Vec3 slips[4];  // all of them, before any is written: the last contact may stand in several lanes
     for (std::size_t i = 0; i < 4; ++i) slips[i] = four[i]->slip + to_vec3(shifts[i]);
     for (std::size_t i = 0; i < 4; ++i) four[i]->slip = slips[i];
@@ -503,7 +522,7 @@ void set_couples(const RollingResistance& rolling, const std::vector<ContactPoin
                   whole = -rolling_coefficient(rolling, pressure) * rolling.radius;
       couple = (whole * of(&ContactPoint::weight) * pressure) * zeta;
     }
-    const FourVectors &a = section_a.over, &b = section_b.over, m_a = m - couple, m_b = uneven_of(points) * m + couple;
+    const FourVectors &a = section_a.over, &b = section_b.over, m_a = m - couple, m_b = times_q(points, m) + couple;
     const bool on_roller = four[0]->on_roller();
     const Parted on_a(cross(a, m_a), -1.0 * dot(a, m_a)),
         on_b(cross(b, m_b), -1.0 * dot(on_roller ? axis : b, on_roller ? couple : m_b));
@@ -532,13 +551,16 @@ std::size_t linearise(const ContactLaws& laws, const RollingResistance& rolling,
                       const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
                       const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models) {
   const auto friction = [&](int pair) -> const Friction& { return laws[pair].friction; };
-  return linearise_next(friction, contacts, surfaces, from, models,
-                        [&](const auto& law, const Contacts4& four, const Points4& points) {
-                          const Four<const ContactPoint> of(four);
-                          const OneFoot foot{of(&ContactPoint::inverse_g)};
-                          const FourPressures pressures(laws[four[0]->pair].normal, how, of);
-                          FourSurfaces(pressures, law, rolling, dt, how, four, points, foot).model(models.model);
-                        });
+  return linearise_next(
+      friction, contacts, surfaces, from, models, [&](const auto& law, const Contacts4& four, const Points4& points) {
+        const Four<const ContactPoint> of(four);
+        const OneFoot foot{of(&ContactPoint::inverse_g)};
+        const FourPressures pressures(laws[four[0]->pair].normal, how, of);
+        const auto fill = [&](const auto& levers) {
+          FourSurfaces(pressures, law, rolling, dt, how, four, points, foot, levers).model(models.model);
+        };
+        is_even(points) ? fill(EvenLevers()) : fill(UnevenLevers(points));
+      });
 }
 
 std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingResistance& rolling, double dt,

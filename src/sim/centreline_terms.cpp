@@ -44,9 +44,9 @@ void CentrelineTerms::begin(const StepStart& start, bool predicts) {
   before_ = StretchedBefore(start.state, start.dt);
   predicts_ = predicts;
   if (!predicts) return;
+  const StretchedBefore held(start.state);
   for (std::size_t j = 0; j < predicted_tension_.size(); ++j) {
-    StretchedEdge edge =
-        stretched_edge(rod_, start.state.position, static_cast<Eigen::Index>(j), StretchedBefore(start.state));
+    StretchedEdge edge = stretched_edge(rod_, start.state.position, static_cast<Eigen::Index>(j), held);
     edge.k_s = stretching_stiffness_[j];
     predicted_tension_[j] = respond(rod_, edge).tension;
   }

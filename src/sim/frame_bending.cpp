@@ -14,11 +14,18 @@ namespace knot_utm {
 
 namespace {
 
-/// The bending law of the ropes behind the first one, which is of the same kind.
+/// The bending law of every node. That of the ropes behind the first one is of the same kind.
 template <typename Law>
-const Law& other_law(const RodProperties& rod, const Law& law) {
-  return rod.other_laws ? std::get<Law>(rod.other_laws->bending) : law;
-}
+struct LawOfNode {
+  const Law &first, &others;
+  std::size_t first_of_other;
+
+  LawOfNode(const RodProperties& rod, const Law& law)
+      : first(law),
+        others(rod.other_laws ? std::get<Law>(rod.other_laws->bending) : law),
+        first_of_other(static_cast<std::size_t>(rod.first_of_other())) {}
+  const Law& operator[](std::size_t node) const { return node < first_of_other ? first : others; }
+};
 
 }  // namespace
 
@@ -101,17 +108,17 @@ void FrameBending::set_curvatures(const FourPairs& pair, const FourDirectors& di
   four.slope[1].of[kThetaF] = s * u_q[0];
 }
 
-template <typename Law>
-void FrameBending::respond(const Law& law, const Law& other, const Lanes bend[2], std::size_t group) {
+template <typename Laws>
+void FrameBending::respond(const Laws& law_of, const Lanes bend[2], std::size_t group) {
   // Gathered as numbers: a register that is written lane by lane in memory would be slow to read.
   double moment[2][4] = {}, beyond[2][4] = {}, tangent[3][4] = {};
-  const std::size_t first = 4 * group + 1, others = static_cast<std::size_t>(rod_.first_of_other());
+  const std::size_t first = 4 * group + 1;
   for (std::size_t i = first; i < std::min(first + 4, nodes_.size()); ++i) {
     const std::size_t k = i - first;
     BendingNode& node = nodes_[i];
     node.before = node.bend - node.natural;
     node.bend = {bend[0][k], bend[1][k]};
-    const BendingResponse response = (i < others ? law : other).respond(node);
+    const BendingResponse response = law_of[i].respond(node);
     for (int m = 0; m < 2; ++m) {
       moment[m][k] = response.moment[m];
       beyond[m][k] = response.beyond[m];
@@ -135,15 +142,16 @@ void FrameBending::evaluate(const std::vector<FourPairs>& pairs, const std::vect
                             const std::vector<double>& angle, std::vector<FourSlopes>& slopes) {
   set_directors(pairs, director, angle);
   fours_.resize(pairs.size());
-  const auto evaluate_four = [&](const auto& law, std::size_t g) {
+  const auto evaluate_four = [&](const auto& law_of, std::size_t g) {
     Lanes bend[2];
     set_curvatures(pairs[g], directors(g), fours_[g], bend);
-    respond(law, other_law(rod_, law), bend, g);
+    respond(law_of, bend, g);
     for (int k = 0; k < 2; ++k) slopes[g] += fours_[g].moment[k] * fours_[g].slope[k];
   };
   std::visit(
       [&](const auto& law) {
-        for (std::size_t g = 0; g < fours_.size(); ++g) evaluate_four(law, g);
+        const LawOfNode law_of(rod_, law);
+        for (std::size_t g = 0; g < fours_.size(); ++g) evaluate_four(law_of, g);
       },
       rod_.laws->bending);
 }
@@ -232,9 +240,9 @@ FrameBending::Energy FrameBending::energy() const {
   Energy out;
   std::visit(
       [&](const auto& law) {
-        const std::size_t others = static_cast<std::size_t>(rod_.first_of_other());
+        const LawOfNode law_of(rod_, law);
         for (std::size_t i = 1; i < nodes_.size(); ++i) {
-          const BendingMemory memory = (i < others ? law : other_law(rod_, law)).remember(nodes_[i]);
+          const BendingMemory memory = law_of[i].remember(nodes_[i]);
           out.stored += memory.stored;
           out.dissipated += memory.dissipated;
         }
@@ -253,9 +261,10 @@ void FrameBending::commit(const std::vector<double>& tension, RodState& state) c
   };
   std::visit(
       [&](const auto& law) {
-        if constexpr (std::decay_t<decltype(law)>::kRemembers)
-          for (int i = 1; i < static_cast<int>(nodes_.size()); ++i)
-            keep(i < rod_.first_of_other() ? law : other_law(rod_, law), i);
+        if constexpr (std::decay_t<decltype(law)>::kRemembers) {
+          const LawOfNode law_of(rod_, law);
+          for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) keep(law_of[at(i)], i);
+        }
       },
       rod_.laws->bending);
 }

@@ -135,25 +135,25 @@ NearestPlaces nearest_places(const Points& points, double exclusion, bool closed
   const std::vector<double> along = arclengths(points, cuts);
   const Eigen::Map<const Eigen::VectorXd> begin(along.data(), edges + 1);
   const double total = begin[edges];
-  Eigen::VectorXi piece(edges);  // of each edge; -1: it is cut
+  const double thickest = radii.empty() ? 1.0 : *std::max_element(radii.begin(), radii.end());
+  Eigen::VectorXd radius = Eigen::VectorXd::Constant(edges, thickest);  // of each edge
+  Eigen::VectorXi piece(edges);                                         // that of each edge; -1: it is cut
   int number = 0;
   for (const Piece& one : pieces_between(points.cols(), cuts)) {
+    if (!radii.empty()) radius.segment(one.begin, one.nodes() - 1).setConstant(radii[static_cast<std::size_t>(number)]);
     piece.segment(one.begin, one.nodes() - 1).setConstant(number++);
     if (one.end <= edges) piece[one.end - 1] = -1;
   }
-  const double thickest = radii.empty() ? 1.0 : *std::max_element(radii.begin(), radii.end());
-  const auto radius = [&](Eigen::Index i) {
-    return radii.empty() ? thickest : radii[static_cast<std::size_t>(piece[i])];
-  };
   NearestPlaces best;
   best.distance = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < edges; ++i) {
     if (piece[i] < 0) continue;
+    const double along_least = exclusion * (radius[i] / thickest);
     for (Eigen::Index j = i + 1; j < edges; ++j) {
       if (piece[j] < 0) continue;
-      if (piece[i] == piece[j] && begin[j] - begin[i + 1] < exclusion * (radius(i) / thickest)) continue;
+      if (piece[i] == piece[j] && begin[j] - begin[i + 1] < along_least) continue;
       if (closed && total - begin[j + 1] + begin[i] < exclusion) continue;
-      const double thinner = 2.0 * thickest - radius(i) - radius(j), nearer = best.distance + best.thinner - thinner;
+      const double thinner = 2.0 * thickest - radius[i] - radius[j], nearer = best.distance + best.thinner - thinner;
       const double reach = std::max(nearer + 0.5 * (length[i] + length[j]), 0.0);
       if ((middle.col(i) - middle.col(j)).squaredNorm() >= reach * reach) continue;
       const ClosestPoints at = closest_points(points.col(i), edge.col(i), points.col(j), edge.col(j), 0.0);

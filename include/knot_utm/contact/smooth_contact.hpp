@@ -95,10 +95,10 @@ class SmoothContact {
  private:
   /// What a foot carries from iteration to iteration, and from step to step.
   struct Memory {
-    double arclength_b;
-    double weighting;  // omega
-    double offset;     // o: the strand of the foot lies this far outwards of its spline, towards the point [m]
-    double pressure;   // predicted; < 0: none
+    double arclength_b = 0.0;
+    double weighting = -1.0;  // omega; < 0: of a foot that recalls none yet
+    double offset = 0.0;      // o: the strand of the foot lies this far outwards of its spline, towards the point [m]
+    double pressure = -1.0;   // predicted; < 0: none
     FrictionMemory friction;
     Vec3 z = Vec3::Zero();  // of the last trial in this step; zero: there was none
     bool pressed = false;   // at the beginning of the step
@@ -117,9 +117,9 @@ class SmoothContact {
   /// A foot within reach.
   struct Tracked {
     Memory memory;
-    std::size_t foot;     // number of it in search_
-    std::size_t contact;  // number of it; kNone where it is left out
-    int pair;             // of materials (ContactLaws)
+    std::size_t foot = 0;         // number of it in search_
+    std::size_t contact = kNone;  // number of it; kNone where it is left out
+    int pair = 0;                 // of materials (ContactLaws)
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 

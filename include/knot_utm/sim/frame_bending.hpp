@@ -74,8 +74,8 @@ class FrameBending {
                      const std::vector<double>& angle);
   FourDirectors directors(std::size_t group) const;
   static void set_curvatures(const FourPairs& pair, const FourDirectors& directors, FourNodes& four, Lanes bend[2]);
-  template <typename Law>
-  void respond(const Law& law, const Law& other, const Lanes bend[2], std::size_t group);
+  template <typename Laws>
+  void respond(const Laws& law_of, const Lanes bend[2], std::size_t group);
 
   const RodProperties& rod_;
   int own_;                // numbers that the law keeps of a node
