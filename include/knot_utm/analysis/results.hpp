@@ -117,9 +117,9 @@ struct Results {
   std::string not_equilibrated;          ///< empty: tying and release ended at rest; else what still moved
   std::optional<GripForces> at_start;    ///< where they differ most as the pull begins (forces_at_start)
 
-  std::optional<double> peak_torque;             ///< largest magnitude once the clamp has been turned [N m]
-  double tension_at_peak_torque = 0.0;           ///< [N]
-  double span_at_peak_torque = 0.0;              ///< between the grips [m]
+  std::optional<double> peak_torque;    ///< largest magnitude once the clamp has been turned [N m]
+  double tension_at_peak_torque = 0.0;  ///< [N]
+  double span_at_peak_torque = 0.0;     ///< between the grips [m]
 
   double max_penetration = 0.0;  ///< largest overlap of the whole test [fraction of radius]
   /// largest difference of the forces on the two grips in the pull, over the peak force [-]
