@@ -21,4 +21,8 @@ bool parts_by_bending(const Material& material) {
   return material.breaking_force && std::visit([](const auto& law) { return law.kBends; }, breaking_law_of(material));
 }
 
+bool all_part_by_bending(const Material& material) {
+  return parts_by_bending(material) && (!material.other || parts_by_bending(*material.other));
+}
+
 }  // namespace knot_utm

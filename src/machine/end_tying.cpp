@@ -26,7 +26,7 @@ EndTying::EndTying(const Centreline& centreline, const Material& material, doubl
       grips_(grips),
       groups_(centreline.tied),
       preload_(preload),
-      radius_(material.radius),
+      radius_(thickest(material)),
       settling_drag_(settling_drag(material, kWaveToSettle * material.radius, kTimeToSettle)),
       rest_({rest_speed}) {}
 

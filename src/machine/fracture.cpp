@@ -58,7 +58,7 @@ void each_edge(const Law& law, const RodProperties& rod, const Points& position,
     const double bend = law.kBends ? h * curvature(rod, position, j + 1) : 0.0;
     const StretchedEdge stretched = stretched_edge(rod, position, j, before);
     if (!rod.is_cut(j))
-      use(j, LoadedEdge{respond(rod, stretched).tension, stretched.stretch - 1.0, std::max(bend, bend_before)});
+      use(j, LoadedEdge{respond(rod, j, stretched).tension, stretched.stretch - 1.0, std::max(bend, bend_before)});
     bend_before = bend;
   }
 }

@@ -13,10 +13,11 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kSlack = 0.6;      // by which the rollers stand closer than taut, until mounting [h]
-constexpr double kClearance = 0.5;  // by which pins are narrower, so that the loop goes over them [h]
-constexpr double kGap = 0.2;        // between them and the loop then, at least [h]
-constexpr double kHeld = 100.0;     // stiffness of what holds the middle of the far side [k_b/h^3]
+constexpr double kSlack = 0.6;        // by which the rollers stand closer than taut, until mounting [h]
+constexpr double kClearance = 0.5;    // by which pins are narrower, so that the loop goes over them [h]
+constexpr double kGap = 0.2;          // between them and the loop then, at least [h]
+constexpr double kAlongAxis = 0.999;  // cosine of the angle by which a strand leaves a clamp that turns, 2.6 degrees
+constexpr double kHeld = 100.0;       // stiffness of what holds the middle of the far side [k_b/h^3]
 
 }  // namespace
 
@@ -58,9 +59,10 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
   supports_ = knot.supports(specimen, material);
   if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
   hold(upper_nodes_, knot.held_above(centreline, clamped));
-  if (!clamp_turns(specimen, machine)) return;
+  if (!knot_utm::clamp_turns(specimen, machine)) return;
   const int edge = held_frames_.back().edge;
-  turns_by_ = centreline.points(2, edge + 1) > centreline.points(2, edge) ? 1.0 : -1.0;
+  const double along = (centreline.points.col(edge + 1) - centreline.points.col(edge)).normalized()[2];
+  if (std::abs(along) > kAlongAxis) turns_by_ = along > 0.0 ? 1.0 : -1.0;
 }
 
 bool Grips::hold(double displacement, const Vec3& point, double radius) const {
@@ -75,11 +77,11 @@ bool Grips::hold(double displacement, const Vec3& point, double radius) const {
 }
 
 void Grips::turn_clamp(double turn, std::vector<FixedTwist>& frames) const {
-  if (turns_by_ != 0.0) frames.back().angle += turns_by_ * turn;
+  if (clamp_turns()) frames.back().angle += turns_by_ * turn;
 }
 
 double Grips::torque(const TimeStep& step) const {
-  if (turns_by_ == 0.0 || step.state().twist.size() == 0) return Sample::kNone;
+  if (!clamp_turns() || step.state().twist.size() == 0) return Sample::kNone;
   return turns_by_ * step.readings().reaction_torque(held_frames_.back().edge);
 }
 

@@ -268,9 +268,9 @@ struct TestingMachine::Impl {
   void part(const Exposure& reached) {
     const int edge = reached.edge;
     const Points& position = stepper->state().position;
-    break_place = lies_in_knot(stepper->rod(), position, edge)      ? BreakPlace::kKnot
-                  : grips.hold(grip, middle(edge), material.radius) ? BreakPlace::kGrip
-                                                                    : BreakPlace::kStrand;
+    break_place = lies_in_knot(stepper->rod(), position, edge)                              ? BreakPlace::kKnot
+                  : grips.hold(grip, middle(edge), stepper->rod().material_at(edge).radius) ? BreakPlace::kGrip
+                                                                                            : BreakPlace::kStrand;
     std::ostringstream text;
     text << "the rod parted " << break_arclength(edge) << " m along its length" << which_rope(edge) << " ("
          << break_place_name(break_place)
@@ -417,6 +417,12 @@ struct TestingMachine::Impl {
       return substeps.back();
     }
     if (command.step != step_index) enter_step(command);
+    if (command.turn != turn && !grips.clamp_turns()) {
+      status = BenchStatus::kFailed;
+      message = "the upper clamp cannot be turned: the rod leaves it across the load axis";
+      substeps.push_back(read(command, time));
+      return substeps.back();
+    }
     if (give_up_tying()) {
       substeps.push_back(read(command, time));
       return substeps.back();

@@ -15,7 +15,7 @@ std::optional<double> load_in_terms(const std::string& text, const Material& mat
   const std::optional<double> percent = parse_number(before.substr(0, before.find_last_not_of(' ') + 1));
   if (!percent) return std::nullopt;
   if (!material.breaking_force)
-    throw std::invalid_argument("the material has no breaking_force, of which this is a percentage");
+    throw std::invalid_argument("material has no breaking_force, of which this is a percentage");
   return *percent * *material.breaking_force / 100.0;
 }
 

@@ -231,8 +231,8 @@ void check_rest_shape(const Method& m) {
                                      ", but material.bending_law is " +
                                      BendingRegistry::entry(m.material.bending.law).name +
                                      ": a rod keeps its natural curvature with elastic or viscoelastic only");
-  if (std::abs(s.natural_curvature) * m.material.radius >= 1.0) {
-    const std::string most = most_text(1.0 / m.material.radius);
+  if (const double h = thickest(m.material); std::abs(s.natural_curvature) * h >= 1.0) {
+    const std::string most = most_text(1.0 / h);
     reject("specimen.natural_curvature", s.natural_curvature,
            "more than -" + most + " and less than " + most + " 1/m, one over the radius");
   }

@@ -155,7 +155,7 @@ bool is_numbered(const std::string& key) {
 std::string words_of(const std::string& key) {
   std::string words = key.substr(key.rfind('.') + 1);
   std::replace(words.begin(), words.end(), '_', ' ');
-  return key.rfind("other_material.", 0) == 0 ? words + " of the other ropes" : words;
+  return words;
 }
 
 }  // namespace
@@ -190,6 +190,13 @@ std::vector<MethodKey> method_keys() {
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const MethodKey& one) { return one.key == label.key; });
     if (key == keys.end()) throw std::logic_error(std::string(label.key) + " has a label, but is no key of a method");
     key->label = label.words;
+  }
+  const std::string others = "other_";
+  for (MethodKey& key : keys) {
+    if (key.key.rfind(others + "material.", 0) != 0) continue;
+    const auto first = std::find_if(keys.begin(), keys.end(),
+                                    [&](const MethodKey& one) { return one.key == key.key.substr(others.size()); });
+    key.label = first->label + " of the other ropes";
   }
   return keys;
 }

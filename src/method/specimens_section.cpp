@@ -96,9 +96,12 @@ std::vector<Scatter> default_scatter(const Method& method) {
     add("specimen.preload", kByMachine);
     add("program.tie.speed", kByHand);
   }
-  if (parts_by_bending(method.material) &&
-      std::isfinite(method.material.breaking.number(FibreBreaking::kWeibullModulus)))
-    out.push_back({"material.breaking.weaker_share", ScatterLaw::kUniform, kAllOfThem});
+  const auto add_strength = [&](const Material& material, const std::string& section) {
+    if (parts_by_bending(material) && std::isfinite(material.breaking.number(FibreBreaking::kWeibullModulus)))
+      out.push_back({section + ".breaking.weaker_share", ScatterLaw::kUniform, kAllOfThem});
+  };
+  add_strength(method.material, "material");
+  if (method.material.other) add_strength(*method.material.other, "other_material");
   return out;
 }
 

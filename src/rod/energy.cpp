@@ -16,7 +16,7 @@ double stretching_energy(const RodProperties& rod, const RodState& state) {
   const StretchedBefore before(state);
   double sum = 0.0;
   for (Eigen::Index j = 0; j < rod.edges(); ++j)
-    if (!rod.is_cut(j)) sum += respond(rod, stretched_edge(rod, state.position, j, before)).energy;
+    if (!rod.is_cut(j)) sum += respond(rod, j, stretched_edge(rod, state.position, j, before)).energy;
   return sum;
 }
 
@@ -77,7 +77,7 @@ Eigen::VectorXd edge_tension(const RodProperties& rod, const RodState& state) {
   const StretchedBefore before(state);
   Eigen::VectorXd tension(rod.edges());
   for (Eigen::Index j = 0; j < rod.edges(); ++j)
-    tension[j] = respond(rod, stretched_edge(rod, state.position, j, before)).tension;
+    tension[j] = respond(rod, j, stretched_edge(rod, state.position, j, before)).tension;
   return tension;
 }
 

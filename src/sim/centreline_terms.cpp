@@ -48,7 +48,7 @@ void CentrelineTerms::begin(const StepStart& start, bool predicts) {
   for (std::size_t j = 0; j < predicted_tension_.size(); ++j) {
     StretchedEdge edge = stretched_edge(rod_, start.state.position, static_cast<Eigen::Index>(j), held);
     edge.k_s = stretching_stiffness_[j];
-    predicted_tension_[j] = respond(rod_, edge).tension;
+    predicted_tension_[j] = respond(rod_, static_cast<Eigen::Index>(j), edge).tension;
   }
 }
 
@@ -60,15 +60,17 @@ void CentrelineTerms::predict_tensions(const std::vector<Lanes>& change, double 
 }
 
 void CentrelineTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes>& force) {
-  std::visit([&](const auto& law) { add_stretching_forces(law, x, force); }, rod_.laws->stretching);
+  largest_tension_ = 0.0;
+  each_stretching_law(rod_, [&](const auto& law, std::size_t begin, std::size_t end) {
+    add_stretching_forces(law, begin, end, x, force);
+  });
   if (bends_) add_bending_forces(force);
 }
 
 template <typename Law>
-void CentrelineTerms::add_stretching_forces(const Law& law, const Points& position, std::vector<Lanes>& force) {
-  const std::size_t edges = tangent_.size();
-  largest_tension_ = 0.0;
-  for (std::size_t j = 0; j < edges; ++j) {
+void CentrelineTerms::add_stretching_forces(const Law& law, std::size_t begin, std::size_t end, const Points& position,
+                                            std::vector<Lanes>& force) {
+  for (std::size_t j = begin; j < end; ++j) {
     const double* x = position.data() + 3 * j;
     const Lanes e = {x[3] - x[0], x[4] - x[1], x[5] - x[2], 0.0};
     const double length = std::sqrt(dot(e, e));
@@ -105,8 +107,8 @@ void CentrelineTerms::add_bending_forces(std::vector<Lanes>& force) {
 }
 
 template <typename Law>
-void CentrelineTerms::add_stretching_energy(const Law& law, Energy& out) const {
-  for (std::size_t j = 0; j < tangent_.size(); ++j) {
+void CentrelineTerms::add_stretching_energy(const Law& law, std::size_t begin, std::size_t end, Energy& out) const {
+  for (std::size_t j = begin; j < end; ++j) {
     if (!(stretching_stiffness_[j] > 0.0)) continue;
     if constexpr (Law::kRemembers) {
       const StretchingMemory memory = law.remember(stretched(j));
@@ -120,7 +122,8 @@ void CentrelineTerms::add_stretching_energy(const Law& law, Energy& out) const {
 
 CentrelineTerms::Energy CentrelineTerms::energy(const Points& increment) const {
   Energy out;
-  std::visit([&](const auto& law) { add_stretching_energy(law, out); }, rod_.laws->stretching);
+  each_stretching_law(
+      rod_, [&](const auto& law, std::size_t begin, std::size_t end) { add_stretching_energy(law, begin, end, out); });
   Lanes before = kZero;  // of the edge before: its change over its length
   for (std::size_t j = 0; j < tangent_.size(); ++j) {
     const double* w = increment.data() + 3 * j;
@@ -148,12 +151,11 @@ void CentrelineTerms::account(const SolvedStep& step, StepAccount& account) cons
 }
 
 void CentrelineTerms::commit(RodState& state) const {
-  const auto keep = [&](const auto& law) {
+  each_stretching_law(rod_, [&](const auto& law, std::size_t begin, std::size_t end) {
     if constexpr (std::decay_t<decltype(law)>::kRemembers)
-      for (std::size_t j = 0; j < tangent_.size(); ++j)
+      for (std::size_t j = begin; j < end; ++j)
         state.stretching_own[static_cast<Eigen::Index>(j)] = law.remember(stretched(j)).own;
-  };
-  std::visit(keep, rod_.laws->stretching);
+  });
 }
 
 CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) const {

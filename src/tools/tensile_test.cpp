@@ -209,6 +209,8 @@ int check(const Method& method, Readings readings) {
     draw_specimens(method);
   for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
   std::fprintf(stderr, "%s: the rod: %s\n", kTool, rod_in_words(method.material).c_str());
+  if (method.material.other)
+    std::fprintf(stderr, "%s: the other ropes: %s\n", kTool, rod_in_words(*method.material.other).c_str());
   std::fputs(method_yaml(method).c_str(), stdout);
   return kDone;
 }

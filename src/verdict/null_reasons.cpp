@@ -141,7 +141,7 @@ std::string why_no_break(const ResultSource& source) {
 std::string why_no_efficiency(const ResultSource& source) {
   if (!source.facts.may_hold_a_knot) return "there is no knot";
   if (!source.results.break_extension) return why_no_break(source);
-  if (!parts_by_bending(source.facts.material))
+  if (!all_part_by_bending(source.facts.material))
     return "not predicted: the rod parts where its tension is material.breaking_force, which was given";
   return of_the_pull(source, "the load fell before the rod parted");
 }

@@ -99,8 +99,8 @@ std::string why_no_force_ratio(const Source& of) {
 /// tension of a straight one, which predicts nothing.
 Number over_straight_strands(const Source& of, const Number& force) {
   const Material& material = of.facts.material;
-  const bool bends = parts_by_bending(material) && (!material.other || parts_by_bending(*material.other));
-  if (!force || !of.facts.may_hold_a_knot || !of.results.break_extension || !bends) return std::nullopt;
+  const bool predicted = all_part_by_bending(material);
+  if (!force || !of.facts.may_hold_a_knot || !of.results.break_extension || !predicted) return std::nullopt;
   return *force / (of.facts.strands * *weakest(material));
 }
 Number knot_efficiency(const Source& of) { return over_straight_strands(of, of.results.true_peak_force); }

@@ -157,20 +157,24 @@ class Warnings {
 
   /// A straight strand of the length L between clamps, under the tension T, writhes at the torque M of
   ///
-  ///     M^2 = 4 k_b T + (2 q k_b/L)^2,   q = tan q = 4.493.
+  ///     M^2 = 4 k_b T + (2 q k_b/L)^2,
+  ///
+  /// where q is between pi, of long strands, and 4.493, of those without tension. The least of these is told.
   ///
   /// Implicit steps that are longer than that takes may keep it straight.
   ///
   /// Source: Greenhill 1883.
   void of_twist() {
     if (!results_.peak_torque) return;
-    constexpr double kQ = 4.493;
-    const double k_b = facts_.material.bending_stiffness, tension = std::max(0.0, results_.tension_at_peak_torque);
-    const double least = 2.0 * std::hypot(std::sqrt(k_b * tension), kQ * k_b / results_.span_at_peak_torque);
+    const Material& material = facts_.material;
+    const double k_b = material.other ? std::min(material.bending_stiffness, material.other->bending_stiffness)
+                                      : material.bending_stiffness;
+    const double tension = std::max(0.0, results_.tension_at_peak_torque);
+    const double least = 2.0 * std::hypot(std::sqrt(k_b * tension), M_PI * k_b / results_.span_at_peak_torque);
     if (*results_.peak_torque > least)
       say("the torque reached " + short_number(*results_.peak_torque) +
-          " N m, but a straight strand between clamps writhes at " + short_number(least) +
-          " N m under its tension; time steps as long as these may keep it straight");
+          " N m, but a straight strand between clamps may writhe from " + short_number(least) +
+          " N m on under its tension; time steps as long as these may keep it straight");
   }
 
   /// Elastic energy of stretchy strands or of a compliant frame that was released suddenly, although no knot jumped

@@ -55,7 +55,7 @@ TEST(LoadTerms, AreWrittenAsNewtons) {
 TEST(LoadTerms, WhatIsNoneIsRefused) {
   EXPECT_THAT(
       refused({"material.breaking_force=none", "program.0={preload: {load: 50 %}}"}),
-      HasSubstr("program.0.preload.load: cannot take \"50 %\": the material has no breaking_force, of which this "
+      HasSubstr("program.0.preload.load: cannot take \"50 %\": material has no breaking_force, of which this "
                 "is a percentage"));
   for (const char* term : {"fifty %", "\"%\"", "\" %\"", "half", "50 percent"})
     EXPECT_THAT(refused({std::string("program.0={preload: {load: ") + term + "}}"}),

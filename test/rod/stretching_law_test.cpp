@@ -89,7 +89,7 @@ TYPED_TEST(StretchingLaw, OfAnEdgeHasTheDerivativesOfItsEnergyAndIsTheRods) {
     EXPECT_LT(relative_difference(local.hessian, finite_difference(slope, edge, kStep)), 1e-8);
     Points position = Points::Zero(3, 2);
     position.col(1) = edge;
-    const StretchingResponse response = respond(rod, stretched_edge(rod, position, 0));
+    const StretchingResponse response = respond(rod, 0, stretched_edge(rod, position, 0));
     EXPECT_NEAR(response.energy, local.energy, 1e-14 * local.energy);
     EXPECT_NEAR(local.gradient.dot(edge.normalized()), response.tension, 1e-14 * kStiffness);
   }

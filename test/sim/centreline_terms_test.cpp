@@ -87,7 +87,7 @@ TEST_P(CentrelineTermsOf, ForcesAreThoseOfEveryTerm) {
   EXPECT_LT((ours - scene.force).norm(), 1e-13 * kNodes * scene.force.norm());  // rounding
   double largest = 0.0;
   for (int j = 0; j + 1 < kNodes; ++j)
-    largest = std::max(largest, std::abs(respond(scene.rod, stretched_edge(scene.rod, scene.position, j)).tension));
+    largest = std::max(largest, std::abs(respond(scene.rod, j, stretched_edge(scene.rod, scene.position, j)).tension));
   EXPECT_NEAR(terms.largest_tension(), largest, 1e-13 * scene.rod.material.stretching_stiffness);
 }
 
@@ -179,9 +179,9 @@ TEST_P(PredictedTension, IsThatOfTheLinearModelOfAChange) {
   for (int j = 0; j + 1 < kNodes; ++j) {
     const double l0 = scene.rod.rest_length[j];
     const Vec3 before = scene.edge(j), after = moved.col(j + 1) - moved.col(j);
-    const StretchingResponse response = respond(scene.rod, stretched_edge(scene.rod, scene.position, j));
+    const StretchingResponse response = respond(scene.rod, j, stretched_edge(scene.rod, scene.position, j));
     const double tension = response.tension + response.slope / l0 * before.normalized().dot(after - before);
-    const double slope = respond(scene.rod, stretched_edge(scene.rod, moved, j)).slope;
+    const double slope = respond(scene.rod, j, stretched_edge(scene.rod, moved, j)).slope;
     const Vec3 t = after.normalized();
     const Mat3 expected =
         slope / l0 * t * t.transpose() + tension / after.norm() * (Mat3::Identity() - t * t.transpose());

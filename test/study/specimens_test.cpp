@@ -150,6 +150,14 @@ TEST(Specimens, HaveStrengthsOfTheirOwnWhereTheMaterialHasAWeibullModulus) {
   };
   EXPECT_THAT(keys({"specimens.count=2", "material=nylon", scatters}),
               testing::ElementsAre("material.breaking.weaker_share"));
+  const auto of_two = [&](const std::vector<std::string>& set) {
+    std::vector<std::string> found;
+    for (const Scatter& one : load_method(kConfig + "knot.yaml", set).specimens.scatter) found.push_back(one.key);
+    return found;
+  };
+  EXPECT_THAT(of_two({"specimens.count=2", "specimen.knot=reef", "material=nylon", "other_material=nylon",
+                      "other_" + scatters}),
+              testing::Contains("other_material.breaking.weaker_share"));
   EXPECT_THAT(keys({"specimens.count=2", "material=nylon", scatters, "material.breaking.law=tension"}),
               testing::IsEmpty());
 }

@@ -20,5 +20,7 @@ bool can_part(const Material& material);  ///< it has a breaking force, or that 
 
 /// Whether the bend of a rope of this material helps to part it, so that a knot costs strength.
 bool parts_by_bending(const Material& material);
+/// The same of every rope of the rod: else the strength of a knot may be that of a straight rope, which was given.
+bool all_part_by_bending(const Material& material);
 
 }  // namespace knot_utm

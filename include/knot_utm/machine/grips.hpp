@@ -25,7 +25,9 @@ class Grips {
         const Material& material);
 
   bool on_rollers() const { return !rollers_.empty(); }
-  /// Turns the frame in the upper clamp about the load axis [rad], where clamp_turns.
+  /// Whether the upper clamp can be turned: it holds one strand, which leaves it along the load axis.
+  bool clamp_turns() const { return turns_by_ != 0.0; }
+  /// Turns the frame in that clamp about the load axis [rad].
   void turn_clamp(double turn, std::vector<FixedTwist>& frames) const;
   /// Torque of this clamp on the rod [N m]; NaN where it cannot be turned, or the rod has no twist.
   double torque(const TimeStep& step) const;

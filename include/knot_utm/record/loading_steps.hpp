@@ -83,7 +83,8 @@ struct ReturnStep : Step {
 };
 
 /// `twist`: turns the upper clamp about the load axis by `turns` at `rate`, while the crosshead stands or keeps the
-/// load with which the step begins; ends earlier where the torque that the turn makes reaches `torque`.
+/// load with which the step begins; ends earlier where the torque of the clamp reaches `torque`
+/// in the sense of the turn, as a command reads it.
 struct TwistStep : Step {
   double turns = 0.0;            ///< from where it begins; right-handed about the axis, which points up [-]
   double rate = 0.5;             ///< magnitude [1/s]

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/rod_laws.hpp"
@@ -60,9 +62,18 @@ inline StretchedEdge stretched_edge(const RodProperties& rod, const Points& posi
   return {k_s, rod.rest_length[j], edge.norm() / rod.rest_length[j], before.dt, before.at(static_cast<std::size_t>(j))};
 }
 
-/// Response of the rod's own law to it.
-inline StretchingResponse respond(const RodProperties& rod, const StretchedEdge& edge) {
-  return std::visit([&](const auto& law) { return law.respond(edge); }, rod.laws->stretching);
+/// Response of the law of its rope to edge j.
+inline StretchingResponse respond(const RodProperties& rod, Eigen::Index j, const StretchedEdge& edge) {
+  return std::visit([&](const auto& law) { return law.respond(edge); }, rod.laws_at(j).stretching);
+}
+
+/// Calls use(law, begin, end) with the stretching law of each material, and the edges that are of it.
+template <typename Use>
+void each_stretching_law(const RodProperties& rod, const Use& use) {
+  const auto edges = static_cast<std::size_t>(rod.edges());
+  const std::size_t others = std::min(static_cast<std::size_t>(rod.first_of_other()), edges);
+  std::visit([&](const auto& law) { use(law, std::size_t{0}, others); }, rod.laws->stretching);
+  if (others < edges) std::visit([&](const auto& law) { use(law, others, edges); }, rod.other_laws->stretching);
 }
 
 }  // namespace knot_utm

@@ -75,9 +75,10 @@ class CentrelineTerms {
   };
   NodeHessian bending_hessian(std::size_t node) const;
   template <typename Law>
-  void add_stretching_forces(const Law& law, const Points& position, std::vector<Lanes>& force);
+  void add_stretching_forces(const Law& law, std::size_t begin, std::size_t end, const Points& position,
+                             std::vector<Lanes>& force);
   template <typename Law>
-  void add_stretching_energy(const Law& law, Energy& out) const;
+  void add_stretching_energy(const Law& law, std::size_t begin, std::size_t end, Energy& out) const;
   void add_bending_forces(std::vector<Lanes>& force);
   /// An edge in the position that was evaluated last.
   StretchedEdge stretched(std::size_t edge) const {

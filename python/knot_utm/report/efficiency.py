@@ -69,9 +69,13 @@ def repeats_what_was_given(folder, key):
     if key not in OF_THE_BREAK or not os.path.isfile(file):
         return False
     parted = any(one.ended_by == "break" and not one.rejected for one in read_specimens(folder)[0])
-    material = read_yaml(file).get("material") or {}
+    method = read_yaml(file)
+    return parted and any(parts_by_tension(method.get(of) or {}) for of in ("material", "other_material"))
+
+
+def parts_by_tension(material):
     law = (material.get("breaking") or {}).get("law", "tension")
-    return parted and law == "tension" and is_number(material.get("breaking_force"))
+    return law == "tension" and is_number(material.get("breaking_force"))
 
 
 def line(name, of):

@@ -17,6 +17,7 @@ import numpy as np
 import pandas as pd
 
 import knot_utm
+from knot_utm.address import Addresses
 from knot_utm.plots import figure
 from knot_utm.yaml_text import load
 
@@ -326,6 +327,16 @@ class Content(Sweeps):
         self.assertEqual(self.started(), [0.2, 0.2, 0.2])
         self.assertEqual(len({first, second, rows(self.table("out"))[2][-1]}), 3)
         self.assertEqual(len(self.whole_runs("out")), 3)
+
+
+    def test_the_file_of_the_other_ropes_counts(self):
+        os.mkdir(self.path("materials"))
+        write(self.path("method.yaml"), content(CONFIG, "knot.yaml").decode() + "\nother_material: mine\n")
+        names = set()
+        for radius in (0.003, 0.002):
+            write(self.path("materials/mine.yaml"), f"radius: {radius}\n")
+            names.add(Addresses(self.path("method.yaml")).of({}))
+        self.assertEqual(len(names), 2)
 
 
 class Refused(Sweeps):
