@@ -38,8 +38,9 @@ def _section(name):
 
 
 def _meant(name):
-    """The key that is spelt nearly so, or the only one that ends so; None where there is none."""
-    end_so = [key for key in tool.method_keys() if key.endswith("." + name)]
+    """The key that is spelt nearly so, or the only one that ends so; None where there is none. Whoever leaves the section out means
+    the first material."""
+    end_so = [key for key in tool.method_keys() if key.endswith("." + name) and not key.startswith("other_material.")]
     if len(end_so) == 1:
         return end_so[0]
     return next(iter(difflib.get_close_matches(name, tool.method_keys(), 1, ALIKE)), None)
