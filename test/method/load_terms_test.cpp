@@ -53,10 +53,9 @@ TEST(LoadTerms, AreWrittenAsNewtons) {
 }
 
 TEST(LoadTerms, WhatIsNoneIsRefused) {
-  EXPECT_THAT(
-      refused({"material.breaking_force=none", "program.0={preload: {load: 50 %}}"}),
-      HasSubstr("program.0.preload.load: cannot take \"50 %\": material has no breaking_force, of which this "
-                "is a percentage"));
+  EXPECT_THAT(refused({"material.breaking_force=none", "program.0={preload: {load: 50 %}}"}),
+              HasSubstr("program.0.preload.load: cannot take \"50 %\": material has no breaking_force, of which this "
+                        "is a percentage"));
   for (const char* term : {"fifty %", "\"%\"", "\" %\"", "half", "50 percent"})
     EXPECT_THAT(refused({std::string("program.0={preload: {load: ") + term + "}}"}),
                 HasSubstr("a percentage of material.breaking_force, such as \"50 %\", or reference_tension"))
