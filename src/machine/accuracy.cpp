@@ -122,7 +122,9 @@ Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& spec
   out.residual = physics.residual.value_or(out.residual);
   out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);
   out.presliding = physics.friction.value("presliding").value_or(out.presliding);
-  out.refinement = specimen.refinement.value_or(out.refinement);
+  const KnotDescription& knot = knot_of(specimen).about();
+  const bool as_given = knot.any_shape && !knot.tied_by_ends;  // nobody knows how such a shape should be meshed
+  out.refinement = specimen.refinement.value_or(as_given ? 1.0 : out.refinement);
   return out;
 }
 

@@ -18,6 +18,21 @@ namespace {
 
 constexpr double kMostEdges = 2e4;  // of a shape from a file: each is held against each other one
 
+// A shape is near itself where it is within the first of these of a place that is the second one away along it. By
+// choice: wider than strands that touch (2), and not a bend that a rod makes by itself.
+constexpr double kNearItself = 8.0, kAwayAlong = 20.0;  // [h]
+
+/// Nodes along a polyline, with finer edges where it comes near itself.
+Points graded(const Points& way, double radius, double edge_length, double refinement) {
+  if (refinement == 1.0) return resample_evenly(way, edge_length);
+  const Points even = resample_evenly(way, edge_length);
+  const auto tangled = part_near_itself(even, kNearItself * radius, kAwayAlong * radius);
+  if (!tangled) return resample_evenly(way, edge_length / refinement);
+  const double longer = arclengths(way).back() / arclengths(even).back();
+  return resample_graded(
+      way, {edge_length, {{tangled->first * longer, tangled->second * longer, edge_length / refinement}}});
+}
+
 }  // namespace
 
 double Centreline::length() const { return arclengths(points).back(); }
@@ -76,7 +91,8 @@ Centreline straight(double length, double radius, double edge_length) {
   return centreline;
 }
 
-Centreline from_points(const Points& points, bool closed, double radius, double edge_length, const std::string& name) {
+Centreline from_points(const Points& points, bool closed, double radius, double edge_length, const std::string& name,
+                       double refinement) {
   check_radius(radius);
   check_edge_length(edge_length, radius);
   const auto refuse = [&](const std::string& why) {
@@ -97,11 +113,11 @@ Centreline from_points(const Points& points, bool closed, double radius, double 
   const double length = (way.rightCols(way.cols() - 1) - way.leftCols(way.cols() - 1)).colwise().norm().sum();
   const std::string rod = " is a rod of " + text(length) + " m, but must be at ";
   if (!(length >= 4.0 * edge_length)) refuse(rod + "least four edges long, " + text(4.0 * edge_length) + " m");
-  if (!(length <= kMostEdges * edge_length))
-    refuse(rod + "most " + text(kMostEdges) + " edges long, " + text(kMostEdges * edge_length) + " m");
+  const double most = kMostEdges * edge_length / refinement;
+  if (!(length <= most)) refuse(rod + "most " + text(kMostEdges) + " edges long, " + text(most) + " m");
   Centreline centreline;
   centreline.closed = closed;
-  centreline.points = resample_evenly(way, edge_length);
+  centreline.points = graded(way, radius, edge_length, refinement);
   check_no_overlap(centreline, radius, "specimen.file", name);
   return centreline;
 }

@@ -126,6 +126,23 @@ Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vec
   return nodes;
 }
 
+std::optional<std::pair<double, double>> part_near_itself(const Points& points, double near, double apart) {
+  const std::vector<double> along = arclengths(points);
+  std::optional<std::pair<double, double>> out;
+  // The first node of each near pair comes before its second one, so the outermost of both bound the part.
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    while (other < along.size() && along[other] - along[i] < apart) ++other;
+    const auto here = static_cast<Eigen::Index>(i);
+    for (std::size_t j = other; j < along.size(); ++j) {
+      const Vec3 between = points.col(static_cast<Eigen::Index>(j)) - points.col(here);
+      if (between.squaredNorm() >= near * near) continue;
+      out = out ? std::pair(out->first, std::max(out->second, along[j])) : std::pair(along[i], along[j]);
+    }
+  }
+  return out;
+}
+
 NearestPlaces nearest_places(const Points& points, double exclusion, bool closed, const std::vector<int>& cuts,
                              const std::vector<double>& radii) {
   const Eigen::Index edges = points.cols() - 1;

@@ -279,6 +279,58 @@ TEST(FromPoints, ResamplesACircleAndClosesIt) {
   EXPECT_NEAR(line.length(), 0.2 * M_PI, 1e-3);
 }
 
+/// A straight strand, one turn of a helix of ten radii h = 1 with a pitch of four, and a straight strand.
+Points one_turn() {
+  Points out(3, 101);
+  for (int i = 0; i <= 100; ++i) {
+    const double angle = 2.0 * M_PI * (i - 30) / 40.0;
+    if (i < 30)
+      out.col(i) << 4.0 * (i - 30), -10.0, 0.0;
+    else if (i <= 70)
+      out.col(i) << 10.0 * std::sin(angle), -10.0 * std::cos(angle), 0.1 * (i - 30);
+    else
+      out.col(i) << 4.0 * (i - 70), -10.0, 4.0;
+  }
+  return out;
+}
+
+TEST(FromPoints, HasShorterEdgesWhereTheRodComesNearItself) {
+  const Points points = one_turn();
+  const Points fine = 1e3 * from_points(1e-3 * points, false, 1e-3, 2e-3, "shape", 4.0).points;
+  const std::vector<double> along = arclengths(fine);
+  const double turn = 20.0 * M_PI, middle = 120.0 + 0.5 * turn;
+  for (std::size_t i = 1; i < along.size(); ++i) {
+    const double edge = along[i] - along[i - 1], here = 0.5 * (along[i] + along[i - 1]);
+    if (std::abs(here - middle) < 0.5 * turn) {
+      EXPECT_NEAR(edge, 0.5, 0.01) << "in the turn, at " << here;
+    } else if (std::abs(here - middle) > 0.5 * turn + 20.0) {
+      EXPECT_NEAR(edge, 2.0, 0.04) << "in the strands, at " << here;
+    }
+  }
+  const Points line = straight(0.1, 1e-3, 2e-3).points;
+  EXPECT_EQ(from_points(line, false, 1e-3, 2e-3, "shape", 4.0).points.cols(), 201) << "everywhere where it never does";
+}
+
+TEST(PartNearItself, IsThatOfAllPairsOfNodes) {
+  for (const double near : {3.0, 4.5, 8.0, 15.0, 30.0}) {
+    const Points points = one_turn();
+    const std::vector<double> along = arclengths(points);
+    double first = 1e9, last = -1e9;
+    for (std::size_t i = 0; i < along.size(); ++i)
+      for (std::size_t j = 0; j < along.size(); ++j) {
+        const Vec3 gap = points.col(static_cast<int>(i)) - points.col(static_cast<int>(j));
+        if (std::abs(along[i] - along[j]) < 25.0 || gap.norm() >= near) continue;
+        first = std::min(first, along[i]);
+        last = std::max(last, along[i]);
+      }
+    const auto part = part_near_itself(points, near, 25.0);
+    ASSERT_EQ(part.has_value(), last > first) << near;
+    if (!part) continue;
+    EXPECT_EQ(part->first, first) << near;
+    EXPECT_EQ(part->second, last) << near;
+  }
+}
+
 Points two_strands_that_cross() {
   Points out(3, 4);
   out << Vec3(0.0, 0.0, 0.0), Vec3(0.2, 0.0, 0.0), Vec3(0.2, 0.1, 0.0), Vec3(0.1, -0.1, 0.0);

@@ -68,9 +68,10 @@ struct Centreline {
 Centreline straight(double length, double radius, double edge_length);
 
 /// Any polyline [m], resampled. Closed: the last point joins the first, and the last node lies on the first. `name`:
-/// what messages call the shape. Throws InvalidInput (specimen.file, specimen.edge_length).
+/// what messages call the shape. Edges are shorter by `refinement` [-] from the first to the last place where the rod
+/// comes near itself, or everywhere where it never does. Throws InvalidInput (specimen.file, specimen.edge_length).
 Centreline from_points(const Points& points, bool closed, double radius, double edge_length,
-                       const std::string& name = "the centreline");
+                       const std::string& name = "the centreline", double refinement = 1.0);
 
 /// Throws InvalidInput for `key` where strands of a rod of the given radius overlap, or where it runs through itself.
 /// Strands overlap where two places that are further apart along the rod than 3 pi/2 radii are nearer to each other

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "knot_utm/numeric/points.hpp"
@@ -29,6 +31,10 @@ struct EdgeGrading {
 /// Resamples a polyline to edges of the target lengths, all scaled by the one factor that makes their number whole;
 /// first and last point stay. `position` (optional) gets the arclength on `points` of every node.
 Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vector<double>* position = nullptr);
+
+/// Where a polyline comes near itself: from the first to the last of its nodes that are nearer than `near` [m] to one
+/// which lies `apart` [m] away along it, or further. Arclengths [m]; empty: nowhere.
+std::optional<std::pair<double, double>> part_near_itself(const Points& points, double near, double apart);
 
 /// Two places of a polyline, and how far apart they are [m].
 struct NearestPlaces {
