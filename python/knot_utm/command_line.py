@@ -1,7 +1,12 @@
-"""What the command lines of a sweep, a fit and a refinement have in common; the scripts have their words."""
+"""What the command lines of a sweep, a fit, a ranking and a refinement have in common; the scripts have their words."""
 import argparse
 import os
 import sys
+
+import yaml
+
+from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.yaml_text import value_of
 
 
 def parser_of(program, *read):
@@ -19,6 +24,35 @@ def parsed(parser, words):
     if asked.jobs < 1:
         parser.error(f"--jobs is {asked.jobs}, but must be at least 1")
     return asked
+
+
+def settings_of(words, option="--set"):
+    """{key: value} of words such as specimen.preload=20. Raises WrongInput."""
+    found = {}
+    for word in words:
+        key, equals, text = word.partition("=")
+        if not key or not equals:
+            raise WrongInput(f"{option}: {word} is no KEY=VALUE")
+        try:
+            found[key] = value_of(text)
+        except yaml.YAMLError as error:
+            raise WrongInput(f"{option}: {word} is no YAML: {' '.join(str(error).split())}") from error
+    return found
+
+
+def exit_code_of(program, work, goes_on=""):
+    """Calls `work`, and returns its exit code, or what it ended by: 2 for bad input, 1 for all else that is no mistake of ours.
+    Says why in a line. `goes_on`: the command that goes on where the work was cut off."""
+    try:
+        return work()
+    except WrongInput as wrong:
+        return say(program, wrong, 2)
+    except KeyboardInterrupt:
+        return say(program, "it was interrupted", 1)
+    except (Interrupted, OSError) as error:
+        return say(program, f"{error}; the same command goes on: {goes_on}" if goes_on else error, 1)
+    except RuntimeError as error:
+        return say(program, error, 1)
 
 
 def say(program, why, code):

@@ -3,31 +3,23 @@ import shlex
 import signal
 import sys
 
-import yaml
-
 from knot_utm import tool
-from knot_utm.command_line import parsed, parser_of, say
-from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.command_line import exit_code_of, parsed, parser_of, settings_of
 from knot_utm.finding import fit
-from knot_utm.yaml_text import value_of
 
 PROGRAM = tool.program("fit")
 READING = ("columns", "units", "specimen")  # of raw data, as compare takes them
 
 
 def main(words):
-    asked = _arguments(words)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
-    try:
-        also = [(file, _settings(more, "--also")) for file, *more in asked.also]
-        fitted = fit(asked.measured, asked.method, asked.free, asked.out, _settings(asked.set, "--set"), also, asked.jobs,
-                     shlex.join([PROGRAM, *words]), not asked.no_report, _reading(asked), asked.overwrite)
-    except WrongInput as wrong:
-        return say(PROGRAM, wrong, 2)
-    except KeyboardInterrupt:
-        return say(PROGRAM, "it was interrupted", 1)
-    except (Interrupted, OSError, RuntimeError) as error:
-        return say(PROGRAM, error, 1)
+    return exit_code_of(PROGRAM, lambda: _fit(_arguments(words), shlex.join([PROGRAM, *words])))
+
+
+def _fit(asked, command):
+    also = [(file, settings_of(more, "--also")) for file, *more in asked.also]
+    fitted = fit(asked.measured, asked.method, asked.free, asked.out, settings_of(asked.set), also, asked.jobs, command,
+                 not asked.no_report, _reading(asked), asked.overwrite)
     for key, one in fitted.found.items():
         low, high = ("?" if end is None else f"{end:.5g}" for end in (one.low, one.high))
         print(f"{key}: {one.value:.5g}, from {low} to {high}" + ("" if one.identifiable else " (not identifiable)"))
@@ -35,19 +27,6 @@ def main(words):
     for note in fitted.notes:
         print(f"fit: {note}", file=sys.stderr)
     return 0 if fitted.fits else 1
-
-
-def _settings(words, option):
-    found = {}
-    for word in words:
-        key, equals, text = word.partition("=")
-        if not key or not equals:
-            raise WrongInput(f"{option}: {word} is no KEY=VALUE")
-        try:
-            found[key] = value_of(text)
-        except yaml.YAMLError as error:
-            raise WrongInput(f"{option}: {word} is no YAML: {' '.join(str(error).split())}") from error
-    return found
 
 
 def _reading(asked):

@@ -3,26 +3,20 @@ import os
 import sys
 
 from knot_utm import tool
-from knot_utm.command_line import parsed, parser_of, say
-from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.command_line import exit_code_of, parsed, parser_of, say, settings_of
 from knot_utm.ranking import rank
-from knot_utm.yaml_text import value_of
 
 PROGRAM = tool.program("rank")
 FILE = "rank.csv"
 
 
 def main(words):
-    asked = _arguments(words)
+    return exit_code_of(PROGRAM, lambda: _rank(_arguments(words)), tool.command_to_paste("rank", words))
+
+
+def _rank(asked):
     out = asked.out or os.path.join("out", "rank")
-    try:
-        table = rank(asked.knots, asked.material, asked.specimens, out, asked.jobs, asked.method, _settings(asked.set))
-    except WrongInput as wrong:
-        return say(PROGRAM, wrong, 2)
-    except (Interrupted, OSError) as error:
-        return say(PROGRAM, f"{error}; the same command goes on: {tool.command_to_paste('rank', words)}", 1)
-    except RuntimeError as error:
-        return say(PROGRAM, error, 1)
+    table = rank(asked.knots, asked.material, asked.specimens, out, asked.jobs, asked.method, settings_of(asked.set))
     table.to_csv(os.path.join(out, FILE), index=False)
     print(_told(table))
     print(f"the table is in {os.path.join(out, FILE)}")
@@ -46,16 +40,6 @@ def _told(table):
                       cell(row, "break_load", "%.4g"), cell(row, "efficiency", "%.2f"), cell(row, "tail_slip", "%.2g")])
     widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
     return "\n".join("  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip() for line in lines)
-
-
-def _settings(words):
-    settings = {}
-    for word in words:
-        key, separator, value = word.partition("=")
-        if not separator or not key:
-            raise WrongInput(f"--set {word} sets no key: write key=value, such as specimen.preload=20")
-        settings[key] = value_of(value)
-    return settings
 
 
 def _arguments(words):

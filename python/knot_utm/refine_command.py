@@ -8,7 +8,7 @@ import yaml
 from scipy.stats import qmc
 
 from knot_utm import axes, pattern_plots, tool
-from knot_utm.command_line import say
+from knot_utm.command_line import exit_code_of
 from knot_utm.errors import WrongInput
 from knot_utm.sweeping import Sweep
 from knot_utm.trends import Neighbours
@@ -76,12 +76,11 @@ def main(words):
     for name, value, least in (("runs", asked.runs, 1), ("seed", asked.seed, 0)):
         if value < least:
             parser.error(f"--{name} is {value}, but must be at least {least}")
-    try:
-        print(refine(asked.study, asked.out, asked.runs, asked.seed))
-    except WrongInput as wrong:
-        return say(PROGRAM, wrong, 2)
-    except (OSError, RuntimeError) as error:
-        return say(PROGRAM, error, 1)
+    return exit_code_of(PROGRAM, lambda: _refine(asked))
+
+
+def _refine(asked):
+    print(refine(asked.study, asked.out, asked.runs, asked.seed))
     return 0
 
 

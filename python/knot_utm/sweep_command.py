@@ -3,31 +3,26 @@ import os
 import sys
 
 from knot_utm import mixed, tool
-from knot_utm.command_line import parsed, parser_of, say
-from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.command_line import exit_code_of, parsed, parser_of
 from knot_utm.sweeping import Sweep
 
 PROGRAM = tool.program("sweep")
 
 
 def main(words):
-    asked = _arguments(words)
-    try:
-        work = Sweep(asked.study, asked.out, asked.plot, asked.readings)
-        if asked.only == "names":
-            print("\n".join(work.runs))
-        elif asked.only == "check":
-            work.check(asked.jobs)
-        elif asked.only not in (None, "table"):
-            work.one(asked.only)
-        else:
-            _tell(work, work.table() if asked.only else work.all(asked.jobs))
-    except WrongInput as wrong:
-        return say(PROGRAM, wrong, 2)
-    except (Interrupted, OSError) as error:
-        return say(PROGRAM, f"{error}; the same command goes on: {tool.command_to_paste('sweep', words)}", 1)
-    except RuntimeError as error:
-        return say(PROGRAM, error, 1)
+    return exit_code_of(PROGRAM, lambda: _sweep(_arguments(words)), tool.command_to_paste("sweep", words))
+
+
+def _sweep(asked):
+    work = Sweep(asked.study, asked.out, asked.plot, asked.readings)
+    if asked.only == "names":
+        print("\n".join(work.runs))
+    elif asked.only == "check":
+        work.check(asked.jobs)
+    elif asked.only not in (None, "table"):
+        work.one(asked.only)
+    else:
+        _tell(work, work.table() if asked.only else work.all(asked.jobs))
     return 0
 
 

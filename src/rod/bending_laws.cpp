@@ -19,8 +19,7 @@ int own_numbers(const BendingLaws& law) {
 }
 
 bool keeps_natural_curvature(const RodMaterial& material) {
-  const BendingLaws law = bending_law_of(material);
-  return std::holds_alternative<ElasticBending>(law) || std::holds_alternative<ViscoelasticBending>(law);
+  return std::visit([](const auto& of) { return of.kKeepsNatural; }, bending_law_of(material));
 }
 
 bool remembers_bends(const RodMaterial& material) { return remembers(bending_law_of(material)); }

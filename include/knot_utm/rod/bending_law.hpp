@@ -23,6 +23,7 @@ namespace knot_utm {
 ///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
 ///                                                 (machine/accuracy.hpp)
 ///     static constexpr bool kRemembers            whether its internal variable changes in a step
+///     static constexpr bool kKeepsNatural         whether a natural curvature stays as it is
 ///     static constexpr int kOwn                   how many numbers besides it the law remembers of every node
 ///     respond(BendingNode)                        -> BendingResponse
 ///     remember(BendingNode)                       -> BendingMemory, once the step is accepted

@@ -23,6 +23,7 @@ struct ViscoelasticBending {
   static constexpr std::array kKeys{kShare, kTime};
   static constexpr bool kStudied = false;
   static constexpr bool kRemembers = true;
+  static constexpr bool kKeepsNatural = true;
   static constexpr int kOwn = 2;
 
   StandardSolid solid;

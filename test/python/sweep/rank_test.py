@@ -55,9 +55,10 @@ class Rank(Sweeps):
         self.assertRegex(done.stdout, r"knot +broke +slip load \[N\].*\n(reef|grief) +0 of 2 +\S+ ± \S+ +- +- +\S+ ± \S+\n")
         with open(self.path("command", "rank.csv"), encoding="utf-8") as file:
             self.assertEqual(file.readline().strip().split(","), list(ranking.COLUMNS))
-        refused = subprocess.run([os.path.join(ROOT, "scripts/rank"), "reef", "--set", "no"], env=self.environment, cwd=self.folder,
-                                 text=True, capture_output=True)
-        self.assertEqual((refused.returncode, refused.stderr.count("\n")), (2, 1))
+        for word in ("no", "specimen.preload=["):
+            refused = subprocess.run([os.path.join(ROOT, "scripts/rank"), "reef", "--set", word], env=self.environment,
+                                     cwd=self.folder, text=True, capture_output=True)
+            self.assertEqual((refused.returncode, refused.stderr.count("\n")), (2, 1), refused.stderr)
 
 
 if __name__ == "__main__":
