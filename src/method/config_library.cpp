@@ -21,6 +21,14 @@ namespace {
 constexpr std::array kSinceFirstRelease{"bending_law",        "friction_moment",    "stick_ratio",    "compaction",
                                         "rolling_resistance", "rolling_hysteresis", "friction_couple"};
 
+bool comes_with_the_package(const fs::path& folder) {
+  const std::vector<std::string> shipped = shipped_folders();
+  return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& one) {
+    std::error_code error;
+    return fs::equivalent(folder, one, error);
+  });
+}
+
 }  // namespace
 
 ConfigLibrary::ConfigLibrary(const fs::path& method_folder) {
@@ -49,12 +57,13 @@ std::string ConfigLibrary::allowed(const std::string& kind) const {
 fs::path ConfigLibrary::find(const std::string& kind, const std::string& name, const std::string& key,
                              const std::vector<std::string>& others) const {
   std::error_code error;
-  for (const fs::path& folder : folders_) {
-    for (const fs::path& candidate : {folder / kind / (name + ".yaml"), folder / name}) {
-      if (!name.empty() && fs::is_regular_file(candidate, error)) return candidate;
-    }
-  }
   const fs::path file(name);
+  for (const fs::path& folder : folders_) {
+    // What lies directly in the folders that come with the package are methods.
+    const bool methods = comes_with_the_package(folder) && !file.has_parent_path();
+    for (const fs::path& candidate : {folder / kind / (name + ".yaml"), (methods ? folder / kind : folder) / file})
+      if (!name.empty() && fs::is_regular_file(candidate, error)) return candidate;
+  }
   if (file.has_parent_path() || file.extension() == ".yaml") throw InvalidInput::cannot_read(name, key);
   if (others.empty()) throw InvalidInput::unknown_name(key, name, allowed(kind), names(kind));
   std::vector<std::string> all = others;
@@ -69,11 +78,7 @@ void ConfigLibrary::add(const fs::path& folder) {
 }
 
 bool is_shipped(const std::string& kind, const fs::path& file) {
-  const std::vector<std::string> shipped = shipped_folders();
-  return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& folder) {
-    std::error_code error;
-    return fs::equivalent(file.parent_path(), fs::path(folder) / kind, error);
-  });
+  return file.parent_path().filename() == kind && comes_with_the_package(file.parent_path().parent_path());
 }
 
 YAML::Node read_material_file(const fs::path& file, const YAML::Node& method) {

@@ -134,6 +134,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"specimen.knot=overhand", "machine.grips", "rollers", "rollers hold only a loop"},
       {"specimen.knot=file", "specimen.file is missing", "", "a CSV file"},
       {"specimen={knot: file, file: nowhere.csv}", "specimen.file: cannot read", "nowhere.csv", "no such file"},
+      {"specimen.knot=knot.yaml", "specimen.knot: cannot read", "knot.yaml", "no such file"},
       {"machine.load_cell.resolution=60000", "machine.load_cell.resolution", "60000", "less than capacity"},
       {"program=[{pull: {}}]", "program.0.pull.until is missing", "", "extension, load, time and break"},
       {"program=[{pull: {until: {break: false}}}]", "program.0.pull.until is missing", "", "one or more of"},
