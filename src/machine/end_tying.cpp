@@ -21,7 +21,7 @@ constexpr double kPullWay = 300.0;        // ... and the grips have gone this fa
 }  // namespace
 
 EndTying::EndTying(const Centreline& centreline, const Material& material, double preload, double rest_speed,
-                   const TimeStep& stepper, const Grips& grips)
+                   const TimeStep& stepper, Grips& grips)
     : stepper_(stepper),
       grips_(grips),
       groups_(centreline.tied),
@@ -41,7 +41,11 @@ void EndTying::enter(const Command& command, const Place& now) {
     speed_ = command.speed;
     enter(Stage::kSettling, now.time);
   } else if (stage_ == Stage::kTied) {
-    let_go(command.phase == Phase::kRelease ? command.duration : kLetGoTime, now.time);
+    if (command.phase == Phase::kRelease) return let_go(command.duration, now.time);
+    let_go(kLetGoTime, now.time);
+    for (std::size_t i = 0; i < pulling_.size(); ++i)
+      if (grips_.slips(pulling_.grip(i).node)) ramp_from_[i] = 0.0;
+    grips_.hold_again();
   }
 }
 
@@ -51,6 +55,40 @@ void EndTying::add_group() {
     pulling_.add(end.node, end.direction, load / (kGripStretch * radius_), load);
   }
   ++pulled_groups_;
+}
+
+/// What the upper grip holds goes over to the grip that pulls it.
+void EndTying::pull_next_group() {
+  const Points& x = stepper_.state().position;
+  const std::vector<PulledEnd>& group = groups_[pulled_groups_];
+  std::vector<double> before;
+  for (const PulledEnd& end : group) before.push_back(pulling_.force_at(end.node, x) + held_with(end));
+  add_group();
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    pulling_.begin_with(group[i].node, before[i], x);
+    if (group[i].held()) grips_.let_slip(group[i].node, group[i].held_next);
+  }
+}
+
+/// Force of the upper grip on an end that it holds, outwards [N].
+double EndTying::held_with(const PulledEnd& end) const {
+  if (!end.held()) return 0.0;
+  const StepReadings& readings = stepper_.readings();
+  return std::max(0.0, readings.reaction(end.node)[2] + readings.reaction(end.held_next)[2]);
+}
+
+/// Of a grip, as it pulls or is let go [N].
+double EndTying::load(std::size_t grip, double time) const {
+  if (stage_ == Stage::kRamp) return std::clamp(1.0 - (time - stage_begin_) / ramp_time_, 0.0, 1.0) * ramp_from_[grip];
+  const bool pulls = stage_ == Stage::kPulling || stage_ == Stage::kTied;
+  return pulls ? pulling_.force(grip, stepper_.state().position) : 0.0;
+}
+
+void EndTying::follow_slipping(const Place& now) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < pulling_.size(); ++i)
+    if (grips_.slips(pulling_.grip(i).node)) sum += load(i, now.time);
+  grips_.follow_slipping(stepper_.state().position, now.grip, sum);
 }
 
 void EndTying::let_go(double duration, double time) {
@@ -68,9 +106,8 @@ void EndTying::hold(Boundary& boundary, double from, double to) const {
   if (stage_ == Stage::kPulling || stage_ == Stage::kTied)
     pulling_.add_to(boundary, stage_ == Stage::kPulling ? speed_ * (to - from) : 0.0);
   if (stage_ != Stage::kRamp) return;
-  const double left = std::clamp(1.0 - (to - stage_begin_) / ramp_time_, 0.0, 1.0);
   for (std::size_t i = 0; i < pulling_.size(); ++i)
-    boundary.forces.push_back({pulling_.grip(i).node, left * ramp_from_[i] * pulling_.grip(i).direction});
+    boundary.forces.push_back({pulling_.grip(i).node, load(i, to) * pulling_.grip(i).direction});
 }
 
 void EndTying::follow(Phase, const Place& now, double dt) {
@@ -84,8 +121,7 @@ void EndTying::follow(Phase, const Place& now, double dt) {
         enter(Stage::kTied, time);
         break;
       }
-      add_group();
-      pulling_.begin_at(x);
+      pull_next_group();
       reached_ = -1.0;
       enter(Stage::kPulling, time);
       break;
@@ -99,14 +135,12 @@ void EndTying::follow(Phase, const Place& now, double dt) {
       }
       // A grip that sticks again is waited for no longer than for rest.
       if (!all_slip && time - reached_ <= rest_.patience()) break;
-      if (!rest_.waited(time, reached_, "the free ends reached their loads")) break;
+      if (!rest_.waited(time, reached_, "the ends reached their loads")) break;
       if (pulled_groups_ == groups_.size()) {
         enter(Stage::kTied, time);
         break;
       }
-      const std::size_t before = pulling_.size();
-      add_group();
-      pulling_.begin_at(x, before);
+      pull_next_group();
       reached_ = -1.0;
       enter(Stage::kPulling, time);
       break;
@@ -115,13 +149,16 @@ void EndTying::follow(Phase, const Place& now, double dt) {
       if (time - stage_begin_ >= ramp_time_) enter(Stage::kRest, time);
       break;
     case Stage::kRest:
-      if (rest_.waited(time, stage_begin_, "the free ends were released")) enter(Stage::kFree, time);
+      if (!rest_.waited(time, stage_begin_, "the ends were released")) break;
+      grips_.hold_again();
+      enter(Stage::kFree, time);
       break;
     case Stage::kIdle:
     case Stage::kTied:
     case Stage::kFree:
       break;
   }
+  follow_slipping(now);
 }
 
 bool EndTying::done(Phase phase) const {
@@ -133,7 +170,7 @@ void EndTying::judge_pull(double time) {
   if (elapsed <= kPullPatience || speed_ * elapsed <= kPullWay * radius_) return;
   const Points& x = stepper_.state().position;
   std::ostringstream message;
-  message << "not tied: after " << elapsed << " s the free ends are pulled with";
+  message << "not tied: after " << elapsed << " s the ends are pulled with";
   for (std::size_t i = 0; i < pulling_.size(); ++i)
     message << (i == 0 ? " " : " and ") << pulling_.force(i, x) << " of " << pulling_.grip(i).slip_force << " N";
   not_tied_ = message.str();
@@ -150,7 +187,7 @@ void EndTying::state(Archive& archive) {
   }
   archive(pulling_, speed_, ramp_time_, stage_begin_, reached_, rest_, not_tied_);
   archive.list(ramp_from_);
-  archive.require(stage_ != Stage::kRamp || ramp_from_.size() == pulling_.size(), "loads of the free ends",
+  archive.require(stage_ != Stage::kRamp || ramp_from_.size() == pulling_.size(), "loads of the ends",
                   std::to_string(ramp_from_.size()));
 }
 

@@ -17,13 +17,14 @@ constexpr double kSlack = 0.6;        // by which the rollers stand closer than 
 constexpr double kClearance = 0.5;    // by which pins are narrower, so that the loop goes over them [h]
 constexpr double kGap = 0.2;          // between them and the loop then, at least [h]
 constexpr double kAlongAxis = 0.999;  // cosine of the angle by which a strand leaves a clamp that turns, 2.6 degrees
-constexpr double kHeld = 100.0;       // stiffness of what holds the middle of the far side [k_b/h^3]
+constexpr double kHeld = 100.0;       // stiffness of what holds the far side, or guides what slips [k_b/h^3]
 
 }  // namespace
 
 Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, const Centreline& centreline,
              const Material& material) {
   const double radius = material.radius;
+  const double held = kHeld * material.bending_stiffness / (radius * radius * radius);
   if (rollers_hold(specimen, machine)) {
     Roller roller;
     roller.axis = Vec3::UnitY();
@@ -41,18 +42,19 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     if (machine.far_side == FarSide::kFree) return;
     SpringHold middle;
     middle.node = centreline.nearest_node(0.5 * (centreline.loop.far_begin + centreline.loop.far_end));
-    middle.stiffness(2, 2) = kHeld * material.bending_stiffness / (radius * radius * radius);
+    middle.stiffness(2, 2) = held;
     far_middle_ = middle;
     holds_far_side_ = !specimen.to_be_tied;
     return;
   }
   const Knot& knot = knot_of(specimen);
   const bool clamped = clamps_hold(specimen, machine);
-  auto hold = [&](std::vector<FixedNode>& held, const std::vector<HeldNode>& ends) {
+  guides_(0, 0) = guides_(1, 1) = held;
+  auto hold = [&](std::vector<FixedNode>& nodes, const std::vector<HeldNode>& ends) {
     for (const HeldNode& at : ends) {
-      held.push_back({at.node, centreline.points.col(at.node)});
+      nodes.push_back({at.node, centreline.points.col(at.node)});
       if (!clamped) continue;
-      held.push_back({at.next, centreline.points.col(at.next)});
+      nodes.push_back({at.next, centreline.points.col(at.next)});
       held_frames_.push_back({at.edge(), 0.0});
     }
   };
@@ -111,8 +113,24 @@ void Grips::set(double displacement, double left, Boundary& boundary) const {
   boundary.fixed_nodes = lower_nodes_;
   for (FixedNode node : upper_nodes_) {
     node.position[2] += displacement;
-    boundary.fixed_nodes.push_back(node);
+    if (slips(node.node))
+      boundary.holds.push_back({node.node, node.position, guides_});
+    else
+      boundary.fixed_nodes.push_back(node);
   }
+}
+
+bool Grips::slips(int node) const { return std::find(slipping_.begin(), slipping_.end(), node) != slipping_.end(); }
+
+void Grips::let_slip(int node, int next) {
+  for (const FixedNode& held : upper_nodes_)
+    if ((held.node == node || held.node == next) && !slips(held.node)) slipping_.push_back(held.node);
+}
+
+void Grips::follow_slipping(const Points& position, double displacement, double pulled_with) {
+  pulled_with_ = pulled_with;
+  for (FixedNode& held : upper_nodes_)
+    if (slips(held.node)) held.position[2] = position(2, held.node) - displacement;
 }
 
 double Grips::half_way(double displacement) const { return 0.5 * (lower()[2] + upper(displacement)[2]); }
@@ -198,15 +216,17 @@ double Grips::length_around(double radius) const { return on_rollers() ? M_PI * 
 
 double Grips::force_upper(const TimeStep& step) const {
   if (on_rollers()) return -step.readings().roller_force(1)[2];
-  double sum = 0.0;
-  for (const FixedNode& node : upper_nodes_) sum += step.readings().reaction(node.node)[2];
+  double sum = pulled_with_;
+  for (const FixedNode& node : upper_nodes_)
+    if (!slips(node.node)) sum += step.readings().reaction(node.node)[2];
   return sum;
 }
 
 double Grips::tried_force_upper(const TimeStep& step) const {
   if (on_rollers()) return -step.tried_roller_force(1)[2];
-  double sum = 0.0;
-  for (const FixedNode& node : upper_nodes_) sum += step.tried_reaction(node.node)[2];
+  double sum = slipping_.empty() ? 0.0 : pulled_with_;
+  for (const FixedNode& node : upper_nodes_)
+    if (!slips(node.node)) sum += step.tried_reaction(node.node)[2];
   return sum;
 }
 
@@ -221,13 +241,16 @@ double Grips::force_lower(const TimeStep& step) const {
 }
 
 void Grips::state(Archive& archive) {
-  archive.section("GRP3");  // "GRP2" had no pins of their own
+  archive.section("GRP4");  // "GRP3" had no ends that slip
   archive(lift_, holds_far_side_);
   archive.list(pins_);
   archive.require(pins_.empty() || pins_.size() == rollers_.size(), "pins of the rollers",
                   std::to_string(pins_.size()));
   if (far_middle_) archive(far_middle_->place);
   for (Roller& roller : rollers_) archive(roller);
+  for (FixedNode& node : upper_nodes_) archive(node.position);
+  archive.list(slipping_);
+  archive(pulled_with_);
   bool turns = turning_from_.has_value();
   archive(turns);
   if (!turns) return turning_from_.reset();

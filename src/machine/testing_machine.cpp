@@ -404,7 +404,9 @@ struct TestingMachine::Impl {
           grip = frame.rigid() ? displacement : grip_tried;
           if (!frame.rigid()) frame.follow(moved, grips.force_upper(*stepper) - borne_before, held_length(to - dt, to));
           work += stepper->readings().work();
+          const double apart = grips.end_to_end(grip);
           if (tying) tying->follow(phase, {to, displacement, grip}, dt);
+          extension_zero += grips.end_to_end(grip) - apart;  // what slips through the upper grip extends nothing
           judge_break(dt);
           substeps.push_back(read(command, to));
         });

@@ -116,21 +116,36 @@ std::vector<std::string> ends_of(const KnotDrawing& knot) {
   return out;
 }
 
-/// Names differ, and what is held or pulled is an end of a strand: held by one grip, or pulled and not held.
+/// Names differ, and what is held or pulled is an end of a strand. One grip holds it. It is pulled once in a group, and
+/// not away from the lower grip, which stands still and bears what all others are pulled with.
 void check_names(const KnotReader& reader, const KnotDrawing& knot) {
   std::set<std::string> known;
   for (const std::string& end : ends_of(knot))
     if (!known.insert(end).second) reader.refuse("strands", end, "two ends are called " + shown(end));
   std::set<std::string> held;
-  const auto take = [&](const std::string& key, const std::string& end) {
+  const auto require_known = [&](const std::string& key, const std::string& end) {
     if (known.count(end) == 0)
       reader.refuse(key, end, "no end is called " + shown(end) + "; the ends are " + listed(ends_of(knot), ", "));
-    if (!held.insert(end).second) reader.refuse(key, end, shown(end) + " is held or pulled already");
   };
-  for (const std::string& end : knot.lower) take("lower", end);
-  for (const std::string& end : knot.upper) take("upper", end);
-  for (const std::vector<KnotDrawing::Pull>& together : knot.tie)
-    for (const KnotDrawing::Pull& pull : together) take("tie", pull.end);
+  const auto hold = [&](const std::string& key, const std::string& end) {
+    require_known(key, end);
+    if (!held.insert(end).second) reader.refuse(key, end, shown(end) + " is held already");
+  };
+  for (const std::string& end : knot.lower) hold("lower", end);
+  for (const std::string& end : knot.upper) hold("upper", end);
+  for (std::size_t i = 0; i < knot.tie.size(); ++i) {
+    const std::string key = "tie." + std::to_string(i);
+    std::set<std::string> pulled;
+    for (const KnotDrawing::Pull& pull : knot.tie[i]) {
+      require_known(key, pull.end);
+      if (!pulled.insert(pull.end).second) reader.refuse(key, pull.end, shown(pull.end) + " is pulled already");
+      if (knot.held(pull.end) == KnotDrawing::End::kLower)
+        reader.refuse(key, pull.end,
+                      shown(pull.end) +
+                          " is held by the lower grip, which stands still and bears what the other "
+                          "ends are pulled with; name free ends, and ends of the upper grip");
+    }
+  }
   if (knot.upper.empty()) reader.refuse("upper", "", "the upper grip must hold at least one end");
   if (knot.lower.empty() && knot.posts.empty())
     reader.refuse("lower", "", "the lower grip must hold at least one end, or posts must bear the knot");

@@ -192,7 +192,9 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
     std::vector<PulledEnd> found;
     for (const KnotDrawing::Pull& pull : pulls)
       for (const auto& [name, at] : ends)
-        if (name == pull.end)
+        if (name == pull.end && drawing.held(name) != KnotDrawing::End::kFree)
+          found.push_back({at.node, Vec3::UnitZ(), pull.fraction, at.next});
+        else if (name == pull.end)
           found.push_back({at.node, (out.points.col(at.node) - out.points.col(at.next)).normalized(), pull.fraction});
     return found;
   };

@@ -16,12 +16,24 @@ void TailGrips::add(int node, const Vec3& direction, double stiffness, double sl
   grip.direction = direction;
   grip.stiffness = stiffness;
   grip.slip_force = slip_force;
-  grips_.push_back(grip);
+  const auto there = at(node);
+  if (there == grips_.end())
+    grips_.push_back(grip);
+  else
+    *there = grip;
 }
 
-void TailGrips::begin_at(const Points& position, std::size_t first) {
-  for (std::size_t i = first; i < grips_.size(); ++i)
-    grips_[i].place = grips_[i].direction.dot(position.col(grips_[i].node));
+std::vector<SlippingGrip>::iterator TailGrips::at(int node) {
+  return std::find_if(grips_.begin(), grips_.end(), [&](const SlippingGrip& grip) { return grip.node == node; });
+}
+
+void TailGrips::begin_at(const Points& position) {
+  for (SlippingGrip& grip : grips_) grip.place = grip.direction.dot(position.col(grip.node));
+}
+
+void TailGrips::begin_with(int node, double force, const Points& position) {
+  SlippingGrip& grip = *at(node);
+  grip.place = grip.direction.dot(position.col(node)) + std::min(force, grip.slip_force) / grip.stiffness;
 }
 
 void TailGrips::add_to(Boundary& boundary, double way) const {
@@ -41,6 +53,12 @@ void TailGrips::move(const Points& position, double way) {
 
 double TailGrips::force(std::size_t grip, const Points& position) const {
   return grips_[grip].force(position.col(grips_[grip].node));
+}
+
+double TailGrips::force_at(int node, const Points& position) const {
+  for (const SlippingGrip& grip : grips_)
+    if (grip.node == node) return grip.force(position.col(node));
+  return 0.0;
 }
 
 bool TailGrips::all_slip(const Points& position) const {

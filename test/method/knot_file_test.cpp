@@ -98,12 +98,14 @@ TEST_F(KnotFile, IsRefusedByOneLineWithFileKeyAndReason) {
               HasSubstr("strands.0.ends is [lower], but must be a list of two names"));
   EXPECT_THAT(complaint("upper: [upper]", "upper: [top]"),
               HasSubstr("upper: no end is called top; the ends are lower, "));
-  EXPECT_THAT(complaint("upper: [upper]", "upper: [lower]"), HasSubstr("upper: lower is held or pulled already"));
+  EXPECT_THAT(complaint("upper: [upper]", "upper: [lower]"), HasSubstr("upper: lower is held already"));
   EXPECT_THAT(complaint("upper: [upper]\n", ""), HasSubstr("upper: the upper grip must hold at least one end"));
   EXPECT_THAT(complaint("lower: [lower]\n", ""),
               HasSubstr("lower: the lower grip must hold at least one end, or posts"));
-  EXPECT_THAT(complaint("lower_tail: 1,", "tail: 1,"), HasSubstr("tie: no end is called tail"));
-  EXPECT_THAT(complaint("lower_tail: 1,", "lower: 1,"), HasSubstr("tie: lower is held or pulled already"));
+  EXPECT_THAT(complaint("lower_tail: 1,", "tail: 1,"), HasSubstr("tie.0: no end is called tail"));
+  EXPECT_THAT(complaint("lower_tail: 1,", "lower: 1,"),
+              HasSubstr("tie.0: lower is held by the lower grip, which stands still and bears"));
+  EXPECT_THAT(complaint("lower_tail: 1,", "upper_tail: 1,"), HasSubstr("tie.0: upper_tail is pulled already"));
   EXPECT_THAT(complaint("lower_tail: 1,", "lower_tail: -1,"),
               HasSubstr("tie.0.lower_tail is -1, but must be a number from"));
   EXPECT_THAT(complaint("[0, 1, 0]", "[0, 1]"), HasSubstr("strands.0.points.2"));
@@ -112,6 +114,15 @@ TEST_F(KnotFile, IsRefusedByOneLineWithFileKeyAndReason) {
   EXPECT_THAT(complaint("[0, 0, -8]", "[0, 1, -8]"), HasSubstr("must lead straight down along z"));
   EXPECT_THAT(complaint("use:", "used:"), HasSubstr("used"));
   EXPECT_THAT(complaint("Two hooks", "\"Two\\nhooks\""), HasSubstr("title: it must be one line of text"));
+}
+
+TEST_F(KnotFile, MayPullEndsOfTheUpperGripAndAnEndAgainInALaterGroup) {
+  EXPECT_EQ(complaint("upper_tail: 0.5}", "upper: 2}\n  - {upper: 1, lower_tail: 0.5}"), "");
+  const auto knot = read_knot_file(file(), "hooks");
+  ASSERT_EQ(knot->tie.size(), 2u);
+  EXPECT_EQ(knot->tie[0][1].end, "upper");
+  EXPECT_EQ(knot->tie[1][0].end, "upper");
+  EXPECT_EQ(knot->tie[1][1].fraction, 0.5);
 }
 
 TEST_F(KnotFile, IsNamedInAMethodByItsPath) {

@@ -55,6 +55,19 @@ TEST(KnotDrawing, PullsItsTailsOutwardsInOrder) {
   EXPECT_NEAR(rod.tied[0][0].direction.dot(Vec3(3, -1, 0).normalized()), 1.0, 1e-6);
 }
 
+TEST(KnotDrawing, PullsAnEndOfTheUpperGripAlongTheLoadAxis) {
+  KnotDrawing drawing = hooks();
+  drawing.tie = {{{"upper", 0.7}}};
+  const Centreline rod = draw(drawing, kSize);
+  ASSERT_EQ(rod.tied.size(), 1u);
+  const PulledEnd& end = rod.tied[0][0];
+  EXPECT_TRUE(end.held());
+  EXPECT_EQ(end.node, rod.above[0].node);
+  EXPECT_EQ(end.held_next, rod.above[0].next);
+  EXPECT_EQ(end.direction, Vec3::UnitZ());
+  EXPECT_FALSE(draw(hooks(), kSize).tied[0][0].held());
+}
+
 TEST(KnotDrawing, GoesThroughItsPointsAsFarAsItsBendsAreRoundedOff) {
   const Centreline rod = draw(hooks(), kSize);
   for (const KnotDrawing::Strand& strand : hooks().strands)

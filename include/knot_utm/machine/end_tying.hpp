@@ -14,20 +14,22 @@ namespace knot_utm {
 
 struct Material;
 
-/// Ties a knot between the machine's grips by pulling at its free ends, as a drawing says (Centreline::tied). The grips
-/// hold the standing ends. The drawn shape first settles under a strong drag that fades. Then each group of ends is
-/// pulled in turn, outwards as it was drawn, by grips that move at a set speed and slip at their part of the pre-load;
-/// earlier groups are held at theirs. A group's turn ends once all of them slip and everything is at rest. A knot
-/// without a free end to pull at only settles, and the crosshead pulls it tight.
+/// Ties a knot between the machine's grips by pulling at its ends, as a drawing says (Centreline::tied). The drawn
+/// shape first settles under a strong drag that fades. Then each group of ends is pulled in turn by grips that move at
+/// a set speed and slip at their part of the pre-load: free ends outwards as they were drawn, and those of the upper
+/// grip, which lets them slip from then on, along z. The lower grip stands still. Earlier groups are held at their
+/// part, or pulled again to another. A group's turn ends once all of them slip and everything is at rest. A knot
+/// without an end to pull at only settles, and the crosshead pulls it tight.
 ///
-/// Release: all these loads go to zero linearly, and everything comes to rest. Where the program pulls a knot that it
-/// did not release, they go to zero within a third of a second.
+/// Release: all these loads go to zero linearly, and everything comes to rest; then the upper grip holds its ends where
+/// they are. Where the program pulls a knot that it did not release, the upper grip holds them at once, and the loads
+/// of the free ends go to zero within a third of a second.
 class EndTying final : public Tying {
  public:
   /// `preload`: F_p [N]. `rest_speed`: slower than this a node is at rest [m/s]. `stepper` and `grips` must outlive
   /// this object.
   EndTying(const Centreline& centreline, const Material& material, double preload, double rest_speed,
-           const TimeStep& stepper, const Grips& grips);
+           const TimeStep& stepper, Grips& grips);
 
   void enter(const Command& command, const Place& now) override;
   void follow(Phase phase, const Place& now, double dt) override;
@@ -43,11 +45,15 @@ class EndTying final : public Tying {
 
   void enter(Stage stage, double time);
   void add_group();
+  void pull_next_group();
+  double load(std::size_t grip, double time) const;
+  void follow_slipping(const Place& now);
+  double held_with(const PulledEnd& end) const;
   void let_go(double duration, double time);
   void judge_pull(double time);
 
   const TimeStep& stepper_;
-  const Grips& grips_;
+  Grips& grips_;
   std::vector<std::vector<PulledEnd>> groups_;
   double preload_, radius_, settling_drag_;
   TailGrips pulling_;

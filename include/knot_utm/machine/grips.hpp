@@ -17,7 +17,8 @@ namespace knot_utm {
 /// The grips of the machine: two rollers in the loop of a fisherman's knot, or held nodes. A clamp holds two nodes and
 /// the material frame between them. Where fixed posts and dead loads bear the specimen's lower end, its first post is
 /// the lower grip. The lower grip stands still. The upper one moves along +z by its displacement [m], which is that of
-/// the crosshead less the deflection of a compliant frame (frame.hpp).
+/// the crosshead less the deflection of a compliant frame (frame.hpp). It may let ends slip along z while a knot is
+/// tied, and then holds them where they are.
 class Grips {
  public:
   /// At displacement 0.
@@ -46,6 +47,14 @@ class Grips {
   /// From now on the middle of the loop's far side is held half-way between the rollers, if the method says so.
   void hold_far_side(const Points& position, double displacement);
 
+  /// The upper grip only guides this end from now on, so that it slips along z.
+  void let_slip(int node, int next);
+  /// After an accepted step: where the ends that slip are, and what something else pulls them with [N].
+  void follow_slipping(const Points& position, double displacement, double pulled_with);
+  /// Holds what slipped where it was last.
+  void hold_again() { slipping_.clear(); }
+  bool slips(int node) const;
+
   /// Driven rollers turn from the first call on; `time` in s.
   void turn_rollers_from(double time);
   void turn_rollers(double time, std::vector<Roller>& rollers) const;
@@ -64,8 +73,8 @@ class Grips {
   /// Whether a point of the rod's centreline lies on a roller, or within two radii of a node that is held.
   bool hold(double displacement, const Vec3& point, double radius) const;
 
-  /// Force of the rod on each grip along z, tension positive [N]. That on the lower grip includes all posts and dead
-  /// loads.
+  /// Force of the rod on each grip along z, tension positive [N]. That on the upper grip includes what pulls ends that
+  /// slip in it, that on the lower grip all posts and dead loads.
   double force_upper(const TimeStep& step) const;
   double tried_force_upper(const TimeStep& step) const;  ///< of the step that is judged (TimeStep::refuse_by)
   double force_lower(const TimeStep& step) const;
@@ -82,6 +91,9 @@ class Grips {
   double lift_ = 0.0;       // of the lower one while the loop is put on [m]
   std::vector<Pin> pins_;   // lower, upper; empty: the rollers' own places are free
   std::vector<FixedNode> lower_nodes_, upper_nodes_;
+  std::vector<int> slipping_;            // upper ones that are guided only
+  Mat3 guides_ = Mat3::Zero();           // stiffness [N/m]
+  double pulled_with_ = 0.0;             // what slips, in the last accepted step [N]
   std::vector<FixedTwist> held_frames_;  // the last one that of the upper clamp
   double turns_by_ = 0.0;                // 1 or -1, as its edge points up or down; 0: it is not to be turned
   std::vector<Roller> rollers_;          // lower, upper

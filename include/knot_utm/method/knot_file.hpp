@@ -21,8 +21,9 @@ struct KnotDrawing;
 ///     upper: [upper]
 ///     posts:                                 # fixed cylinders; the first is the lower grip where that holds no end
 ///       - {through: [0, 0, 0], along: [0, 1, 0], radius: 6}
-///     tie:                                   # free ends that are pulled together, in order, to which part of F_p
-///       - {lower_tail: 1, upper_tail: 1}
+///     tie:                                   # ends that are pulled together, in order, to which part of F_p: free
+///       - {lower_tail: 1, upper_tail: 1}     # ones, and those of the upper grip; the lower grip stands still
+///       - {upper: 1, upper_tail: 0.5}        # one that is pulled again has this part from then on
 ///
 /// `name`: what a method calls it. Throws InvalidInput with the file and the key.
 std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& file, const std::string& name);

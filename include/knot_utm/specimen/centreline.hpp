@@ -35,11 +35,14 @@ struct HeldNode {
   int edge() const { return node < next ? node : next; }  ///< between the two
 };
 
-/// A free end by which a knot is tied.
+/// An end by which a knot is tied: a free one, or one that the upper grip holds.
 struct PulledEnd {
   int node = 0;
   Vec3 direction;         ///< unit
   double fraction = 1.0;  ///< of the pre-load F_p [-]
+  int held_next = -1;     ///< of a held end, its neighbour (HeldNode::next); -1: it is free
+
+  bool held() const { return held_next >= 0; }
 };
 
 /// A specimen's centreline before the test: an open polyline, and the places of its parts. Edges may be shorter in its

@@ -35,7 +35,7 @@ struct KnotDrawing {
   std::vector<Strand> strands;
   std::vector<std::string> lower, upper;  ///< ends that the grips hold
   std::vector<Post> posts;                ///< the first one stands for the lower grip where that holds no end
-  std::vector<std::vector<Pull>> tie;     ///< ends that are pulled together, in order
+  std::vector<std::vector<Pull>> tie;     ///< ends that are pulled together, in order: free ones and upper ones
   std::string text;                       ///< all that describes its shape and how it is tied, the same for equal ones
 
   enum class End { kLower, kUpper, kFree };

@@ -9,15 +9,18 @@
 
 namespace knot_utm {
 
-/// Grips that tie a knot: each pulls a free end along its direction, and slips at its load. An end is so pulled by
+/// Grips that tie a knot: each pulls an end along its direction, and slips at its load. An end is so pulled by
 /// displacement against a grip that slips, and what comes out depends on neither drag, step nor speed.
 class TailGrips {
  public:
+  /// A grip that pulls at this node already is replaced.
   void add(int node, const Vec3& direction, double stiffness, double slip_force);
   void clear() { grips_.clear(); }
   bool empty() const { return grips_.empty(); }
-  /// From grip `first` on none pulls yet, wherever its node is.
-  void begin_at(const Points& position, std::size_t first = 0);
+  /// None pulls yet, wherever its node is.
+  void begin_at(const Points& position);
+  /// The grip at a node pulls with this force, or with that at which it slips.
+  void begin_with(int node, double force, const Points& position);
 
   /// Adds the grips to a step in which they move on by `way` [m].
   void add_to(Boundary& boundary, double way) const;
@@ -26,6 +29,7 @@ class TailGrips {
 
   std::size_t size() const { return grips_.size(); }
   double force(std::size_t grip, const Points& position) const;  ///< [N]
+  double force_at(int node, const Points& position) const;       ///< 0 where no grip pulls [N]
   bool all_slip(const Points& position) const;
   const SlippingGrip& grip(std::size_t i) const { return grips_[i]; }
 
@@ -33,6 +37,8 @@ class TailGrips {
   void state(Archive& archive);
 
  private:
+  std::vector<SlippingGrip>::iterator at(int node);
+
   std::vector<SlippingGrip> grips_;
 };
 
