@@ -84,6 +84,11 @@ double EndTying::load(std::size_t grip, double time) const {
   return pulls ? pulling_.force(grip, stepper_.state().position) : 0.0;
 }
 
+double EndTying::weight_borne(double time) const {
+  if (stage_ == Stage::kRamp) return std::clamp((time - stage_begin_) / ramp_time_, 0.0, 1.0);
+  return stage_ == Stage::kRest || stage_ == Stage::kFree ? 1.0 : 0.0;
+}
+
 void EndTying::follow_slipping(const Place& now) {
   double sum = 0.0;
   for (std::size_t i = 0; i < pulling_.size(); ++i)

@@ -2,6 +2,8 @@
 
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 
@@ -17,17 +19,24 @@ std::vector<GripBody> grip_bodies(const SpecimenOptions& specimen, const Machine
   bodies[1].goes_up = true;
   if (rollers_hold(specimen, machine))
     for (GripBody& roller : bodies) roller.cylinder_radius = 0.5 * machine.roller_diameter;
-  const std::vector<Roller> posts = knot_of(specimen).supports(specimen, material).posts;
-  for (std::size_t i = 0; i < posts.size(); ++i) {
-    GripBody post;
-    post.from_grip = posts[i].centre - posts.front().centre;
-    post.cylinder_radius = posts[i].radius;
-    post.axis = posts[i].axis;
-    if (i == 0)
-      bodies.front() = post;
-    else
-      bodies.push_back(post);
-  }
+  const Supports supports = knot_of(specimen).supports(specimen, material);
+  const KnotDrawing* drawing = specimen.drawing.get();
+  const bool held_below = drawing != nullptr && !drawing->lower.empty();
+  for (const std::vector<Roller>* posts : {&supports.posts, &supports.pins})
+    for (const Roller& one : *posts) {
+      GripBody post;
+      post.goes_up = posts == &supports.pins;
+      const bool beside = held_below && !post.goes_up;  // the lower grip is where the rope is held
+      Vec3 grip = posts->front().centre;
+      if (beside) grip << thickest(material) * drawing->held_below().head<2>(), 0.0;
+      post.from_grip = one.centre - grip;
+      post.cylinder_radius = one.radius;
+      post.axis = one.axis;
+      if (&one == &posts->front() && !beside)
+        bodies[post.goes_up ? 1 : 0] = post;
+      else
+        bodies.push_back(post);
+    }
   return bodies;
 }
 

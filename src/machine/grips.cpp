@@ -59,8 +59,10 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     }
   };
   supports_ = knot.supports(specimen, material);
+  for (const HungWeight& weight : centreline.weights)
+    weights_.push_back({weight.node, -weight.fraction * tying_load(specimen, material) * Vec3::UnitZ()});
   if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
-  hold(upper_nodes_, knot.held_above(centreline, clamped));
+  if (supports_.pins.empty()) hold(upper_nodes_, knot.held_above(centreline, clamped));
   if (!knot_utm::clamp_turns(specimen, machine)) return;
   const int edge = held_frames_.back().edge;
   const double along = (centreline.points.col(edge + 1) - centreline.points.col(edge)).normalized()[2];
@@ -103,6 +105,10 @@ void Grips::set(double displacement, double left, Boundary& boundary) const {
     if (left > 0.0) narrow(left, boundary.rollers);
   }
   boundary.rollers.insert(boundary.rollers.end(), supports_.posts.begin(), supports_.posts.end());
+  for (Roller pin : supports_.pins) {
+    pin.centre[2] += displacement;
+    boundary.rollers.push_back(pin);
+  }
   boundary.forces = supports_.loads;
   boundary.holds.clear();
   if (holds_far_side_) {
@@ -118,6 +124,10 @@ void Grips::set(double displacement, double left, Boundary& boundary) const {
     else
       boundary.fixed_nodes.push_back(node);
   }
+}
+
+void Grips::hang(double part, Boundary& boundary) const {
+  for (const NodeForce& weight : weights_) boundary.forces.push_back({weight.node, part * weight.force});
 }
 
 bool Grips::slips(int node) const { return std::find(slipping_.begin(), slipping_.end(), node) != slipping_.end(); }
@@ -202,32 +212,41 @@ Vec3 Grips::lower() const {
 }
 
 Vec3 Grips::upper(double displacement) const {
-  const Vec3 start = on_rollers() ? rollers_[1].centre : upper_nodes_.front().position;
+  const Vec3 start = on_rollers() ? rollers_[1].centre
+                     : on_pins()  ? supports_.pins.front().centre
+                                  : upper_nodes_.front().position;
   return start + Vec3(0.0, 0.0, displacement);
 }
 
 double Grips::end_to_end(double displacement) const {
   if (on_rollers()) return rollers_[1].centre[2] + displacement - rollers_[0].centre[2];
-  if (on_posts()) return upper(displacement)[2] - lower()[2];
+  if (on_posts() || on_pins()) return upper(displacement)[2] - lower()[2];
   return (upper(displacement) - lower()).norm();
 }
 
 double Grips::length_around(double radius) const { return on_rollers() ? M_PI * (rollers_[1].radius + radius) : 0.0; }
 
-double Grips::force_upper(const TimeStep& step) const {
-  if (on_rollers()) return -step.readings().roller_force(1)[2];
-  double sum = pulled_with_;
+template <typename RollerForce, typename Reaction>
+double Grips::sum_upper(double pulled_with, RollerForce roller_force, Reaction reaction) const {
+  if (on_rollers()) return -roller_force(1)[2];
+  double sum = pulled_with;
   for (const FixedNode& node : upper_nodes_)
-    if (!slips(node.node)) sum += step.readings().reaction(node.node)[2];
+    if (!slips(node.node)) sum += reaction(node.node)[2];
+  const int posts = static_cast<int>(supports_.posts.size()), pins = static_cast<int>(supports_.pins.size());
+  for (int i = posts; i < posts + pins; ++i) sum -= roller_force(i)[2];
   return sum;
 }
 
+double Grips::force_upper(const TimeStep& step) const {
+  const StepReadings& readings = step.readings();
+  return sum_upper(
+      pulled_with_, [&](int i) { return readings.roller_force(i); }, [&](int i) { return readings.reaction(i); });
+}
+
 double Grips::tried_force_upper(const TimeStep& step) const {
-  if (on_rollers()) return -step.tried_roller_force(1)[2];
-  double sum = slipping_.empty() ? 0.0 : pulled_with_;
-  for (const FixedNode& node : upper_nodes_)
-    if (!slips(node.node)) sum += step.tried_reaction(node.node)[2];
-  return sum;
+  return sum_upper(
+      slipping_.empty() ? 0.0 : pulled_with_, [&](int i) { return step.tried_roller_force(i); },
+      [&](int i) { return step.tried_reaction(i); });
 }
 
 double Grips::force_lower(const TimeStep& step) const {
@@ -236,12 +255,13 @@ double Grips::force_lower(const TimeStep& step) const {
   const int posts = static_cast<int>(supports_.posts.size());
   for (int i = 0; i < posts; ++i) sum += step.readings().roller_force(i)[2];
   for (const NodeForce& load : supports_.loads) sum -= load.force[2];
+  for (const NodeForce& weight : weights_) sum -= hung_ * weight.force[2];
   for (const FixedNode& node : lower_nodes_) sum -= step.readings().reaction(node.node)[2];
   return sum;
 }
 
 void Grips::state(Archive& archive) {
-  archive.section("GRP4");  // "GRP3" had no ends that slip
+  archive.section("GRP4");  // "GRP3" had no ends that slip, and no weights
   archive(lift_, holds_far_side_);
   archive.list(pins_);
   archive.require(pins_.empty() || pins_.size() == rollers_.size(), "pins of the rollers",
@@ -250,7 +270,7 @@ void Grips::state(Archive& archive) {
   for (Roller& roller : rollers_) archive(roller);
   for (FixedNode& node : upper_nodes_) archive(node.position);
   archive.list(slipping_);
-  archive(pulled_with_);
+  archive(pulled_with_, hung_);
   bool turns = turning_from_.has_value();
   archive(turns);
   if (!turns) return turning_from_.reset();

@@ -77,10 +77,9 @@ struct TestingMachine::Impl {
   double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]
   int step_index = -1;
   Phase phase = Phase::kIdle;
-  Vec3 gravity;            // on the mass that is accelerated [m/s^2]
-  bool has_weight = true;  // what is tied has none until it is mounted
-  bool pulled = false;     // a step of the program has pulled it
-  StepWork work;           // of all accepted steps
+  Vec3 gravity;         // on the mass that is accelerated [m/s^2]
+  bool pulled = false;  // a step of the program has pulled it
+  StepWork work;        // of all accepted steps
   std::vector<Sample> substeps;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
@@ -138,13 +137,14 @@ struct TestingMachine::Impl {
         return why;
       });
     extension_zero = grips.end_to_end(grip);
-    has_weight = !specimen.to_be_tied;
   }
 
-  /// A loop gets its weight as the rollers take it: all at once, it would swing, and its knots could jump open.
-  void apply_gravity(double at_time) {
-    const double part = !has_weight ? 0.0 : tying ? tying->weight_borne(at_time) : 1.0;
-    stepper->set_gravity(part * gravity);
+  /// What is tied gets its weight when it is let go: all at once, it would swing, and its knots could jump open.
+  double weight_borne(double at_time) const { return tying ? tying->weight_borne(at_time) : 1.0; }
+
+  void apply_weight(double at_time) {
+    stepper->set_gravity(weight_borne(at_time) * gravity);
+    grips.hang(weight_borne(at_time), boundary);
   }
 
   /// `auto`: where frames are held at two places or friction rolls strands, of a rod that does not stay straight; or
@@ -182,7 +182,7 @@ struct TestingMachine::Impl {
     grips.set(grip_tried, tying ? tying->left_to_put_on(to) : 0.0, boundary);
     grips.turn_rollers(to, boundary.rollers);
     grips.turn_clamp(start.turn + fraction * (command.turn - start.turn), boundary.fixed_twists);
-    apply_gravity(to);
+    apply_weight(to);
     boundary.grips.clear();
     boundary.extra_drag = drag_of_settling(to);
     if (tying) tying->hold(boundary, from, to);
@@ -219,7 +219,6 @@ struct TestingMachine::Impl {
     pulled |= moves(phase) && phase != Phase::kMount;
     if (pulled) grips.turn_rollers_from(time);
     status = BenchStatus::kRunning;
-    has_weight |= !forms(phase) && !rests(phase);
     if (tying) tying->enter(command, place());
   }
 
@@ -372,7 +371,7 @@ struct TestingMachine::Impl {
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
     if (breaks) archive(*breaks);
-    archive(time, displacement, turn, grip, extension_zero, raw_extension_zero, step_index, has_weight, work, message);
+    archive(time, displacement, turn, grip, extension_zero, raw_extension_zero, step_index, work, message);
     archive.choice("phase", phase, last_phase());
     archive(pulled);
     archive.choice("status", status, BenchStatus::kFailed);
@@ -406,6 +405,7 @@ struct TestingMachine::Impl {
           work += stepper->readings().work();
           const double apart = grips.end_to_end(grip);
           if (tying) tying->follow(phase, {to, displacement, grip}, dt);
+          grips.follow_weights(weight_borne(to));
           extension_zero += grips.end_to_end(grip) - apart;  // what slips through the upper grip extends nothing
           judge_break(dt);
           substeps.push_back(read(command, to));

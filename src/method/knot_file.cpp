@@ -84,7 +84,8 @@ class KnotReader {
 
   KnotDrawing::Post post(const std::string& key, const YAML::Node& node) const {
     Reader reader(node, file_, key, "a knot");
-    const YAML::Node through = reader.take("through"), along = reader.take("along"), radius = reader.take("radius");
+    const YAML::Node through = reader.take("through"), along = reader.take("along"), radius = reader.take("radius"),
+                     grip = reader.take("grip");
     reader.finish();
     KnotDrawing::Post out;
     out.through = point(key + ".through", through);
@@ -92,6 +93,10 @@ class KnotReader {
     if (out.along.norm() < kLeastStep) refuse(key + ".along", along, "a direction");
     out.along.normalize();
     out.radius = number(key + ".radius", radius, 0.5, kFarthest);
+    const std::string of = grip.IsDefined() && grip.IsScalar() ? grip.Scalar() : "lower";
+    out.upper = of == "upper";
+    if ((grip.IsDefined() && !grip.IsScalar()) || (!out.upper && of != "lower"))
+      refuse(key + ".grip", grip, "lower, whose post stands still, or upper, whose post moves with it");
     return out;
   }
 
@@ -146,9 +151,18 @@ void check_names(const KnotReader& reader, const KnotDrawing& knot) {
                           "ends are pulled with; name free ends, and ends of the upper grip");
     }
   }
-  if (knot.upper.empty()) reader.refuse("upper", "", "the upper grip must hold at least one end");
-  if (knot.lower.empty() && knot.posts.empty())
+  for (const KnotDrawing::Pull& weight : knot.weights) {
+    require_known("weights", weight.end);
+    if (knot.held(weight.end) != KnotDrawing::End::kFree)
+      reader.refuse("weights", weight.end, shown(weight.end) + " is held by a grip, which bears what hangs there");
+  }
+  if (knot.lower.empty() && knot.post_of(false) == nullptr)
     reader.refuse("lower", "", "the lower grip must hold at least one end, or posts must bear the knot");
+  const bool pins = std::any_of(knot.posts.begin(), knot.posts.end(), [](const auto& post) { return post.upper; });
+  if (pins == !knot.upper.empty())
+    reader.refuse("upper", "",
+                  pins ? "the upper grip must not hold an end where a post with grip: upper stands for it"
+                       : "the upper grip must hold at least one end, or be a post with grip: upper");
 }
 
 /// The grips pull along z.
@@ -200,6 +214,7 @@ std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& f
   out.upper = list_of(reader, "upper", top.take("upper"), "a list of names of ends", names);
   out.posts = list_of(reader, "posts", top.take("posts"), "a list of posts", post);
   out.tie = list_of(reader, "tie", top.take("tie"), "a list of maps such as {tail: 1}", pulls);
+  if (const YAML::Node weights = top.take("weights"); weights.IsDefined()) out.weights = pulls("weights", weights);
   top.finish();
   if (out.strands.empty()) reader.refuse("strands", "", "a knot must have at least one strand");
   check_names(reader, out);

@@ -65,24 +65,30 @@ std::string held(const Method& method, const Supports& supports) {
   if (knot_of(method.specimen).about().loop) return "the loop by both grips";
   const std::vector<std::string> lower = drawing ? drawing->lower : std::vector<std::string>{"first end"},
                                  upper = drawing ? drawing->upper : std::vector<std::string>{"last end"};
-  const std::string above = listed(upper, " and ") + " by the upper grip";
-  if (drawing ? lower.empty() : !supports.posts.empty()) return above + ", and a post stands for the lower grip";
-  return listed(lower, " and ") + " by the lower grip, " + above;
+  const auto by = [](const std::vector<std::string>& ends, const std::string& grip, bool post) {
+    return post ? "a post stands for the " + grip + " grip" : listed(ends, " and ") + " by the " + grip + " grip";
+  };
+  return by(lower, "lower", drawing ? lower.empty() : !supports.posts.empty()) + ", " +
+         by(upper, "upper", !supports.pins.empty());
+}
+
+/// "lower_tail with 0.5 F_p and upper_tail".
+std::string with_parts(const std::vector<KnotDrawing::Pull>& pulls) {
+  std::vector<std::string> ends;
+  for (const KnotDrawing::Pull& pull : pulls) {
+    std::ostringstream part;
+    if (pull.fraction != 1.0) part << " with " << pull.fraction << " F_p";
+    ends.push_back(pull.end + part.str());
+  }
+  return listed(ends, " and ");
 }
 
 std::string pulled(const Method& method) {
   if (knot_of(method.specimen).about().loop) return "its two tails";
   if (!method.specimen.drawing || method.specimen.drawing->tie.empty()) return "none";
   std::string out;
-  for (const std::vector<KnotDrawing::Pull>& together : method.specimen.drawing->tie) {
-    std::vector<std::string> ends;
-    for (const KnotDrawing::Pull& pull : together) {
-      std::ostringstream part;
-      if (pull.fraction != 1.0) part << " with " << pull.fraction << " F_p";
-      ends.push_back(pull.end + part.str());
-    }
-    out += (out.empty() ? "" : ", then ") + listed(ends, " and ");
-  }
+  for (const std::vector<KnotDrawing::Pull>& together : method.specimen.drawing->tie)
+    out += (out.empty() ? "" : ", then ") + with_parts(together);
   return out;
 }
 
@@ -104,6 +110,7 @@ std::string facts_text(const Method& method, const Supports& supports, const Kno
   out += "strands: " + std::to_string(facts.strands) + "\n";
   out += "held: " + held(method, supports) + "\n";
   out += "pulled: " + pulled(method) + "\n";
+  if (drawing && !drawing->weights.empty()) out += "weights: " + with_parts(drawing->weights) + "\n";
   out += "crossings: " + std::to_string(facts.crossings) + ", from the front\n";
   out += "type: " + facts.type + "\n";
   const bool near = facts.least_distance < kFarOff * h;
@@ -126,8 +133,10 @@ KnotSheet knot_sheet(const std::string& knot, const std::string& option) {
   KnotSheet out;
   out.name = drawing ? std::filesystem::path(drawing->name).stem().string() : knot_of(method.specimen).about().name;
   out.facts = facts_text(method, supports, facts_of(shown, thickest(method.material)));
+  std::vector<Roller> posts = supports.posts;
+  posts.insert(posts.end(), supports.pins.begin(), supports.pins.end());
   out.picture = knot_svg({drawing ? drawing->title : knot_of(method.specimen).about().title, shown,
-                          thickest(method.material), supports.posts, names_of_ends(method)});
+                          thickest(method.material), posts, names_of_ends(method)});
   return out;
 }
 

@@ -139,7 +139,8 @@ void check_effects(const Method& m) {
   const bool loop = knot_of(s).about().loop;
   has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: " + loops());
   const bool rollers = machine.grips == GripKind::kRollers;
-  const bool on_posts = !knot_of(s).supports(s, m.material).posts.empty();
+  const Supports supports = knot_of(s).supports(s, m.material);
+  const bool on_posts = !supports.posts.empty() || !supports.pins.empty();
   has_effect(rollers || on_posts, "machine.roller_friction", machine.roller_friction, bare.roller_friction,
              "with grips: rollers or knot: " + knots_with("post_diameter"));
   has_effect(rollers && machine.roller_friction > 0.0, "machine.roller_rotation",

@@ -40,7 +40,8 @@ class DrawnKnot final : public Knot {
   }
 
   void suit(const SpecimenOptions& known, double, double h, SpecimenOptions& out) const override {
-    out.end_to_end = least_end_to_end(*known.drawing, h) + 2.0 * kStrandToGrip * h;
+    const bool on_posts = known.drawing->lower.empty() && known.drawing->upper.empty();
+    out.end_to_end = least_end_to_end(*known.drawing, h) + (on_posts ? 0.0 : 2.0 * kStrandToGrip * h);
   }
 
   double pull(const SpecimenOptions&, double h) const override { return kDrawnPull * h; }
@@ -60,7 +61,7 @@ class DrawnKnot final : public Knot {
       post.centre = h * drawn.through + origin;
       post.axis = drawn.along;
       post.radius = drawn.radius * h;
-      out.posts.push_back(post);
+      (drawn.upper ? out.pins : out.posts).push_back(post);
     }
     return out;
   }

@@ -16,6 +16,7 @@ namespace knot_utm {
 namespace {
 
 constexpr double kStraightToGrip = 4.0;  // of a held strand, at least, between its last point and its grip [h]
+constexpr double kSame = 1.0 + 1e-6;     // over a length that is rounded in a method
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -130,8 +131,21 @@ KnotDrawing::End KnotDrawing::held(const std::string& end) const {
 
 bool KnotDrawing::has_free_ends() const { return lower.size() + upper.size() < 2 * strands.size(); }
 
+const KnotDrawing::Post* KnotDrawing::post_of(bool upper_grip) const {
+  const auto found = std::find_if(posts.begin(), posts.end(), [&](const Post& one) { return one.upper == upper_grip; });
+  return (upper_grip ? upper : lower).empty() && found != posts.end() ? &*found : nullptr;
+}
+
+Vec3 KnotDrawing::held_below() const {
+  for (const Strand& strand : strands) {
+    if (held(strand.ends[0]) == End::kLower) return strand.points.front();
+    if (held(strand.ends[1]) == End::kLower) return strand.points.back();
+  }
+  return Vec3::Zero();
+}
+
 double KnotDrawing::bottom() const {
-  if (lower.empty() && !posts.empty()) return posts.front().through[2];
+  if (const Post* post = post_of(false)) return post->through[2];
   double least = std::numeric_limits<double>::infinity();
   for (const Strand& strand : strands)
     for (const Vec3& point : strand.points) least = std::min(least, point[2]);
@@ -139,6 +153,7 @@ double KnotDrawing::bottom() const {
 }
 
 double KnotDrawing::top() const {
+  if (const Post* post = post_of(true)) return post->through[2];
   double most = -std::numeric_limits<double>::infinity();
   for (const Strand& strand : strands)
     for (const Vec3& point : strand.points) most = std::max(most, point[2]);
@@ -146,12 +161,14 @@ double KnotDrawing::top() const {
 }
 
 double least_end_to_end(const KnotDrawing& drawing, double radius) {
-  const double straight = drawing.lower.empty() ? kStraightToGrip : 2.0 * kStraightToGrip;
-  return (drawing.top() - drawing.bottom() + straight) * radius;
+  const double lower = drawing.lower.empty() ? 0.0 : kStraightToGrip,
+               upper = drawing.upper.empty() ? 0.0 : kStraightToGrip;
+  return (drawing.top() - drawing.bottom() + lower + upper) * radius;
 }
 
 double height_of_origin(const KnotDrawing& drawing, const DrawnSize& size) {
   if (drawing.lower.empty()) return -drawing.bottom() * size.radius;
+  if (drawing.upper.empty()) return size.end_to_end - drawing.top() * size.radius;
   return 0.5 * (size.end_to_end - (drawing.top() + drawing.bottom()) * size.radius);
 }
 
@@ -162,6 +179,9 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
   if (!(size.end_to_end >= least))
     throw InvalidInput("specimen.end_to_end", text(size.end_to_end),
                        "at least " + least_text(least) + " m for knot: " + drawing.name);
+  if (drawing.lower.empty() && drawing.upper.empty() && size.end_to_end > kSame * least)
+    throw InvalidInput("specimen.end_to_end", text(size.end_to_end),
+                       "auto, " + text(least) + " m, which its posts are apart, for knot: " + drawing.name);
   const Drawer drawer(drawing, size);
   std::vector<Points> strands;
   Eigen::Index nodes = 0;
@@ -199,6 +219,9 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
     return found;
   };
   for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) out.tied.push_back(pulled(together));
+  for (const KnotDrawing::Pull& weight : drawing.weights)
+    for (const auto& [name, at] : ends)
+      if (name == weight.end) out.weights.push_back({at.node, weight.fraction});
   std::vector<double> radii;
   if (size.first != size.others) {
     radii.assign(strands.size(), size.others * size.radius);

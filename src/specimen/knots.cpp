@@ -30,7 +30,8 @@ int bearing_strands(const SpecimenOptions& specimen) {
   if (knot_of(specimen).about().loop) return 2;
   if (!specimen.drawing) return 1;
   const std::size_t upper = specimen.drawing->upper.size(), lower = specimen.drawing->lower.size();
-  return static_cast<int>(lower == 0 ? upper : std::min(upper, lower));
+  if (lower == 0 && upper == 0) return 2;  // around both posts
+  return static_cast<int>(lower == 0 ? upper : upper == 0 ? lower : std::min(upper, lower));
 }
 
 bool type_is_followed(const SpecimenOptions& specimen) {
@@ -99,12 +100,12 @@ std::optional<double> Knot::roller_diameter(double) const { return std::nullopt;
 Supports Knot::supports(const SpecimenOptions&, const Material&) const { return {}; }
 
 std::vector<HeldNode> Knot::held_below(const Centreline& centreline, bool) const {
-  if (!centreline.above.empty()) return centreline.below;
+  if (!centreline.above.empty() || !centreline.below.empty()) return centreline.below;
   return {HeldNode{0, 1}};
 }
 
 std::vector<HeldNode> Knot::held_above(const Centreline& centreline, bool) const {
-  if (!centreline.above.empty()) return centreline.above;
+  if (!centreline.above.empty() || !centreline.below.empty()) return centreline.above;
   const int last = static_cast<int>(centreline.points.cols()) - 1;
   return {HeldNode{last, last - 1}};
 }

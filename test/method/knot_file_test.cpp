@@ -116,6 +116,26 @@ TEST_F(KnotFile, IsRefusedByOneLineWithFileKeyAndReason) {
   EXPECT_THAT(complaint("Two hooks", "\"Two\\nhooks\""), HasSubstr("title: it must be one line of text"));
 }
 
+TEST_F(KnotFile, MayStandOnPostsOfEitherGripAndBearWeights) {
+  const std::string post = "posts: [{through: [0, 0, 30], along: [0, 1, 0], radius: 5, grip: upper}]\n";
+  EXPECT_THAT(complaint("upper: [upper]\n", "upper: [upper]\n" + post),
+              HasSubstr("upper: the upper grip must not hold an end where a post"));
+  EXPECT_THAT(complaint("upper: [upper]\n", "posts: [{through: [0, 0, 30], along: [0, 1, 0], radius: 5}]\n"),
+              HasSubstr("upper: the upper grip must hold at least one end, or be a post with grip: upper"));
+  EXPECT_THAT(complaint("lower: [lower]\nupper: [upper]\n", post), HasSubstr("lower: the lower grip must hold"));
+  EXPECT_THAT(complaint("upper: [upper]\n", "posts: [{through: [0, 0, 30], along: [0, 1, 0], radius: 5, grip: up}]\n"),
+              HasSubstr("posts.0.grip is \"up\", but must be lower, whose post stands still, or upper"));
+  EXPECT_THAT(complaint("tie:", "weights: {tail: 1}\ntie:"), HasSubstr("weights: no end is called tail"));
+  EXPECT_THAT(complaint("tie:", "weights: {lower: 1}\ntie:"), HasSubstr("weights: lower is held by a grip"));
+  EXPECT_THAT(complaint("tie:", "weights: {lower_tail: 0}\ntie:"), HasSubstr("weights.lower_tail is 0, but must be"));
+  EXPECT_EQ(complaint("upper: [upper]\n", post + "weights: {upper: 0.5}\n"), "");
+  const auto knot = read_knot_file(file(), "hooks");
+  EXPECT_TRUE(knot->posts.front().upper);
+  EXPECT_EQ(knot->top(), 30.0);
+  ASSERT_EQ(knot->weights.size(), 1u);
+  EXPECT_EQ(knot->weights.front().fraction, 0.5);
+}
+
 TEST_F(KnotFile, MayPullEndsOfTheUpperGripAndAnEndAgainInALaterGroup) {
   EXPECT_EQ(complaint("upper_tail: 0.5}", "upper: 2}\n  - {upper: 1, lower_tail: 0.5}"), "");
   const auto knot = read_knot_file(file(), "hooks");

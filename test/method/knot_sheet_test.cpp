@@ -63,7 +63,7 @@ TEST_F(Draw, ShowsAKnotThatTheProgramDrawsItself) {
 
 TEST_F(Draw, ShowsAPostAsACircleAndABar) {
   const Answer hitch = draw("clove_hitch");
-  EXPECT_THAT(hitch.text, HasSubstr("held: upper by the upper grip, and a post stands for the lower grip\n"));
+  EXPECT_THAT(hitch.text, HasSubstr("held: a post stands for the lower grip, upper by the upper grip\n"));
   EXPECT_THAT(hitch.text, HasSubstr("type: not defined, as the rope has a free end\n"));
   EXPECT_EQ(count(picture("clove_hitch"), "<circle"), 1u);
   EXPECT_EQ(count(picture("clove_hitch"), "<line"), 1u);

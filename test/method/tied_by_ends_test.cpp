@@ -190,5 +190,53 @@ TEST(TiedByEnds, GoesOnToTheSameBitsFromASavedState) {
     expect_the_same_bits_from_a_saved_state(method, commands);
 }
 
+/// The same knot upside down, whose posts are those of the other grip.
+Method upside_down(const Method& method) {
+  KnotDrawing drawing = *method.specimen.drawing;
+  for (KnotDrawing::Strand& strand : drawing.strands)
+    for (Vec3& point : strand.points) point.tail<2>() *= -1.0;
+  for (KnotDrawing::Post& post : drawing.posts) {
+    post.through.tail<2>() *= -1.0;
+    post.upper = !post.upper;
+  }
+  std::swap(drawing.lower, drawing.upper);
+  Method out = method;
+  out.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
+  return out;
+}
+
+TEST(TiedByEnds, APinThatMovesPullsAsAPostThatStandsStill) {
+  const Method bowline = knot_method("bowline");
+  Bench still(bowline), moves(upside_down(bowline));
+  for (Bench* bench : {&still, &moves}) bench->run_past(Phase::kPull);
+  ASSERT_EQ(moves.last.status, BenchStatus::kRunning) << moves.last.message;
+  const double load = still.last.force_upper;
+  ASSERT_GT(load, 0.0);
+  // The forces of both grips may differ by the drag and the inertia of what moves, as they do in either test.
+  const double apart = 2.0 * std::max(std::abs(load - still.last.force_lower), 1e-3 * load);
+  EXPECT_NEAR(moves.last.force_upper, load, apart);
+  EXPECT_NEAR(moves.last.force_lower, load, apart);
+  EXPECT_NEAR(moves.last.end_to_end, still.last.end_to_end, 1e-12);
+  EXPECT_NEAR(moves.last.extension, still.last.extension, 1e-12);
+}
+
+TEST(TiedByEnds, AWeightHangsOnAnEndFromItsReleaseOn) {
+  Method method = knot_method("bowline");
+  KnotDrawing drawing = *method.specimen.drawing;
+  drawing.weights = {{"tail", 0.05}};
+  method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
+  Bench bench(method);
+  const Centreline rod = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
+  ASSERT_EQ(rod.weights.size(), 1u);
+  const int tail = rod.weights.front().node;
+  const double preload = *method.specimen.preload, weight = 0.05 * preload;
+  bench.run_past(Phase::kTie);
+  EXPECT_NEAR(tension_at(bench.machine, tail), preload, 3e-3 * preload) << "it does not help to tie";
+  bench.run_past(Phase::kRelease);
+  // At rest, by as much as the drag holds back.
+  EXPECT_NEAR(tension_at(bench.machine, tail), weight, 1e-3 * preload);
+  EXPECT_NEAR(bench.last.force_lower, bench.last.force_upper, 1e-3 * preload) << "the lower grip's includes it";
+}
+
 }  // namespace
 }  // namespace knot_utm

@@ -21,7 +21,7 @@ struct GripBody {
   double half_length(double h) const { return 6.0 * h; }  ///< half the length with which a cylinder is drawn [m]
 };
 
-/// The lower grip first, then the upper one, then posts other than the one that is the lower grip.
+/// The lower grip first, then the upper one, then posts other than those that are grips.
 std::vector<GripBody> grip_bodies(const SpecimenOptions& specimen, const MachineOptions& machine,
                                   const Material& material);
 

@@ -16,9 +16,9 @@ namespace knot_utm {
 
 /// The grips of the machine: two rollers in the loop of a fisherman's knot, or held nodes. A clamp holds two nodes and
 /// the material frame between them. Where fixed posts and dead loads bear the specimen's lower end, its first post is
-/// the lower grip. The lower grip stands still. The upper one moves along +z by its displacement [m], which is that of
-/// the crosshead less the deflection of a compliant frame (frame.hpp). It may let ends slip along z while a knot is
-/// tied, and then holds them where they are.
+/// the lower grip, and a pin in a loop may be the upper one. The lower grip stands still. The upper one moves along +z
+/// by its displacement [m], which is that of the crosshead less the deflection of a compliant frame (frame.hpp). It may
+/// let ends slip along z while a knot is tied, and then holds them where they are.
 class Grips {
  public:
   /// At displacement 0.
@@ -43,6 +43,11 @@ class Grips {
   /// needs. A loop that lies across the rollers' places, as one that was much stretched while it was tied, is put on
   /// over pins that begin where it leaves room. False: it leaves none, or too little for the rollers.
   bool put_on(const Points& loop, double displacement, double radius);
+
+  /// Adds the weights that hang on the rod, `part` of each, to the boundary.
+  void hang(double part, Boundary& boundary) const;
+  /// After an accepted step that had this part of them.
+  void follow_weights(double part) { hung_ = part; }
 
   /// From now on the middle of the loop's far side is held half-way between the rollers, if the method says so.
   void hold_far_side(const Points& position, double displacement);
@@ -73,14 +78,17 @@ class Grips {
   /// Whether a point of the rod's centreline lies on a roller, or within two radii of a node that is held.
   bool hold(double displacement, const Vec3& point, double radius) const;
 
-  /// Force of the rod on each grip along z, tension positive [N]. That on the upper grip includes what pulls ends that
-  /// slip in it, that on the lower grip all posts and dead loads.
+  /// Force of the rod on each grip along z, tension positive [N]. That on the upper grip includes its pins and what
+  /// pulls ends that slip in it, that on the lower grip all posts, dead loads and weights.
   double force_upper(const TimeStep& step) const;
   double tried_force_upper(const TimeStep& step) const;  ///< of the step that is judged (TimeStep::refuse_by)
   double force_lower(const TimeStep& step) const;
 
  private:
   bool on_posts() const { return lower_nodes_.empty() && !supports_.posts.empty(); }
+  bool on_pins() const { return upper_nodes_.empty() && !supports_.pins.empty(); }
+  template <typename RollerForce, typename Reaction>
+  double sum_upper(double pulled_with, RollerForce roller_force, Reaction reaction) const;
   double half_way(double displacement) const;
   void narrow(double left, std::vector<Roller>& rollers) const;
   bool comes_near(const Points& loop, double displacement, double radius);
@@ -98,6 +106,8 @@ class Grips {
   double turns_by_ = 0.0;                // 1 or -1, as its edge points up or down; 0: it is not to be turned
   std::vector<Roller> rollers_;          // lower, upper
   Supports supports_;
+  std::vector<NodeForce> weights_;
+  double hung_ = 0.0;                     // part of them in the last accepted step
   double roller_rate_ = 0.0;              // of driven ones [rad/s]
   std::optional<double> turning_from_;    // [s]
   std::optional<SpringHold> far_middle_;  // keeps the loop from turning on the rollers; relative to half-way

@@ -28,7 +28,9 @@ class TiedLoop final : public Tying {
   void hold(Boundary& boundary, double from, double to) const override;
   double left_to_put_on(double time) const override { return rig_.left_to_put_on(time); }
   /// None off the rollers, and all of it once they have taken the loop.
-  double weight_borne(double time) const override { return rig_.off_rollers() ? 0.0 : 1.0 - rig_.left_to_put_on(time); }
+  double weight_borne(double time) const override {
+    return rig_.has_been_put_on() ? 1.0 - rig_.left_to_put_on(time) : 0.0;
+  }
   double held_length(double from, double to) const override;
   double mounting_velocity(double speed) const override;
   bool done(Phase phase) const override;

@@ -20,10 +20,11 @@ struct KnotDrawing;
 ///     lower: [lower]                         # ends that the grips hold; at least one by `upper`
 ///     upper: [upper]
 ///     posts:                                 # fixed cylinders; the first is the lower grip where that holds no end
-///       - {through: [0, 0, 0], along: [0, 1, 0], radius: 6}
+///       - {through: [0, 0, 0], along: [0, 1, 0], radius: 6}   # grip: upper moves with that grip, which holds no end
 ///     tie:                                   # ends that are pulled together, in order, to which part of F_p: free
 ///       - {lower_tail: 1, upper_tail: 1}     # ones, and those of the upper grip; the lower grip stands still
 ///       - {upper: 1, upper_tail: 0.5}        # one that is pulled again has this part from then on
+///     weights: {upper_tail: 0.1}             # that hang on free ends once it is tied: parts of F_p, along -z
 ///
 /// `name`: what a method calls it. Throws InvalidInput with the file and the key.
 std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& file, const std::string& name);

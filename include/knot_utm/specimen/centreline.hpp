@@ -45,6 +45,12 @@ struct PulledEnd {
   bool held() const { return held_next >= 0; }
 };
 
+/// A weight on the rod, which pulls along -z once the knot is tied.
+struct HungWeight {
+  int node = 0;
+  double fraction = 1.0;  ///< of the pre-load F_p [-]
+};
+
 /// A specimen's centreline before the test: an open polyline, and the places of its parts. Edges may be shorter in its
 /// knots. Frame: z up and along the load axis. Arclengths are those of the polyline.
 struct Centreline {
@@ -61,6 +67,7 @@ struct Centreline {
   std::vector<HeldNode> below, above;        ///< ends of ropes that the grips hold; empty: the rod's ends
   std::vector<int> free;                     ///< nodes at the free ends of ropes, in order along the rod
   std::vector<std::vector<PulledEnd>> tied;  ///< ends that are pulled together to tie it, in order
+  std::vector<HungWeight> weights;
 
   double length() const;                     ///< [m]
   int nearest_node(double arclength) const;  ///< to an arclength [m]

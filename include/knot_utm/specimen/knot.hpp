@@ -23,7 +23,8 @@ struct Mounting {
 
 /// What bears a specimen besides its grips, unchanged throughout a test.
 struct Supports {
-  std::vector<Roller> posts;     ///< fixed to the machine's base; the first one stands for the lower grip
+  std::vector<Roller> posts;     ///< fixed to the machine's base; the first one may stand for the lower grip
+  std::vector<Roller> pins;      ///< fixed to the upper grip, for which the first one stands
   std::vector<NodeForce> loads;  ///< dead loads
 };
 
@@ -81,7 +82,7 @@ class Knot {
   /// InvalidInput where it does not fit.
   virtual Centreline centreline(const SpecimenOptions& specimen, const Material& material,
                                 const Mounting& mounting) const = 0;
-  /// Empty where the grips hold both its ends. Where fixed posts bear its lower end, only the upper grip holds it.
+  /// Empty where the grips hold its ends alone.
   virtual Supports supports(const SpecimenOptions& specimen, const Material& material) const;
   /// The nodes that the lower and the upper grip hold where there are no rollers.
   virtual std::vector<HeldNode> held_below(const Centreline& centreline, bool clamped) const;

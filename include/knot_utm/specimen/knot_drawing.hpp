@@ -17,11 +17,12 @@ struct KnotDrawing {
     std::array<std::string, 2> ends;  ///< the first and the last one
     std::vector<Vec3> points;         ///< that the strand is drawn through [h]
   };
-  /// A cylinder that is fixed to the machine's base.
+  /// A cylinder that is fixed to the machine's base, or to the upper grip and moves with it.
   struct Post {
     Vec3 through = Vec3::Zero();  ///< a point of its axis [h]
     Vec3 along = Vec3::UnitY();   ///< direction of its axis, unit
     double radius = 0.0;          ///< [h]
+    bool upper = false;           ///< of the upper grip
   };
   struct Pull {
     std::string end;
@@ -34,15 +35,18 @@ struct KnotDrawing {
   std::string source;  ///< who describes it
   std::vector<Strand> strands;
   std::vector<std::string> lower, upper;  ///< ends that the grips hold
-  std::vector<Post> posts;                ///< the first one stands for the lower grip where that holds no end
+  std::vector<Post> posts;                ///< the first of a grip that holds no end stands for it
+  std::vector<Pull> weights;              ///< that hang on free ends once the knot is tied
   std::vector<std::vector<Pull>> tie;     ///< ends that are pulled together, in order: free ones and upper ones
   std::string text;                       ///< all that describes its shape and how it is tied, the same for equal ones
 
   enum class End { kLower, kUpper, kFree };
   End held(const std::string& end) const;
   bool has_free_ends() const;
-  double bottom() const;  ///< the lowest z of all points, or of the first post's axis where that is the lower grip [h]
-  double top() const;     ///< the highest z of all points [h]
+  const Post* post_of(bool upper) const;  ///< the one that stands for a grip; null where that holds an end
+  Vec3 held_below() const;                ///< the outermost point of the first strand that the lower grip holds [h]
+  double bottom() const;  ///< the lowest z of all points, or of the axis of the post that is the lower grip [h]
+  double top() const;     ///< the highest z, likewise [h]
 };
 
 /// How large a drawing is made.
@@ -64,7 +68,7 @@ struct DrawnSize {
 /// Source of the curve: Yuksel, Schaefer, Keyser 2011, "Parameterization and applications of Catmull-Rom curves".
 Centreline draw(const KnotDrawing& drawing, const DrawnSize& size);
 
-/// The least L between the grips of such a drawing [m].
+/// The least L between the grips of such a drawing [m]; the only one where posts stand for both.
 double least_end_to_end(const KnotDrawing& drawing, double radius);
 
 /// z of the drawing's origin above the lower grip [m].

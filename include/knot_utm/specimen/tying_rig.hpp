@@ -85,6 +85,8 @@ class TyingRig {
   bool guides() const { return stage_ == Stage::kGuided; }
   /// Whether the loop is still off the rollers.
   bool off_rollers() const { return stage_ != Stage::kIdle && stage_ < Stage::kPuttingOn; }
+  /// Whether the rollers have it, or begin to take it.
+  bool has_been_put_on() const { return stage_ >= Stage::kPuttingOn; }
   /// What had not come to rest when the test went on; empty: nothing.
   const std::string& not_equilibrated() const { return rest_.not_equilibrated(); }
   /// Why the knots cannot be tied; empty: they can.
