@@ -1,7 +1,6 @@
 #include "knot_utm/machine/end_tying.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/specimen/material.hpp"
@@ -11,12 +10,8 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kTimeToSettle = 0.3;     // [s]
-constexpr double kWaveToSettle = 17.0;    // waves of this length relax in a tenth of it [h]
 constexpr double kGripStretch = 2.4;      // of a grip when it slips [h]
 constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
-constexpr double kPullPatience = 90.0;    // not tied where the loads are not reached by then [s] ...
-constexpr double kPullWay = 300.0;        // ... and the grips have gone this far [h]
 
 }  // namespace
 
@@ -27,7 +22,7 @@ EndTying::EndTying(const Centreline& centreline, const Material& material, doubl
       groups_(centreline.tied),
       preload_(preload),
       radius_(thickest(material)),
-      settling_drag_(settling_drag(material, kWaveToSettle * material.radius, kTimeToSettle)),
+      settling_(material),
       rest_({rest_speed}) {}
 
 void EndTying::enter(Stage stage, double time) {
@@ -57,8 +52,9 @@ void EndTying::add_group() {
   ++pulled_groups_;
 }
 
-/// What the upper grip holds goes over to the grip that pulls it.
-void EndTying::pull_next_group() {
+/// It is tied once there is none. What the upper grip holds goes over to the grip that pulls it.
+void EndTying::pull_next_group(double time) {
+  if (pulled_groups_ == groups_.size()) return enter(Stage::kTied, time);
   const Points& x = stepper_.state().position;
   const std::vector<PulledEnd>& group = groups_[pulled_groups_];
   std::vector<double> before;
@@ -68,6 +64,8 @@ void EndTying::pull_next_group() {
     pulling_.begin_with(group[i].node, before[i], x);
     if (group[i].held()) grips_.let_slip(group[i].node, group[i].held_next);
   }
+  pulling_.begin_pull();
+  enter(Stage::kPulling, time);
 }
 
 /// Force of the upper grip on an end that it holds, outwards [N].
@@ -104,10 +102,7 @@ void EndTying::let_go(double duration, double time) {
 }
 
 void EndTying::hold(Boundary& boundary, double from, double to) const {
-  if (stage_ == Stage::kSettling) {
-    const double left = std::clamp(1.0 - (to - stage_begin_) / kTimeToSettle, 0.0, 1.0);
-    boundary.extra_drag = settling_drag_ * left * left;
-  }
+  if (stage_ == Stage::kSettling) boundary.extra_drag = settling_.drag(to - stage_begin_);
   if (stage_ == Stage::kPulling || stage_ == Stage::kTied)
     pulling_.add_to(boundary, stage_ == Stage::kPulling ? speed_ * (to - from) : 0.0);
   if (stage_ != Stage::kRamp) return;
@@ -117,41 +112,22 @@ void EndTying::hold(Boundary& boundary, double from, double to) const {
 
 void EndTying::follow(Phase, const Place& now, double dt) {
   const Points& x = stepper_.state().position;
-  const double time = now.time;
+  const double time = now.time, elapsed = time - stage_begin_;
   rest_.follow(stepper_.state().velocity, dt);
   switch (stage_) {
     case Stage::kSettling:
-      if (time - stage_begin_ < kTimeToSettle) break;
-      if (groups_.empty()) {
-        enter(Stage::kTied, time);
-        break;
-      }
-      pull_next_group();
-      reached_ = -1.0;
-      enter(Stage::kPulling, time);
+      if (Settling::over(elapsed)) pull_next_group(time);
       break;
-    case Stage::kPulling: {
+    case Stage::kPulling:
       pulling_.move(x, speed_ * dt);
-      const bool all_slip = pulling_.all_slip(x);
-      if (all_slip && reached_ < 0.0) reached_ = time;
-      if (reached_ < 0.0) {
-        judge_pull(time);
+      if (pulling_.pull_is_over(x, time, rest_)) {
+        pull_next_group(time);
         break;
       }
-      // A grip that sticks again is waited for no longer than for rest.
-      if (!all_slip && time - reached_ <= rest_.patience()) break;
-      if (!rest_.waited(time, reached_, "the ends reached their loads")) break;
-      if (pulled_groups_ == groups_.size()) {
-        enter(Stage::kTied, time);
-        break;
-      }
-      pull_next_group();
-      reached_ = -1.0;
-      enter(Stage::kPulling, time);
+      not_tied_ = pulling_.lost_patience({}, x, elapsed, speed_ * elapsed / radius_);
       break;
-    }
     case Stage::kRamp:
-      if (time - stage_begin_ >= ramp_time_) enter(Stage::kRest, time);
+      if (elapsed >= ramp_time_) enter(Stage::kRest, time);
       break;
     case Stage::kRest:
       if (!rest_.waited(time, stage_begin_, "the ends were released")) break;
@@ -170,19 +146,8 @@ bool EndTying::done(Phase phase) const {
   return phase == Phase::kTie ? stage_ == Stage::kTied : stage_ == Stage::kFree;
 }
 
-void EndTying::judge_pull(double time) {
-  const double elapsed = time - stage_begin_;
-  if (elapsed <= kPullPatience || speed_ * elapsed <= kPullWay * radius_) return;
-  const Points& x = stepper_.state().position;
-  std::ostringstream message;
-  message << "not tied: after " << elapsed << " s the ends are pulled with";
-  for (std::size_t i = 0; i < pulling_.size(); ++i)
-    message << (i == 0 ? " " : " and ") << pulling_.force(i, x) << " of " << pulling_.grip(i).slip_force << " N";
-  not_tied_ = message.str();
-}
-
 void EndTying::state(Archive& archive) {
-  archive.section("ENDT");
+  archive.section("ENDU");  // "ENDT" had itself when the grips slipped
   archive.choice("stage of tying", stage_, Stage::kFree);
   int groups = static_cast<int>(pulled_groups_);
   archive.number("groups of pulled ends", groups, 0, static_cast<int>(groups_.size()));
@@ -190,7 +155,7 @@ void EndTying::state(Archive& archive) {
     pulling_.clear();
     for (pulled_groups_ = 0; pulled_groups_ < static_cast<std::size_t>(groups);) add_group();
   }
-  archive(pulling_, speed_, ramp_time_, stage_begin_, reached_, rest_, not_tied_);
+  archive(pulling_, speed_, ramp_time_, stage_begin_, rest_, not_tied_);
   archive.list(ramp_from_);
   archive.require(stage_ != Stage::kRamp || ramp_from_.size() == pulling_.size(), "loads of the ends",
                   std::to_string(ramp_from_.size()));

@@ -1,6 +1,7 @@
 #include "knot_utm/specimen/tail_grips.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 namespace knot_utm {
 
@@ -67,7 +68,25 @@ bool TailGrips::all_slip(const Points& position) const {
   return true;
 }
 
+bool TailGrips::pull_is_over(const Points& position, double time, RestWatch& rest) {
+  const bool all = all_slip(position);
+  if (all && reached_ < 0.0) reached_ = time;
+  if (reached_ < 0.0 || (!all && time - reached_ <= rest.patience())) return false;
+  return rest.waited(time, reached_, "the ends that tie it reached their loads");
+}
+
+std::string TailGrips::lost_patience(const Patience& patience, const Points& position, double elapsed,
+                                     double way_in_radii) const {
+  if (reached_ >= 0.0 || elapsed <= patience.time || way_in_radii <= patience.way) return "";
+  std::ostringstream message;
+  message << "not tied: after " << elapsed << " s the ends that tie it are pulled with";
+  for (std::size_t i = 0; i < grips_.size(); ++i)
+    message << (i == 0 ? " " : " and ") << force(i, position) << " of " << grips_[i].slip_force << " N";
+  return message.str();
+}
+
 void TailGrips::state(Archive& archive) {
+  archive(reached_);
   for (SlippingGrip& grip : grips_) archive(grip.place);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -22,23 +21,19 @@ constexpr double kHalfKnot = 4.0;  // a tight knot of one winding reaches no fur
 // Each further winding of a tight knot lies beside it, by half of its thickness to either side [h].
 constexpr double kHalfTightWinding = 1.0;
 
-// The settling drag relaxes waves of so many radii in about a tenth of the settling time; so does the drag of the time
-// while the loop is put on, in which it moves as a whole.
-constexpr double kSettlingTime = 0.3;  // [s]
-constexpr double kSettlingWave = 17.0;
+// While the loop is put on, it moves as a whole: waves of so many radii relax in about a tenth of the settling time.
 constexpr double kPuttingOnWave = 73.0;
 constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
 
 }  // namespace
 
 TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options)
-    : options_(options), radius_(rod.material.radius), rest_(options.rest) {
+    : options_(options), radius_(rod.material.radius), settling_(rod.material), rest_(options.rest) {
   const double h = rod.material.radius;
   const int nodes = static_cast<int>(rod.nodes());
   const Points& x = centreline.points;
   const std::size_t count = centreline.knots.size();
-  settling_drag_ = settling_drag(rod.material, kSettlingWave * h, kSettlingTime);
-  putting_on_drag_ = settling_drag(rod.material, kPuttingOnWave * h, kSettlingTime);
+  putting_on_drag_ = settling_drag(rod.material, kPuttingOnWave * h, Settling::kTime);
   double middle = 0.0;
   for (const KnotLandmarks& knot : centreline.knots)
     middle += x(2, centreline.nearest_node(knot.coil_middle)) / static_cast<double>(count);
@@ -82,7 +77,7 @@ void TyingRig::enter(Stage stage, double time) {
 
 void TyingRig::tie(double speed, double time, const Points& position) {
   speed_ = speed;
-  reached_ = -1.0;
+  grips_.begin_pull();
   rest_.forget();
   not_tied_.clear();
   attach_grips();
@@ -160,10 +155,7 @@ void TyingRig::hold(Boundary& boundary, double from, double to) const {
     for (const Clamp& held : far_side_) boundary.forces.push_back({held.node, ramp * held.reaction});
   }
   hold_knots(boundary, ramp);
-  if (stage_ == Stage::kSettling) {
-    const double left = std::clamp(1.0 - (to - stage_begin_) / kSettlingTime, 0.0, 1.0);
-    boundary.extra_drag = settling_drag_ * left * left;
-  }
+  if (stage_ == Stage::kSettling) boundary.extra_drag = settling_.drag(to - stage_begin_);
   if (stage_ == Stage::kPuttingOn || stage_ == Stage::kGuided) boundary.extra_drag = putting_on_drag_;
   if (stage_ == Stage::kSettling || stage_ == Stage::kPulling || stage_ == Stage::kTied) {
     grips_.add_to(boundary, stage_ == Stage::kPulling ? speed_ * (to - from) : 0.0);
@@ -193,23 +185,21 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
   const Points& x = stepper.state().position;
   if (stage_ == Stage::kPulling) grips_.move(x, speed_ * dt);
   for (std::size_t k = 0; k < grips_.size(); ++k) tail_force_[k] = stage_ <= Stage::kTied ? grips_.force(k, x) : 0.0;
-  const bool all_slip = stage_ <= Stage::kTied && grips_.all_slip(x);
   const double elapsed = time - stage_begin_;
   rest_.follow(stepper.state().velocity, dt);
-  if (stage_ == Stage::kPulling && all_slip && reached_ < 0.0) reached_ = time;
   switch (stage_) {
     case Stage::kSettling:
-      if (elapsed >= kSettlingTime) {
+      if (Settling::over(elapsed)) {
         grips_.begin_at(x);
         enter(Stage::kPulling, time);
       }
       break;
     case Stage::kPulling:
-      // A grip that stuck again since it reached the pre-load is waited for no longer than for rest.
-      if (reached_ >= 0.0 && (all_slip || time - reached_ > rest_.patience()) &&
-          rest_.waited(time, reached_, "the tail grips reached the pre-load")) {
+      if (grips_.pull_is_over(x, time, rest_)) {
         enter(Stage::kTied, time);
+        break;
       }
+      not_tied_ = grips_.lost_patience(options_.patience, x, elapsed, speed_ * elapsed / radius_);
       break;
     case Stage::kTailsRest:
       if (rest_.waited(time, stage_begin_, "the tails were released")) {
@@ -238,25 +228,13 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
     case Stage::kFree:
       break;
   }
-  judge_pull(time);
-}
-
-void TyingRig::judge_pull(double time) {
-  const double elapsed = time - stage_begin_;
-  if (stage_ != Stage::kPulling || reached_ >= 0.0 || elapsed <= options_.pull_patience) return;
-  if (speed_ * elapsed <= options_.pull_way * radius_) return;
-  std::ostringstream message;
-  message << "not tied: after " << elapsed << " s the tail grips pull with";
-  for (std::size_t i = 0; i < tail_force_.size(); ++i) message << (i == 0 ? " " : " and ") << tail_force_[i];
-  message << " N and have not reached the pre-load of " << options_.preload << " N";
-  not_tied_ = message.str();
 }
 
 void TyingRig::state(Archive& archive) {
-  archive.section("TIE3");  // "TIE2" did not keep the speed of the fastest node
+  archive.section("TIE4");  // "TIE3" had itself when the grips slipped
   archive.choice("stage of tying", stage_, Stage::kFree);
   archive(loop_begin_, loop_end_);
-  archive(speed_, ramp_time_, stage_begin_, reached_, tail_force_, ramp_from_, rest_);
+  archive(speed_, ramp_time_, stage_begin_, tail_force_, ramp_from_, rest_);
   for (Clamp& clamp : clamps_) archive(clamp.reaction);
   for (Clamp& held : far_side_) archive(held.reaction);
   bool pulls = !grips_.empty();

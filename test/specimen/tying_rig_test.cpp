@@ -101,12 +101,11 @@ TEST(TyingRig, ClampsHoldAndGripsNeverPullHarderThanThePreload) {
 
 TEST(TyingRig, SaysWhenThePreloadWasNotReachedInTime) {
   TyingRig::Options options;
-  options.pull_patience = 0.01;
-  options.pull_way = 0.0;
+  options.patience = {0.01, 0.0};
   Loop loop(options);
   loop.rig->tie(1e-6, 0.0, loop.stepper->state().position);
   loop.run(0.5);
-  EXPECT_THAT(loop.rig->not_tied(), testing::HasSubstr("have not reached the pre-load"));
+  EXPECT_THAT(loop.rig->not_tied(), testing::HasSubstr("s the ends that tie it are pulled with"));
   EXPECT_FALSE(loop.rig->tied());
 }
 

@@ -8,6 +8,7 @@
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/rest_watch.hpp"
+#include "knot_utm/specimen/settling.hpp"
 #include "knot_utm/specimen/tail_grips.hpp"
 
 namespace knot_utm {
@@ -47,23 +48,22 @@ class EndTying final : public Tying {
 
   void enter(Stage stage, double time);
   void add_group();
-  void pull_next_group();
+  void pull_next_group(double time);
   double load(std::size_t grip, double time) const;
   void follow_slipping(const Place& now);
   double held_with(const PulledEnd& end) const;
   void let_go(double duration, double time);
-  void judge_pull(double time);
 
   const TimeStep& stepper_;
   Grips& grips_;
   std::vector<std::vector<PulledEnd>> groups_;
-  double preload_, radius_, settling_drag_;
+  double preload_, radius_;
+  Settling settling_;
   TailGrips pulling_;
   std::size_t pulled_groups_ = 0;
   RestWatch rest_;
   Stage stage_ = Stage::kIdle;
   double speed_ = 0.0, ramp_time_ = 1.0, stage_begin_ = 0.0;
-  double reached_ = -1.0;          // when all grips had first slipped; < 0: not yet [s]
   std::vector<double> ramp_from_;  // loads of the grips as they are let go [N]
   std::string not_tied_;
 };

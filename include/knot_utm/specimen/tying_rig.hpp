@@ -8,6 +8,7 @@
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/rest_watch.hpp"
+#include "knot_utm/specimen/settling.hpp"
 #include "knot_utm/specimen/tail_grips.hpp"
 
 namespace knot_utm {
@@ -16,8 +17,7 @@ namespace knot_utm {
 /// by a grip that moves at a set speed and slips at the pre-load. The end is reached by displacement against a slipping
 /// grip, and only once everything is at rest, so the tied state does not depend on drag, step or speed.
 ///
-/// Before it pulls, the drawn shape settles under a strong drag that fades. The energy of the drawn shape is an
-/// artefact of the drawing and would otherwise throw the strands about.
+/// Before it pulls, the drawn shape settles.
 ///
 /// All this happens off the rollers. The loop is held by the straight part of its far side; its half circles and the
 /// side with the knots are free. The clamps stand at set distances from the knots, on straight strands.
@@ -39,8 +39,7 @@ class TyingRig {
     double preload = 0.0;         ///< F_p, at which the tail grips slip [N]
     double grip_stiffness = 2e4;  ///< [N/m]
     RestWatch::Options rest;
-    double pull_patience = 90.0;  ///< not tied if the pre-load is not reached by then [s] ...
-    double pull_way = 300.0;      ///< ... and have gone this far [h]
+    TailGrips::Patience patience;
   };
   /// A ramp is followed by the next one in this list, letting go by kReleased.
   enum class Stage {
@@ -131,11 +130,10 @@ class TyingRig {
   SpringHold guide(const Clamp& clamp) const;
   void hold_knots(Boundary& boundary, double ramp) const;
   void enter(Stage stage, double time);
-  void judge_pull(double time);
 
   Options options_;
-  double radius_;           // h [m]
-  double settling_drag_;    // [N s/m^2]
+  double radius_;  // h [m]
+  Settling settling_;
   double putting_on_drag_;  // [N s/m^2]
   std::vector<Knot> knots_;
   std::vector<Clamp> clamps_;
@@ -147,7 +145,6 @@ class TyingRig {
   std::vector<double> ramp_from_;
   Stage stage_ = Stage::kIdle;
   double speed_ = 0.0, ramp_time_ = 1.0, stage_begin_ = 0.0;
-  double reached_ = -1.0;  // when both tail grips had first reached the pre-load; < 0: not yet
   std::string not_tied_;
 };
 
