@@ -1,7 +1,6 @@
 #include "knot_utm/machine/options.hpp"
 
 #include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
@@ -15,8 +14,7 @@ bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine)
 }
 
 bool clamp_turns(const SpecimenOptions& specimen, const MachineOptions& machine) {
-  const bool one_strand = specimen.drawing ? specimen.drawing->upper.size() == 1 : !knot_of(specimen).about().loop;
-  return clamps_hold(specimen, machine) && one_strand;
+  return clamps_hold(specimen, machine) && !knot_of(specimen).about().loop;
 }
 
 }  // namespace knot_utm
