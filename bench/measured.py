@@ -3,6 +3,7 @@ import os
 
 import bend_orders
 import capstans
+import fibers
 import greased
 import hitches
 import inversions
@@ -19,6 +20,7 @@ def report(runner):
     facts = read_yaml(FACTS)
     rows = inversions.rows(spent, facts["inversions"]) + surgeons.rows(spent, facts["surgeons"])
     rows += capstans.rows(spent, facts["capstans"]) + hitches.rows(spent, facts["hitches"])
+    rows += fibers.rows(spent, facts)
     loads = bend_orders.found(spent, facts["orders"])
     slipping = bend_orders.slipping(spent, facts["slipping"])
     holding = greased.found(spent, facts["greased"])

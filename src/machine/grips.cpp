@@ -64,9 +64,13 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
   if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
   if (supports_.pins.empty()) hold(upper_nodes_, knot.held_above(centreline, clamped));
   if (!knot_utm::clamp_turns(specimen, machine)) return;
-  const int edge = held_frames_.back().edge;
-  const double along = (centreline.points.col(edge + 1) - centreline.points.col(edge)).normalized()[2];
-  if (std::abs(along) > kAlongAxis) turns_by_ = along > 0.0 ? 1.0 : -1.0;
+  const std::size_t strands = upper_nodes_.size() / 2;
+  for (auto frame = held_frames_.end() - static_cast<std::ptrdiff_t>(strands); frame != held_frames_.end(); ++frame) {
+    const double along = (centreline.points.col(frame->edge + 1) - centreline.points.col(frame->edge)).normalized()[2];
+    if (std::abs(along) > kAlongAxis) turns_by_.push_back(along > 0.0 ? 1.0 : -1.0);
+  }
+  if (turns_by_.size() < strands) turns_by_.clear();
+  for (const FixedNode& node : upper_nodes_) turns_around_ += node.position / static_cast<double>(upper_nodes_.size());
 }
 
 bool Grips::hold(double displacement, const Vec3& point, double radius) const {
@@ -80,13 +84,26 @@ bool Grips::hold(double displacement, const Vec3& point, double radius) const {
                      [&](const FixedNode& node) { return (node.position - point).norm() < 2.0 * radius; });
 }
 
-void Grips::turn_clamp(double turn, std::vector<FixedTwist>& frames) const {
-  if (clamp_turns()) frames.back().angle += turns_by_ * turn;
+void Grips::turn_clamp(double turn, Boundary& boundary) const {
+  if (!clamp_turns() || turn == 0.0) return;
+  auto frame = boundary.fixed_twists.end() - static_cast<std::ptrdiff_t>(turns_by_.size());
+  for (const double by : turns_by_) (frame++)->angle += by * turn;
+  if (turns_by_.size() == 1) return;
+  const Eigen::AngleAxisd turned(turn, Vec3::UnitZ());
+  for (auto node = boundary.fixed_nodes.end() - static_cast<std::ptrdiff_t>(upper_nodes_.size());
+       node != boundary.fixed_nodes.end(); ++node)
+    node->position = turns_around_ + turned * (node->position - turns_around_);
 }
 
 double Grips::torque(const TimeStep& step) const {
   if (!clamp_turns() || step.state().twist.size() == 0) return Sample::kNone;
-  return turns_by_ * step.readings().reaction_torque(held_frames_.back().edge);
+  double sum = 0.0;
+  auto frame = held_frames_.end() - static_cast<std::ptrdiff_t>(turns_by_.size());
+  for (const double by : turns_by_) sum += by * step.readings().reaction_torque((frame++)->edge);
+  if (turns_by_.size() == 1) return sum;
+  for (const FixedNode& node : upper_nodes_)
+    sum += (step.state().position.col(node.node) - turns_around_).cross(step.readings().reaction(node.node))[2];
+  return sum;
 }
 
 void Grips::turn_rollers_from(double time) {

@@ -15,8 +15,8 @@ bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine)
 }
 
 bool clamp_turns(const SpecimenOptions& specimen, const MachineOptions& machine) {
-  const bool one_strand = specimen.drawing ? specimen.drawing->upper.size() == 1 : !knot_of(specimen).about().loop;
-  return clamps_hold(specimen, machine) && one_strand;
+  const bool holds_none = specimen.drawing && specimen.drawing->upper.empty();
+  return clamps_hold(specimen, machine) && !knot_of(specimen).about().loop && !holds_none;
 }
 
 }  // namespace knot_utm

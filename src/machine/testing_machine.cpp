@@ -181,7 +181,7 @@ struct TestingMachine::Impl {
     grip_tried = frame.grip_after(grip, travel, borne_before, held_length(from, to), to - from);
     grips.set(grip_tried, tying ? tying->left_to_put_on(to) : 0.0, boundary);
     grips.turn_rollers(to, boundary.rollers);
-    grips.turn_clamp(start.turn + fraction * (command.turn - start.turn), boundary.fixed_twists);
+    grips.turn_clamp(start.turn + fraction * (command.turn - start.turn), boundary);
     apply_weight(to);
     boundary.grips.clear();
     boundary.extra_drag = drag_of_settling(to);

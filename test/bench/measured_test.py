@@ -15,6 +15,7 @@ sys.path.insert(0, os.path.join(ROOT, "bench"))
 import bend_orders  # noqa: E402
 import bends  # noqa: E402
 import capstans  # noqa: E402
+import fibers  # noqa: E402
 import greased  # noqa: E402
 import hitches  # noqa: E402
 import inversions  # noqa: E402
@@ -136,6 +137,40 @@ class Capstans(unittest.TestCase):
         self.assertIn("2 turns, touching lightly", self.failed([0.9, 1.0], [0.99, 1.0])[0])
         self.assertIn("2 turns, touching all along", self.failed([1.1, 1.0], [1.3, 1.11])[0])
         self.assertEqual(len(self.failed([1.1, 1.0], [None, None])), 3)
+
+
+class Fibers(unittest.TestCase):
+    def test_a_strand_without_thickness_is_a_thread(self):
+        self.assertAlmostEqual(fibers.rate_of_a_thick_strand(0.3, 1e-6), 0.3, places=6)
+        self.assertLess(fibers.rate_of_a_thick_strand(0.3, 0.1), 0.3)
+
+    def test_a_polynomial_is_extrapolated_to_its_value_at_zero(self):
+        x = [0.1, 0.07, 0.05]
+        self.assertAlmostEqual(fibers.at_zero(x, [2.0 - 3.0 * at + 5.0 * at ** 2 for at in x]), 2.0)
+
+    def test_the_torque_of_a_yarn_is_that_of_its_energy(self):
+        force, radius, k_b, k_t, step = 3.0, 1.1, 2.0, 1.3, 1e-6
+
+        def energy(angle):  # of both strands less the work of the force, for each length of a strand
+            bend, twist = math.sin(angle) ** 2 / radius, math.sin(angle) * math.cos(angle) / radius
+            return k_b * bend ** 2 + k_t * twist ** 2 - force * math.cos(angle)
+
+        for angle in (0.1, 0.4, 0.7):
+            turned = (math.sin(angle + step) - math.sin(angle - step)) / radius
+            torque = (energy(angle + step) - energy(angle - step)) / turned
+            twist = math.sin(angle) * math.cos(angle) / radius
+            self.assertAlmostEqual(fibers.torque_of(force, radius, angle, twist, k_b, k_t), torque, places=6)
+
+    def test_a_double_helix_is_read_as_it_is(self):
+        s = np.linspace(0.0, 40.0, 201)
+        angle, radius = 0.3, 1.02
+        turn = math.sin(angle) / radius * s
+        one = np.array([radius * np.cos(turn), radius * np.sin(turn), math.cos(angle) * s])
+        other = (one * np.array([[-1], [-1], [1]]))[:, ::-1]
+        x, y, z = np.concatenate([one, other], axis=1)
+        shapes = {"time": np.full(402, 2.0), "x": x, "y": y, "z": z, "twist": np.full(402, 0.25), "rope": np.repeat([1, 2], 201)}
+        for found, there in zip(fibers.middle_of(shapes), (radius, angle, 0.25)):
+            self.assertAlmostEqual(found, there, places=9)
 
 
 class Hitches(unittest.TestCase):

@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "machine/programs.hpp"
 #include "rod/materials.hpp"
 
@@ -16,6 +18,7 @@ namespace {
 using namespace programs;
 
 constexpr double kLength = 0.25, kEdge = 0.005;
+constexpr const char* kDrawn = "a file of config/knots/";
 constexpr double kTwisted = kLength + kEdge;  // clamps hold the frames of edges, each of which lies in one
 
 TwistStep twist(double turns, double rate = 1.0) {
@@ -37,10 +40,30 @@ TestingMachine clamped_rod() {
   return {specimen, nylon(), machine, physics};
 }
 
-/// All answers of a straight rod to a pull by `extension` and then these steps.
-std::vector<Sample> answers(double extension, Program steps) {
+/// Two straight strands of a solid rod, half their length and touching, one drawn up and one down.
+TestingMachine clamped_pair() {
+  KnotDrawing pair;
+  pair.name = "pair";
+  pair.strands = {{{"lower_1", "upper_1"}, {{1, 0, -10}, {1, 0, 0}, {1, 0, 10}}},
+                  {{"upper_2", "lower_2"}, {{-1, 0, 10}, {-1, 0, 0}, {-1, 0, -10}}}};
+  pair.lower = {"lower_1", "lower_2"};
+  pair.upper = {"upper_1", "upper_2"};
+  SpecimenOptions specimen;
+  specimen.knot = knot_named(kDrawn);
+  specimen.drawing = std::make_shared<const KnotDrawing>(pair);
+  Material solid = nylon();
+  solid.stretching_stiffness = 10.0 * solid.bending_stiffness / (solid.radius * solid.radius);
+  solid.friction_coefficient = 0.0;
+  specimen.end_to_end = 80.0 * solid.radius;
+  specimen.edge_length = solid.radius;
+  MachineOptions machine;
+  machine.grips = GripKind::kClamps;
+  return {specimen, solid, machine, PhysicsOptions()};
+}
+
+/// All answers to a pull by `extension` and then these steps.
+std::vector<Sample> answers(double extension, Program steps, TestingMachine machine = clamped_rod()) {
   steps.insert(steps.begin(), pull(extension, 1e-5));
-  TestingMachine machine = clamped_rod();
   ProgramRunner program(steps, 6.0, 1.0, {});
   std::vector<Sample> out;
   run_test(machine, program, [&](const Command&, const Sample& sample) { out.push_back(sample); });
@@ -70,6 +93,26 @@ TEST(TwistStep, EndsByItsTurnsOrEarlierByItsTorque) {
   const double turn = 1e-3 * kTwisted / nylon().twisting_stiffness;
   EXPECT_LE(all.back().turn, -turn);
   EXPECT_GT(all.back().turn, -turn - 2.0 * M_PI / 6.0);  // the turn in one command
+}
+
+/// The frames turn and the strands' ends go around: what both take is stored, as nothing else moves and nothing rubs.
+TEST(TwistStep, TheWorkOfItsTorqueOnTwoStrandsIsStoredInThem) {
+  const std::vector<Sample> all = answers(1e-5, {twist(4.0)}, clamped_pair());
+  const auto stored = [](const Sample& s) {
+    return s.stretching_energy + s.bending_energy + s.twisting_energy + s.contact_energy;
+  };
+  double work = 0.0;
+  const Sample* before = nullptr;
+  for (const Sample& sample : all) {
+    if (before && std::isfinite(before->torque))
+      work += 0.5 * (before->torque + sample.torque) * (sample.turn - before->turn);
+    before = &sample;
+  }
+  const double gained = stored(all.back()) - stored(all.front());
+  EXPECT_NEAR(all.back().turn, 8.0 * M_PI, 1e-9);
+  // Frames alone store less: the strands also bend, and stretch as they go around.
+  EXPECT_GT(gained, 1.2 * all.back().twisting_energy);
+  EXPECT_NEAR(work, gained, 0.01 * gained);  // the trapezoidal rule and drag
 }
 
 }  // namespace

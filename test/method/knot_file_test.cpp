@@ -207,9 +207,11 @@ const Shipped kShipped[] = {
     {"surgeon", 2, 2, 0},
     {"surgeon_1", 1, 0, 0},
     {"surgeon_2", 1, 0, 0},
+    {"surgeon_2_2", 1, 0, 0},
     {"surgeon_3", 1, 0, 0},
     {"thief", 2, 2, 0},
     {"triple_fisherman_bend", 2, 2, 0},
+    {"two_strands", 2, 0, 0},
     {"zeppelin", 2, 2, 0},
 };
 
@@ -243,7 +245,7 @@ TEST(ShippedKnots, FitBetweenTheGripsAtTheirDefaults) {
 TEST(ShippedKnots, OfOneRopeBetweenTheGripsAreWhatTheyAreCalled) {
   const std::pair<const char*, std::int64_t> kDeterminants[] = {
       {"overhand_tied", 3}, {"figure_eight", 5}, {"butterfly_loop", 1}, {"dropper_loop", 1},
-      {"surgeon_1", 9},     {"surgeon_2", 15},   {"surgeon_3", 21}};
+      {"surgeon_1", 9},     {"surgeon_2", 15},   {"surgeon_3", 21},     {"surgeon_2_2", 25}};
   for (const auto& [name, determinant] : kDeterminants) {
     const Method method = load_method(kBend, {std::string("specimen.knot=") + name});
     const Points rod = specimen_centreline(method.specimen, method.material, method.machine, method.physics).points;

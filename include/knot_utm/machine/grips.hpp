@@ -26,11 +26,12 @@ class Grips {
         const Material& material);
 
   bool on_rollers() const { return !rollers_.empty(); }
-  /// Whether the upper clamp can be turned: it holds one strand, which leaves it along the load axis.
-  bool clamp_turns() const { return turns_by_ != 0.0; }
-  /// Turns the frame in that clamp about the load axis [rad].
-  void turn_clamp(double turn, std::vector<FixedTwist>& frames) const;
-  /// Torque of this clamp on the rod [N m]; NaN where it cannot be turned, or the rod has no twist.
+  /// Whether the upper clamp can be turned: the strands that it holds leave it along the load axis.
+  bool clamp_turns() const { return !turns_by_.empty(); }
+  /// Turns that clamp about the load axis, to which set() left it unturned [rad]: the frames in it, and where it holds
+  /// several strands their places around the middle of them.
+  void turn_clamp(double turn, Boundary& boundary) const;
+  /// Torque of this clamp on the rod about that axis [N m]; NaN where it cannot be turned, or the rod has no twist.
   double torque(const TimeStep& step) const;
   /// Whether frames are held at both ends, so that the rod cannot turn about itself.
   bool hold_frames() const { return held_frames_.size() > 1; }
@@ -102,8 +103,9 @@ class Grips {
   std::vector<int> slipping_;            // upper ones that are guided only
   Mat3 guides_ = Mat3::Zero();           // stiffness [N/m]
   double pulled_with_ = 0.0;             // what slips, in the last accepted step [N]
-  std::vector<FixedTwist> held_frames_;  // the last one that of the upper clamp
-  double turns_by_ = 0.0;                // 1 or -1, as its edge points up or down; 0: it is not to be turned
+  std::vector<FixedTwist> held_frames_;  // the last ones those of the upper clamp
+  std::vector<double> turns_by_;         // 1 or -1, as its edges point up or down; empty: it is not to be turned
+  Vec3 turns_around_ = Vec3::Zero();     // the middle of its strands, at displacement 0
   std::vector<Roller> rollers_;          // lower, upper
   Supports supports_;
   std::vector<NodeForce> weights_;

@@ -52,7 +52,7 @@ struct MachineOptions {
 /// neighbours.
 bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
 bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
-/// Whether the upper grip is a clamp on one strand, which can be turned about the load axis.
+/// Whether the upper grip is a clamp that can be turned about the load axis: on strands of no loop.
 bool clamp_turns(const SpecimenOptions& specimen, const MachineOptions& machine);
 
 }  // namespace knot_utm

@@ -29,7 +29,7 @@ struct StepPlace {
   std::size_t index = 0;
   std::string loops;  ///< the knots that are loops, as a message lists them; empty: the specimen is one
   std::string tied;   ///< those that can be tied; empty: the specimen can
-  bool turns = true;  ///< its upper grip is a clamp on one strand, which can be turned
+  bool turns = true;  ///< its upper grip is a clamp that can be turned
 
   std::string key() const;  ///< "program.4.pull"
   /// Throws InvalidInput: the step cannot stand where it stands.
