@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,16 @@ struct KnotDrawing {
     std::string end;
     double fraction = 1.0;  ///< of the pre-load F_p [-]
   };
+  /// A place of the rope, that of a point it is drawn through.
+  struct Landmark {
+    std::string name;
+    std::size_t strand = 0, point = 0;
+  };
+  struct Reading {
+    std::string name;
+    KnotReading::Kind kind = KnotReading::Kind::kLoop;
+    std::size_t first = 0, second = 0;  ///< numbers of its landmarks
+  };
 
   std::string name;    ///< as a method gives it
   std::string title;   ///< what a report calls it
@@ -36,7 +47,9 @@ struct KnotDrawing {
   std::vector<std::string> lower, upper;  ///< ends that the grips hold
   std::vector<Post> posts;                ///< the first one stands for the lower grip where that holds no end
   std::vector<std::vector<Pull>> tie;     ///< ends that are pulled together, in order
-  std::string text;                       ///< all that describes its shape and how it is tied, the same for equal ones
+  std::vector<Landmark> landmarks;
+  std::vector<Reading> read;  ///< at most PerKnot::kMost
+  std::string text;           ///< all that describes its shape and how it is tied, the same for equal ones
 
   enum class End { kLower, kUpper, kFree };
   End held(const std::string& end) const;
