@@ -73,4 +73,4 @@ def _row(knot, runs, radius):
 def _list(text):
     """The numbers of a list of result.yaml as a table has it."""
     values = text.strip("[]").split(",") if isinstance(text, str) else []
-    return [float(value) for value in values if value and value.strip() not in ("nan", ".nan", "None")]
+    return [float(value) for value in values if value and value.strip() not in ("nan", ".nan", "null")]

@@ -63,7 +63,7 @@ Line fit(const Pull& pull, std::size_t begin, std::size_t end, Value value) {
 
 double unit(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 0.0; }
 
-/// Whether no rope with a free end touches anything any more.
+/// Whether no rope with a free end touches a rope any more.
 bool came_apart(const Sample& sample) {
   const PerKnot& tails = sample.tail_length;
   return tails.size() > 0 && std::none_of(tails.begin(), tails.end(), [](double tail) { return std::isfinite(tail); });

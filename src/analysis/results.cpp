@@ -400,15 +400,43 @@ void read_tied(const Course& course, Results& results) {
   results.tied_knot_distance = known(tied->knot_distance);
 }
 
-/// From the first sample of the pull to the last one in which the rope of a free end touched something.
+constexpr double kRanOut = 0.1;  // of its first length, that is left of a tail which runs out of its knot
+
+/// From the first sample of the pull to the last one in which the rope of a free end touched one. What a rope touches
+/// that came out of its knot says nothing of the tail: one that touches none once the load has been largest, or whose
+/// tail had run out.
 void read_tails(const std::vector<Sample>& samples, const Sample* pull_begin, Results& results) {
   if (pull_begin == nullptr) return;
   const PerKnot& begin = pull_begin->tail_length;
   results.tail_slip = PerKnot::unknown(begin.size());
+  const auto first = std::find_if(samples.begin(), samples.end(),
+                                  [&](const Sample& sample) { return sample.time >= pull_begin->time; });
+  const auto largest = std::max_element(first, samples.end(),
+                                        [](const Sample& a, const Sample& b) { return a.force_upper < b.force_upper; });
+  for (std::size_t k = 0; k < begin.size(); ++k) {
+    const double short_tail = kRanOut * begin[k];
+    bool ran_out = false;
+    for (auto sample = first; sample != samples.end(); ++sample) {
+      const double length = sample->tail_length.at(k);
+      if (std::isnan(length) ? sample > largest : ran_out && length > short_tail) break;
+      if (std::isnan(length)) continue;
+      results.tail_slip[k] = begin[k] - length;
+      ran_out |= length < short_tail;
+    }
+  }
+}
+
+/// Answers alone have them. What is not there as the pull begins, begins as it first is.
+void read_knot(const std::vector<Sample>& samples, const Sample* pull_begin, Results& results) {
+  if (pull_begin == nullptr) return;
+  PerKnot &begin = results.knot_reading_begin, &end = results.knot_reading_end;
   for (const Sample& sample : samples) {
-    if (sample.time < pull_begin->time) continue;
-    for (std::size_t k = 0; k < begin.size(); ++k)
-      if (std::isfinite(sample.tail_length.at(k))) results.tail_slip[k] = begin[k] - sample.tail_length.at(k);
+    const PerKnot& now = sample.knot_readings;
+    if (begin.size() < now.size()) begin = end = PerKnot::unknown(now.size());
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      if (sample.time <= pull_begin->time || !std::isfinite(begin[k])) begin[k] = now[k];
+      if (sample.time >= pull_begin->time && std::isfinite(now[k])) end[k] = now[k];
+    }
   }
 }
 
@@ -443,6 +471,7 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   read_motion(samples, readings, on_rollers, course.motion(), results);
   read_tied(course, results);
   read_tails(samples, course.pull_begin(), results);
+  read_knot(samples, course.pull_begin(), results);
   read_snap(samples, results);
   read_curve(readings, course.at_break(), on_rollers, results);
   course.read_balances();

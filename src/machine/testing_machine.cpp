@@ -13,6 +13,7 @@
 #include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/free_ends.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/knot_readings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
@@ -57,12 +58,13 @@ struct TestingMachine::Impl {
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
-  std::optional<RopeStrengths> strengths;  // of a rod that can part
-  std::optional<BreakWatch> breaks;        // where the rod can part
-  bool refused = false;                    // by it, the step that was tried last, though it was solved
-  std::unique_ptr<Tying> tying;            // where it can be tied
-  std::optional<KnotWatch> watch;          // where it is knotted
-  std::optional<FreeEnds> free_ends;       // where its file says which they are
+  std::optional<RopeStrengths> strengths;     // of a rod that can part
+  std::optional<BreakWatch> breaks;           // where the rod can part
+  bool refused = false;                       // by it, the step that was tried last, though it was solved
+  std::unique_ptr<Tying> tying;               // where it can be tied
+  std::optional<KnotWatch> watch;             // where it is knotted
+  std::optional<FreeEnds> free_ends;          // where its file says which they are
+  std::optional<KnotReadings> knot_readings;  // where its file asks for some
   Boundary boundary;
 
   double time = 0.0;
@@ -125,6 +127,7 @@ struct TestingMachine::Impl {
     control = StepControl(options);
     tying = make_tying(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
     if (!centreline.free.empty()) free_ends.emplace(centreline, stepper->rod());
+    if (!centreline.read.empty()) knot_readings.emplace(centreline, stepper->rod());
     if (type_is_followed(specimen)) {
       watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points, centreline.windings());
@@ -334,7 +337,7 @@ struct TestingMachine::Impl {
     s.balance_offset = cell.offset();
     s.tail_force = s.excess_length = PerKnot::unknown(static_cast<std::size_t>(knot_of(specimen).about().knots));
     if (tying) tying->read(s);
-    if (free_ends && knows_contacts()) s.tail_length = free_ends->lengths(stepper->readings().normal_forces());
+    if (free_ends && knows_contacts()) s.tail_length = free_ends->lengths(stepper->readings().strand_normal_forces());
     const ContactReading contact = stepper->readings().contact();
     s.max_penetration = contact.largest_overlap / thinnest(material);
     s.normal_force = contact.normal_force;
@@ -455,6 +458,7 @@ struct TestingMachine::Impl {
     }
     if (watch && !parted()) watch->follow(stepper->state().position);
     Sample last = read(command, time);
+    if (knot_readings && knows_contacts()) last.knot_readings = knot_readings->at(stepper->state().position);
     if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper, time);
     for (const Sample& step : substeps) {
       last.highest_load = std::max(last.highest_load, step.highest_load);

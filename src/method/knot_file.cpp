@@ -1,12 +1,14 @@
 #include "knot_utm/method/knot_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/per_knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "method_reader.hpp"
 #include "yaml_text.hpp"
@@ -50,8 +52,8 @@ class KnotReader {
     return out;
   }
 
-  std::string name(const std::string& key, const YAML::Node& node) const {
-    if (!node.IsScalar() || node.Scalar().empty()) refuse(key, node, "the name of an end");
+  std::string name(const std::string& key, const YAML::Node& node, const char* what = "the name of an end") const {
+    if (!node.IsScalar() || node.Scalar().empty()) refuse(key, node, what);
     require_one_line(key, node.Scalar());
     return node.Scalar();
   }
@@ -121,6 +123,92 @@ std::vector<std::string> ends_of(const KnotDrawing& knot) {
   return out;
 }
 
+/// Landmarks, each a place of a strand, and what is read between them.
+class LandmarkReader {
+ public:
+  LandmarkReader(const KnotReader& reader, KnotDrawing& knot) : reader_(reader), knot_(knot) {}
+
+  void landmarks(const YAML::Node& node) {
+    for (const auto& [name, place] : named("landmarks", node, "a map such as {eye: [0, 17]}")) {
+      const std::string key = "landmarks." + name;
+      if (!place.IsSequence() || place.size() != 2)
+        reader_.refuse(key, place, "the number of a strand and of one of its points, both from 0, such as [0, 17]");
+      const std::size_t strand = number_below(knot_.strands.size(), key + ".0", place[0], "strand");
+      const std::size_t point = number_below(knot_.strands[strand].points.size(), key + ".1", place[1],
+                                             "point of strand " + std::to_string(strand));
+      knot_.landmarks.push_back({name, strand, point});
+    }
+  }
+
+  void read(const YAML::Node& node) {
+    for (const auto& [name, what] : named("read", node, "a map such as {eye: {loop: eye}}")) {
+      const std::string key = "read." + name;
+      if (knot_.read.size() == PerKnot::kMost)
+        reader_.refuse(key, one_line(what), "at most " + std::to_string(PerKnot::kMost) + " things are read of a knot");
+      if (!what.IsMap() || what.size() != 1) reader_.refuse(key, what, kWhat);
+      const YAML::Node of = what.begin()->second;
+      const std::string kind = what.begin()->first.IsScalar() ? what.begin()->first.Scalar() : "";
+      if (kind == "loop") {
+        const std::size_t around = landmark(key + ".loop", of);
+        knot_.read.push_back({name, KnotReading::Kind::kLoop, around, around});
+      } else if (kind == "between" || kind == "distance") {
+        const std::string place = key + "." + kind;
+        if (!of.IsSequence() || of.size() != 2) reader_.refuse(place, of, "a list of two landmarks");
+        const std::size_t first = landmark(place, of[0]), second = landmark(place, of[1]);
+        const bool along = kind == "between";
+        if (first == second) reader_.refuse(place, one_line(of), "it must have two landmarks that differ");
+        if (along && knot_.landmarks[first].strand != knot_.landmarks[second].strand)
+          reader_.refuse(place, one_line(of), "both landmarks must be of one strand");
+        knot_.read.push_back({name, along ? KnotReading::Kind::kBetween : KnotReading::Kind::kDistance, first, second});
+      } else {
+        reader_.refuse(key, what, kWhat);
+      }
+    }
+  }
+
+ private:
+  static constexpr const char* kWhat =
+      "{loop: LANDMARK}, {between: [LANDMARK, LANDMARK]} or {distance: [LANDMARK, LANDMARK]}";
+
+  /// The items of a map, in their order, whose names differ.
+  std::vector<std::pair<std::string, YAML::Node>> named(const char* key, const YAML::Node& node,
+                                                        const char* what) const {
+    std::vector<std::pair<std::string, YAML::Node>> out;
+    if (!node.IsDefined() || node.IsNull()) return out;
+    if (!node.IsMap()) reader_.refuse(key, node, what);
+    std::set<std::string> known;
+    for (const auto& item : node) {
+      const std::string name = reader_.name(key, item.first, "a name");
+      if (!known.insert(name).second) reader_.refuse(key, name, shown(name) + " stands there twice");
+      out.emplace_back(name, item.second);
+    }
+    return out;
+  }
+
+  std::size_t number_below(std::size_t count, const std::string& key, const YAML::Node& node,
+                           const std::string& what) const {
+    const std::optional<double> value = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
+    if (!value || !(*value >= 0.0 && *value < static_cast<double>(count)) || *value != std::floor(*value))
+      reader_.refuse(key, node, "the number of a " + what + ", from 0 to " + std::to_string(count - 1));
+    return static_cast<std::size_t>(*value);
+  }
+
+  std::size_t landmark(const std::string& key, const YAML::Node& node) const {
+    const std::string name = reader_.name(key, node, "the name of a landmark");
+    std::vector<std::string> names;
+    for (const KnotDrawing::Landmark& one : knot_.landmarks) names.push_back(one.name);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      reader_.refuse(key, name,
+                     "no landmark is called " + shown(name) + "; " +
+                         (names.empty() ? "there are none" : "there are " + listed(names, ", ")));
+    return static_cast<std::size_t>(found - names.begin());
+  }
+
+  const KnotReader& reader_;
+  KnotDrawing& knot_;
+};
+
 /// Names differ, and what is held or pulled is an end of a strand. One grip holds it. It is pulled once in a group, and
 /// not away from the lower grip, which stands still and bears what all others are pulled with.
 void check_names(const KnotReader& reader, const KnotDrawing& knot) {
@@ -151,8 +239,13 @@ void check_names(const KnotReader& reader, const KnotDrawing& knot) {
                           "ends are pulled with; name free ends, and ends of the upper grip");
     }
   }
+  for (const KnotDrawing::Landmark& landmark : knot.landmarks)
+    if (known.count(landmark.name) != 0)
+      reader.refuse("landmarks", landmark.name, shown(landmark.name) + " is the name of an end");
+  for (const KnotDrawing::Landmark& landmark : knot.landmarks) known.insert(landmark.name);
   for (const KnotDrawing::Pull& weight : knot.weights) {
-    require_known("weights", weight.end);
+    if (known.count(weight.end) == 0)
+      reader.refuse("weights", weight.end, "no end and no landmark is called " + shown(weight.end));
     if (knot.held(weight.end) != KnotDrawing::End::kFree)
       reader.refuse("weights", weight.end, shown(weight.end) + " is held by a grip, which bears what hangs there");
   }
@@ -215,8 +308,12 @@ std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& f
   out.posts = list_of(reader, "posts", top.take("posts"), "a list of posts", post);
   out.tie = list_of(reader, "tie", top.take("tie"), "a list of maps such as {tail: 1}", pulls);
   if (const YAML::Node weights = top.take("weights"); weights.IsDefined()) out.weights = pulls("weights", weights);
+  const YAML::Node landmarks = top.take("landmarks"), read = top.take("read");
   top.finish();
   if (out.strands.empty()) reader.refuse("strands", "", "a knot must have at least one strand");
+  LandmarkReader of_landmarks(reader, out);
+  of_landmarks.landmarks(landmarks);
+  of_landmarks.read(read);
   check_names(reader, out);
   check_held_ends(reader, out);
   YAML::Node shape = YAML::Clone(root);

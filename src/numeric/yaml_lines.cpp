@@ -51,11 +51,12 @@ void YamlLines::text(const char* key, const std::string& value) { word(key, valu
 
 void YamlLines::numbers(const char* key, const std::vector<double>& values) {
   std::string all;
+  bool known = false;
   for (const double value : values) {
-    if (!std::isfinite(value)) return word(key, "null");
-    all += (all.empty() ? "" : ", ") + format_yaml_number(value);
+    known |= std::isfinite(value);
+    all += (all.empty() ? "" : ", ") + (std::isfinite(value) ? format_yaml_number(value) : "null");
   }
-  word(key, values.empty() ? "null" : "[" + all + "]");
+  word(key, known ? "[" + all + "]" : "null");
 }
 
 void YamlLines::list(const char* key, const std::vector<std::string>& texts) {

@@ -13,6 +13,7 @@
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/shape_series.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/topology/knot_hole.hpp"
 #include "knot_utm/topology/loop_turn.hpp"
@@ -96,6 +97,9 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   known_.strands = bearing_strands(method.specimen);
   known_.may_hold_a_knot = knot.may_hold_a_knot();
   known_.follows_type = !knot.may_hold_a_knot() || type_is_followed(method.specimen);
+  if (method.specimen.drawing)
+    for (const KnotDrawing::Reading& reading : method.specimen.drawing->read)
+      known_.knot_readings.push_back(reading.name);
   known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
   if (method.specimen.to_be_tied) known_.knot_distance = method.specimen.knot_distance;
   if (method.machine.roller_rotation == RollerRotation::kTurned)

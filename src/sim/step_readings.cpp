@@ -31,9 +31,14 @@ std::vector<ContactForce> StepReadings::contact_forces() const {
   return knot_utm::contact_forces(strands_, state_.position);
 }
 
-Eigen::VectorXd StepReadings::normal_forces() const {
+Eigen::VectorXd StepReadings::strand_normal_forces() const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(state_.position.cols());
   add_normal_forces(strands_, force);
+  return force;
+}
+
+Eigen::VectorXd StepReadings::normal_forces() const {
+  Eigen::VectorXd force = strand_normal_forces();
   add_normal_forces(rollers_now_.contacts(), force);
   return force;
 }

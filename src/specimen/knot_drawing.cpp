@@ -8,6 +8,7 @@
 #include "knot_utm/contact/sampled_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
+#include "knot_utm/specimen/polyline.hpp"
 #include "path.hpp"
 #include "shape_checks.hpp"
 
@@ -41,8 +42,12 @@ class Drawer {
   Drawer(const KnotDrawing& drawing, const DrawnSize& size)
       : drawing_(drawing), size_(size), origin_(height_of_origin(drawing, size)) {}
 
+  struct Drawn {
+    Points points;
+    std::vector<double> places;  // of the points it is drawn through: arclengths along its edges [m]
+  };
   /// `part`: its radius and edge length over those of the thickest one.
-  Points strand(const KnotDrawing::Strand& strand, double part) const {
+  Drawn strand(const KnotDrawing::Strand& strand, double part) const {
     const double spacing = drawing_spacing(part * size_.radius, part * size_.edge_length);
     std::vector<Vec3> points;
     for (const Vec3& point : strand.points) points.push_back(placed(point));
@@ -50,16 +55,21 @@ class Drawer {
                end = run_out(strand.ends[1], points.back(), points[points.size() - 2]);
     Path path(spacing);
     path.add(begin);
+    path.add(points[0]);
+    std::vector<double> places{path.length()};
     const std::size_t last = points.size() - 1;
     for (std::size_t i = 0; i < last; ++i) {
       // Beyond its ends the strand runs on straight.
       const Vec3 p[4] = {i == 0 ? ahead(points[0], begin, points[1]) : points[i - 1], points[i], points[i + 1],
                          i + 1 == last ? ahead(points[last], end, points[last - 1]) : points[i + 2]};
       path.add_curve((p[2] - p[1]).norm(), [&](double t) { return catmull_rom(p, t); });
+      places.push_back(path.length());
     }
     path.add(end);
     const EdgeGrading even{part * size_.edge_length, {}};
-    return Resampled(path, smoothed(path, size_.radius, spacing), even).points;
+    const Resampled rod(path, smoothed(path, size_.radius, spacing), even);
+    for (double& place : places) place = rod(place);
+    return {rod.points, std::move(places)};
   }
 
   Vec3 placed(const Vec3& point) const { return size_.radius * point + origin_ * Vec3::UnitZ(); }
@@ -115,6 +125,12 @@ void check_bends(const KnotDrawing& drawing, double radius, const Points& strand
                                    "specimen.knot " + shown(drawing.name) + ": a strand bends with a radius of " +
                                        text(bend / radius) + " radii of the rod, but must do so with at least one");
   }
+}
+
+int node_at(double place, const Points& strand) {
+  const std::vector<double> at = arclengths(strand);
+  const auto nearer = [&](double a, double b) { return std::abs(a - place) < std::abs(b - place); };
+  return static_cast<int>(std::min_element(at.begin(), at.end(), nearer) - at.begin());
 }
 
 /// The node of an end, and its neighbour on the strand.
@@ -183,21 +199,26 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
     throw InvalidInput("specimen.end_to_end", text(size.end_to_end),
                        "auto, " + text(least) + " m, which its posts are apart, for knot: " + drawing.name);
   const Drawer drawer(drawing, size);
-  std::vector<Points> strands;
+  std::vector<Drawer::Drawn> strands;
   Eigen::Index nodes = 0;
   for (const KnotDrawing::Strand& strand : drawing.strands) {
     const double part = strands.empty() ? size.first : size.others;
     strands.push_back(drawer.strand(strand, part));
-    check_bends(drawing, part * size.radius, strands.back());
-    nodes += strands.back().cols();
+    check_bends(drawing, part * size.radius, strands.back().points);
+    nodes += strands.back().points.cols();
   }
   Centreline out;
   out.points.resize(3, nodes);
   std::vector<std::pair<std::string, EndNode>> ends;
+  std::vector<int> landmarks(drawing.landmarks.size());
   int begin = 0;
   for (std::size_t k = 0; k < strands.size(); ++k) {
-    const int end = begin + static_cast<int>(strands[k].cols());
-    out.points.middleCols(begin, strands[k].cols()) = strands[k];
+    const Points& points = strands[k].points;
+    const int end = begin + static_cast<int>(points.cols());
+    out.points.middleCols(begin, points.cols()) = points;
+    for (std::size_t i = 0; i < landmarks.size(); ++i)
+      if (const KnotDrawing::Landmark& landmark = drawing.landmarks[i]; landmark.strand == k)
+        landmarks[i] = begin + node_at(strands[k].places[landmark.point], points);
     if (k > 0) out.cuts.push_back(begin - 1);
     ends.push_back({drawing.strands[k].ends[0], {begin, begin + 1}});
     ends.push_back({drawing.strands[k].ends[1], {end - 1, end - 2}});
@@ -219,9 +240,14 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
     return found;
   };
   for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) out.tied.push_back(pulled(together));
-  for (const KnotDrawing::Pull& weight : drawing.weights)
+  for (const KnotDrawing::Pull& weight : drawing.weights) {
     for (const auto& [name, at] : ends)
       if (name == weight.end) out.weights.push_back({at.node, weight.fraction});
+    for (std::size_t i = 0; i < landmarks.size(); ++i)
+      if (drawing.landmarks[i].name == weight.end) out.weights.push_back({landmarks[i], weight.fraction});
+  }
+  for (const KnotDrawing::Reading& reading : drawing.read)
+    out.read.push_back({reading.kind, landmarks[reading.first], landmarks[reading.second]});
   std::vector<double> radii;
   if (size.first != size.others) {
     radii.assign(strands.size(), size.others * size.radius);

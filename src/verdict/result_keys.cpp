@@ -131,6 +131,12 @@ std::string failure_mode(const Source& of) { return of.results.failure_mode; }
 std::string no_plateau_because(const Source& of) { return of.results.curve.no_plateau; }
 std::vector<std::string> warnings(const Source& of) { return all_warnings(of.results, of.facts); }
 std::vector<std::string> specification_failed(const Source& of) { return of.verdict.failed; }
+std::vector<std::string> knot_readings(const Source& of) { return of.facts.knot_readings; }
+std::string why_no_reading(const Source& of) {
+  if (of.facts.knot_readings.empty()) return "the knot's file reads nothing";
+  const std::string not_pulled = why_not_pulled(of);
+  return not_pulled.empty() ? "its ropes touch nowhere that ends a loop" : not_pulled;
+}
 Flag specification_passed(const Source& of) { return of.verdict.passed; }
 Flag not_equilibrated(const Source& of) { return !why_not_at_rest(of.results, of.facts).empty(); }
 Flag knot_type_preserved(const Source& of) {
@@ -190,6 +196,11 @@ constexpr ResultKey kKeys[] = {
      kNoLoop},
     {"tail_slip", "m", kKnots, "Length of each free end that ran into the knot in the pull", of_knots<&R::tail_slip>,
      "no end of a rope is free that a file describes"},
+    {"knot_readings", "-", kKnots, "Names of what the knot's file reads of it", knot_readings, kNoReason},
+    {"knot_reading_begin", "m", kKnots, "What they are as the pull begins", of_knots<&R::knot_reading_begin>,
+     why_no_reading},
+    {"knot_reading_end", "m", kKnots, "What they are at the end of the pull", of_knots<&R::knot_reading_end>,
+     why_no_reading},
     {"opened_when_mounted", "m", kKnots,
      "How much nearer the knots came as the loop was mounted and one of them opened", read<&R::opened_when_mounted>,
      "no knot opened as the loop was mounted"},

@@ -67,6 +67,47 @@ TEST(Results, SayWhereTheKnotsFirstTouchEachOtherAndARoller) {
   EXPECT_NEAR(*results.roller_touched_at, 0.09, 1.2e-3);
 }
 
+/// A pull in steps of a second, of a knot that is read at every second of them, as answers are.
+std::vector<Sample> read_pull(const std::vector<double>& forces) {
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    Sample sample;
+    sample.phase = i == 0 ? Phase::kRelease : Phase::kPull;
+    sample.time = static_cast<double>(i);
+    sample.extension = 1e-3 * sample.time;
+    sample.force_upper = sample.force_lower = sample.load = forces[i];
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+TEST(Results, WhatIsReadOfAKnotIsThatOfThePullWhereItIsKnown) {
+  std::vector<Sample> samples = read_pull({0, 0, 1, 2, 3, 4, 5});
+  constexpr double kUnknown = PerKnot::kUnknown;
+  samples[0].knot_readings = {0.5, 0.7, 0.9};
+  samples[1].knot_readings = {0.4, kUnknown, kUnknown};
+  samples[3].knot_readings = {0.3, 0.2, kUnknown};
+  samples[5].knot_readings = {kUnknown, 0.1, kUnknown};
+  const Results results = on_rollers(samples, EndedBy::kExtension);
+  ASSERT_EQ(results.knot_reading_begin.size(), 3u);
+  EXPECT_EQ(results.knot_reading_begin[0], 0.4);
+  EXPECT_EQ(results.knot_reading_end[0], 0.3);
+  EXPECT_EQ(results.knot_reading_begin[1], 0.2);
+  EXPECT_EQ(results.knot_reading_end[1], 0.1);
+  EXPECT_TRUE(std::isnan(results.knot_reading_begin[2]) && std::isnan(results.knot_reading_end[2]));
+}
+
+/// A rope that lost its knot flies about and touches itself again; before the largest load it may be loose.
+TEST(Results, ATailHasSlippedAsFarAsItWasInTheKnot) {
+  std::vector<Sample> samples = read_pull({0, 1, 0.5, 2, 5, 4, 0, 0, 0});
+  const double lengths[] = {0.1, 0.1, PerKnot::kUnknown, 0.09, 0.08, 0.03, PerKnot::kUnknown, 0.3, 0.2};
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].tail_length = {lengths[i]};
+  EXPECT_NEAR(on_rollers(samples, EndedBy::kExtension).tail_slip[0], 0.07, 1e-15);
+  samples[5].tail_length = {0.005};
+  samples[6].tail_length = {0.002};  // and out of the knot
+  EXPECT_NEAR(on_rollers(samples, EndedBy::kExtension).tail_slip[0], 0.098, 1e-15);
+}
+
 TEST(Results, AJumpIsToldInBothForces) {
   std::vector<Sample> samples = Curve().samples();
   for (Sample& sample : samples) {

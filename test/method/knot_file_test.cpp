@@ -125,14 +125,17 @@ TEST_F(KnotFile, MayStandOnPostsOfEitherGripAndBearWeights) {
   EXPECT_THAT(complaint("lower: [lower]\nupper: [upper]\n", post), HasSubstr("lower: the lower grip must hold"));
   EXPECT_THAT(complaint("upper: [upper]\n", "posts: [{through: [0, 0, 30], along: [0, 1, 0], radius: 5, grip: up}]\n"),
               HasSubstr("posts.0.grip is \"up\", but must be lower, whose post stands still, or upper"));
-  EXPECT_THAT(complaint("tie:", "weights: {tail: 1}\ntie:"), HasSubstr("weights: no end is called tail"));
+  EXPECT_THAT(complaint("tie:", "weights: {tail: 1}\ntie:"),
+              HasSubstr("weights: no end and no landmark is called tail"));
   EXPECT_THAT(complaint("tie:", "weights: {lower: 1}\ntie:"), HasSubstr("weights: lower is held by a grip"));
   EXPECT_THAT(complaint("tie:", "weights: {lower_tail: 0}\ntie:"), HasSubstr("weights.lower_tail is 0, but must be"));
-  EXPECT_EQ(complaint("upper: [upper]\n", post + "weights: {upper: 0.5}\n"), "");
+  EXPECT_THAT(complaint("tie:", "landmarks: {upper: [0, 1]}\ntie:"),
+              HasSubstr("landmarks: upper is the name of an end"));
+  EXPECT_EQ(complaint("upper: [upper]\n", post + "landmarks: {eye: [0, 3]}\nweights: {upper: 0.5, eye: 1}\n"), "");
   const auto knot = read_knot_file(file(), "hooks");
   EXPECT_TRUE(knot->posts.front().upper);
   EXPECT_EQ(knot->top(), 30.0);
-  ASSERT_EQ(knot->weights.size(), 1u);
+  ASSERT_EQ(knot->weights.size(), 2u);
   EXPECT_EQ(knot->weights.front().fraction, 0.5);
 }
 
@@ -143,6 +146,58 @@ TEST_F(KnotFile, MayPullEndsOfTheUpperGripAndAnEndAgainInALaterGroup) {
   EXPECT_EQ(knot->tie[0][1].end, "upper");
   EXPECT_EQ(knot->tie[1][0].end, "upper");
   EXPECT_EQ(knot->tie[1][1].fraction, 0.5);
+}
+
+const char* const kReadHooks = R"(landmarks: {bend: [0, 3], hook: [1, 3], tip: [0, 5]}
+read:
+  bend: {loop: bend}
+  way: {between: [bend, tip]}
+  opening: {distance: [bend, hook]}
+tie:)";
+
+TEST_F(KnotFile, SaysWhatIsReadOfTheKnot) {
+  EXPECT_EQ(complaint("tie:", kReadHooks), "");
+  const auto knot = read_knot_file(file(), "hooks");
+  ASSERT_EQ(knot->landmarks.size(), 3u);
+  EXPECT_EQ(knot->landmarks[1].name, "hook");
+  EXPECT_EQ(knot->landmarks[1].strand, 1u);
+  EXPECT_EQ(knot->landmarks[1].point, 3u);
+  ASSERT_EQ(knot->read.size(), 3u);
+  EXPECT_EQ(knot->read[0].kind, KnotReading::Kind::kLoop);
+  EXPECT_EQ(knot->read[1].kind, KnotReading::Kind::kBetween);
+  EXPECT_EQ(knot->read[1].second, 2u);
+  EXPECT_EQ(knot->read[2].kind, KnotReading::Kind::kDistance);
+}
+
+TEST_F(KnotFile, IsRefusedWhereItReadsWhatIsNotThere) {
+  const auto said = [&](const std::string& from, const std::string& to) {
+    std::string lines = kReadHooks;
+    const std::size_t at = lines.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return complaint("tie:", lines.replace(at, from.size(), to));
+  };
+  EXPECT_THAT(said("[0, 3]", "[2, 3]"),
+              HasSubstr("hooks.yaml: landmarks.bend.0 is 2, but must be the number of a strand, from 0 to 1"));
+  EXPECT_THAT(said("[0, 3]", "[0, 6]"),
+              HasSubstr("landmarks.bend.1 is 6, but must be the number of a point of strand 0"));
+  EXPECT_THAT(said("[0, 3]", "[0, 2.5]"), HasSubstr("landmarks.bend.1 is 2.5"));
+  EXPECT_THAT(said("[0, 3]", "[0, -1]"), HasSubstr("landmarks.bend.1 is -1"));
+  EXPECT_THAT(said("[0, 3]", "3"), HasSubstr("landmarks.bend is 3, but must be the number of a strand and of one"));
+  EXPECT_THAT(said("hook:", "bend:"), HasSubstr("bend"));
+  EXPECT_THAT(said("{loop: bend}", "{loop: eye}"),
+              HasSubstr("read.bend.loop: no landmark is called eye; there are bend, hook"));
+  EXPECT_THAT(said("{loop: bend}", "{ring: bend}"),
+              HasSubstr("read.bend is {ring: bend}, but must be {loop: LANDMARK}"));
+  EXPECT_THAT(said("{loop: bend}", "bend"), HasSubstr("read.bend"));
+  EXPECT_THAT(said("[bend, tip]", "[bend, hook]"), HasSubstr("read.way.between: both landmarks must be of one strand"));
+  EXPECT_THAT(said("[bend, tip]", "[bend, bend]"),
+              HasSubstr("read.way.between: it must have two landmarks that differ"));
+  EXPECT_THAT(said("[bend, tip]", "[bend]"),
+              HasSubstr("read.way.between is [bend], but must be a list of two landmarks"));
+  EXPECT_THAT(said("  way:", "  bend:"), HasSubstr("bend"));
+  EXPECT_THAT(said("  way:", "  a: {loop: tip}\n  b: {loop: tip}\n  way:"),
+              HasSubstr("read.opening: at most 4 things"));
+  EXPECT_THAT(said("landmarks:", "marks:"), HasSubstr("marks"));
 }
 
 TEST_F(KnotFile, IsNamedInAMethodByItsPath) {

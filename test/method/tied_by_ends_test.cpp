@@ -158,6 +158,55 @@ TEST(TiedByEnds, ReadsHowMuchOfEachFreeEndIsLeft) {
   EXPECT_LT(slipped, 2.0 * 0.02);
 }
 
+/// How far from its free end a rope of one strand first comes near to itself, whatever lies between it and a post.
+double tail_by_places(const TestingMachine& machine, double radius) {
+  const Points& position = machine.state().position;
+  const Eigen::VectorXd at = machine.rod().arclength();
+  const Eigen::Index last = at.size() - 1;
+  for (Eigen::Index i = last; i >= 0; --i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      if (at[i] - at[j] > 1.5 * M_PI * radius && (position.col(i) - position.col(j)).norm() < 2.2 * radius)
+        return at[last] - at[i];
+  return PerKnot::kUnknown;
+}
+
+/// The post bears most where the load comes in: of a round turn, a twentieth with its force is 20 radii further on.
+TEST(TiedByEnds, TheTailOfAHitchEndsWhereTheRopeComesUponItself) {
+  for (const char* knot : {"clove_hitch", "round_turn"}) {
+    Bench bench(knot_method(knot));
+    const double h = bench.method.material.radius;
+    bench.run_past(Phase::kRelease);
+    // It presses a few radii further on than where it comes near.
+    EXPECT_NEAR(bench.last.tail_length[0], tail_by_places(bench.machine, h), 5.0 * h) << knot;
+    bench.run_past(Phase::kPull);
+    EXPECT_NEAR(bench.last.tail_length[0], tail_by_places(bench.machine, h), 5.0 * h) << knot;
+  }
+}
+
+/// Of the rod between the first touches from either end of an overhand, as much is lost as the ends gain beyond how
+/// much they stretch, but for how much shorter the knot becomes along the load axis as it tightens.
+TEST(TiedByEnds, ARopeIsReadToLoseInTheKnotWhatItsEndsGain) {
+  Method method = knot_method("overhand_tied");
+  KnotDrawing drawing = *method.specimen.drawing;
+  drawing.landmarks = {{"lower", 0, 0}, {"upper", 0, drawing.strands[0].points.size() - 1}};
+  drawing.read = {{"knot", KnotReading::Kind::kBetween, 0, 1}, {"ends", KnotReading::Kind::kDistance, 0, 1}};
+  method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
+  Bench bench(method);
+  bench.run_past(Phase::kRelease);
+  const Sample first = bench.last;
+  bench.run_past(Phase::kPull);
+  ASSERT_EQ(first.knot_readings.size(), 2u);
+  const Sample& last = bench.last;
+  const double stretch = last.force_upper / method.material.stretching_stiffness * last.end_to_end,
+               gained = last.end_to_end - first.end_to_end - stretch,
+               lost = first.knot_readings[0] - last.knot_readings[0];
+  EXPECT_GT(gained, 0.015);
+  EXPECT_NEAR(lost, gained, 0.2 * method.material.radius);
+  // An answer is read, and no time step before it.
+  const std::vector<Sample>& steps = bench.machine.substeps();
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) EXPECT_EQ(steps[i].knot_readings.size(), 0u);
+}
+
 void expect_the_same_bits_from_a_saved_state(const Method& method, int commands) {
   Bench bench(method);
   for (int i = 0; i < commands; ++i)
@@ -223,11 +272,13 @@ TEST(TiedByEnds, APinThatMovesPullsAsAPostThatStandsStill) {
 TEST(TiedByEnds, AWeightHangsOnAnEndFromItsReleaseOn) {
   Method method = knot_method("bowline");
   KnotDrawing drawing = *method.specimen.drawing;
-  drawing.weights = {{"tail", 0.05}};
+  drawing.landmarks = {{"loop", 0, 5}};
+  drawing.weights = {{"tail", 0.05}, {"loop", 0.02}};
   method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
   Bench bench(method);
   const Centreline rod = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
-  ASSERT_EQ(rod.weights.size(), 1u);
+  ASSERT_EQ(rod.weights.size(), 2u);
+  EXPECT_GT(rod.weights[1].node, 0);
   const int tail = rod.weights.front().node;
   const double preload = *method.specimen.preload, weight = 0.05 * preload;
   bench.run_past(Phase::kTie);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/polyline.hpp"
@@ -76,6 +77,29 @@ TEST(KnotDrawing, GoesThroughItsPointsAsFarAsItsBendsAreRoundedOff) {
       // A Gaussian of one radius moves a bend of four radii by an eighth of a radius, and edges are one radius long.
       EXPECT_LT((rod.points.colwise() - place).colwise().norm().minCoeff(), 0.8 * kSize.radius);
     }
+}
+
+TEST(KnotDrawing, FindsALandmarkAlongItsStrandAtAnyLengthOfEdges) {
+  KnotDrawing knot = hooks();
+  knot.landmarks = {{"bend", 0, 2}, {"hook", 1, 3}, {"end", 1, 5}};
+  knot.read = {{"loop", KnotReading::Kind::kLoop, 0, 0}, {"way", KnotReading::Kind::kDistance, 1, 2}};
+  for (const double edge : {0.003, 0.0015, 0.0005}) {
+    DrawnSize size = kSize;
+    size.edge_length = edge;
+    const Centreline rod = draw(knot, size);
+    ASSERT_EQ(rod.read.size(), 2u);
+    EXPECT_EQ(rod.read[0].kind, KnotReading::Kind::kLoop);
+    EXPECT_EQ(rod.read[0].second, rod.read[0].first);
+    EXPECT_LE(rod.read[0].first, rod.cuts[0]);
+    EXPECT_GT(rod.read[1].first, rod.cuts[0]);
+    const std::pair<int, Vec3> places[] = {
+        {rod.read[0].first, {0, 1, 0}}, {rod.read[1].first, {4, -1, -1}}, {rod.read[1].second, {4, -2, 7}}};
+    for (const auto& [node, point] : places) {
+      const Vec3 place = kSize.radius * point + (0.15 + 0.0015) * Vec3::UnitZ();
+      // Half an edge, and what a Gaussian of one radius moves so sharp a bend by.
+      EXPECT_LT((rod.points.col(node) - place).norm(), 0.5 * edge + 0.5 * kSize.radius) << edge;
+    }
+  }
 }
 
 TEST(KnotDrawing, HasEdgesOfTheLengthThatIsAskedFor) {

@@ -401,6 +401,18 @@ TEST_F(Warnings, SayWhatTheResultsShow) {
   EXPECT_TRUE((*this)["not_equilibrated"].as<bool>());
 }
 
+TEST_F(Warnings, AreNoneWhereAKnotIsReadAndItsReadingsAreNamed) {
+  EXPECT_EQ((*this)["knot_readings"].size(), 0u);
+  EXPECT_TRUE((*this)["knot_reading_end"].IsNull());
+  facts.knot_readings = {"inner_loop", "braid"};
+  results.knot_reading_begin = {0.25, PerKnot::kUnknown};
+  results.knot_reading_end = {0.125, 0.5};
+  EXPECT_EQ((*this)["knot_readings"].as<std::vector<std::string>>(), facts.knot_readings);
+  EXPECT_EQ((*this)["knot_reading_begin"][0].as<double>(), 0.25);
+  EXPECT_TRUE((*this)["knot_reading_begin"][1].IsNull());
+  EXPECT_EQ((*this)["knot_reading_end"][1].as<double>(), 0.5);
+}
+
 /// Ctrl-C while the knots are tied finds them still far from where they will be.
 TEST_F(Warnings, SayNothingOfKnotsThatWereNotReleased) {
   results.tied_knot_distance = 0.0967;

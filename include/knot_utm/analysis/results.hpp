@@ -143,6 +143,8 @@ struct Results {
   PerKnot tied_excess_length;                ///< of each knot [m]; NaN: not read
   PerKnot final_excess_length;               ///< the same at the end of the test [m]
   PerKnot tail_slip;                         ///< rod length by which each free end ran into the knot in the pull [m]
+  PerKnot knot_reading_begin;                ///< what the knot's file reads, where the pull begins [m]
+  PerKnot knot_reading_end;                  ///< where it was last known in the pull [m]
   /// Decrease of e between release and pull [m], where it is more than a twentieth of e: a knot opened as the loop was
   /// mounted.
   std::optional<double> opened_when_mounted;

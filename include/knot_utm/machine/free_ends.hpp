@@ -9,14 +9,15 @@
 namespace knot_utm {
 
 /// The tails of a knot: how much of each free end is left outside it. A tail ends where, from its end on, its rope has
-/// borne a twentieth of all normal force on the rope. This place moves along the rod smoothly, which that of the first
-/// contact does not.
+/// borne a twentieth of all normal force of strands on the rope. This place moves along the rod smoothly, which that of
+/// the first contact does not. Posts do not count: that of a hitch bears most where the load comes in, so that a
+/// twentieth of its force is borne by turns in the middle of the rope, and further along the more the load grows.
 class FreeEnds {
  public:
   FreeEnds(const Centreline& centreline, const RodProperties& rod);
 
-  /// Of each free end, in the order along the rod [m]; unknown where its rope touches nothing. `normal_force`: on each
-  /// node [N].
+  /// Of each free end, in the order along the rod [m]; unknown where its rope touches none. `normal_force`: of strands
+  /// on each node [N].
   PerKnot lengths(const Eigen::VectorXd& normal_force) const;
 
   bool empty() const { return tails_.empty(); }

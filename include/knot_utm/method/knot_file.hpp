@@ -24,7 +24,7 @@ struct KnotDrawing;
 ///     tie:                                   # ends that are pulled together, in order, to which part of F_p: free
 ///       - {lower_tail: 1, upper_tail: 1}     # ones, and those of the upper grip; the lower grip stands still
 ///       - {upper: 1, upper_tail: 0.5}        # one that is pulled again has this part from then on
-///     weights: {upper_tail: 0.1}             # that hang on free ends once it is tied: parts of F_p, along -z
+///     weights: {upper_tail: 0.1}             # on free ends or landmarks, once it is tied: parts of F_p, along -z
 ///
 /// `name`: what a method calls it. Throws InvalidInput with the file and the key.
 std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& file, const std::string& name);

@@ -18,7 +18,7 @@ class YamlLines {
   void flag(const char* key, const std::optional<bool>& value);
   void word(const char* key, const std::string& value);  ///< written without quotes
   void text(const char* key, const std::string& value);  ///< written in quotes; an empty one is null
-  /// a list of numbers; null if it is empty or contains NaN
+  /// a list of numbers, null for each that is NaN; null if none is a number
   void numbers(const char* key, const std::vector<double>& values);
   void list(const char* key, const std::vector<std::string>& texts);
 

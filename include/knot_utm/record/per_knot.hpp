@@ -10,12 +10,12 @@
 
 namespace knot_utm {
 
-/// A number for each knot of a specimen, or for each of its free ends, in the order from the rod's first node; none
-/// where there is none. The numbers are stored in place, because a sample is made after every time step and must not
-/// allocate.
+/// A number for each knot of a specimen, or for each of its free ends, in the order from the rod's first node, or for
+/// each reading that a knot's file asks for, in its order; none where there is none. The numbers are stored in place,
+/// because a sample is made after every time step and must not allocate.
 class PerKnot {
  public:
-  static constexpr std::size_t kMost = 4;  ///< knots or free ends of a specimen
+  static constexpr std::size_t kMost = 4;  ///< knots, free ends or readings of a specimen
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
   PerKnot() = default;

@@ -69,6 +69,7 @@ struct Sample {
   double raw_extension = kNone;
   double turn = 0.0;
   double torque = kNone;
+  PerKnot knot_readings;
 
   void state(Archive& archive);
 };

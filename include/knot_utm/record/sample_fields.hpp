@@ -46,8 +46,8 @@ inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(tail_force, "N", "of each knot, on its tail's grip while it is tied; NaN: nothing holds its tail"),
     KNOT_UTM_FIELD(excess_length, "m", "of each knot, rod length hidden in it; NaN: not read"),
     KNOT_UTM_FIELD(tail_length, "m",
-                   "of each free end of a knot that a file describes, rod length outside the knot; NaN: it touches "
-                   "nothing"),
+                   "of each free end of a knot that a file describes, rod length outside the knot; NaN: its rope "
+                   "touches none"),
     KNOT_UTM_FIELD(max_penetration, "fraction of the rod's radius", "deepest contact"),
     KNOT_UTM_FIELD(normal_force, "N", "sum over all contacts of rod with rod"),
     KNOT_UTM_FIELD(contacts, "-", "contact points that carry force"),
@@ -95,9 +95,10 @@ inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(raw_extension, "m",
                    "travel of the crosshead since balance; NaN: the frame is rigid, on which it is the extension"),
     KNOT_UTM_FIELD(turn, "rad", "of the upper clamp about the load axis, right-handed about up"),
-    KNOT_UTM_FIELD(
-        torque, "N m",
-        "of the upper clamp on the rod in this sense; NaN: the rod has no twist, or not one strand is held"));
+    KNOT_UTM_FIELD(torque, "N m",
+                   "of the upper clamp on the rod in this sense; NaN: the rod has no twist, or not one strand is held"),
+    KNOT_UTM_FIELD(knot_readings, "m",
+                   "of an answer: what the knot's file reads of it, in its order; NaN: there is no such loop"));
 
 #undef KNOT_UTM_FIELD
 

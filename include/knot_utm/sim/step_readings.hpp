@@ -48,6 +48,7 @@ class StepReadings {
   std::vector<ContactForce> contact_forces() const;
   /// Sum of the normal forces of strands and rollers on each node [N].
   Eigen::VectorXd normal_forces() const;
+  Eigen::VectorXd strand_normal_forces() const;  ///< of strands alone
   double normal_force_between(const NodeRange& a, const NodeRange& b) const;
   double roller_normal_force(const NodeRange& piece) const;
 

@@ -51,6 +51,17 @@ struct HungWeight {
   double fraction = 1.0;  ///< of the pre-load F_p [-]
 };
 
+/// What a knot's file reads of the knot, between the nodes of two landmarks (machine/knot_readings.hpp).
+struct KnotReading {
+  enum class Kind {
+    kLoop,      ///< the rod around the first landmark that touches no strand [m]
+    kBetween,   ///< the rod between the loops around both of them [m]
+    kDistance,  ///< that of both in space [m]
+  };
+  Kind kind = Kind::kLoop;
+  int first = 0, second = 0;  ///< the same of a loop
+};
+
 /// A specimen's centreline before the test: an open polyline, and the places of its parts. Edges may be shorter in its
 /// knots. Frame: z up and along the load axis. Arclengths are those of the polyline.
 struct Centreline {
@@ -68,6 +79,7 @@ struct Centreline {
   std::vector<int> free;                     ///< nodes at the free ends of ropes, in order along the rod
   std::vector<std::vector<PulledEnd>> tied;  ///< ends that are pulled together to tie it, in order
   std::vector<HungWeight> weights;
+  std::vector<KnotReading> read;  ///< of a knot from a file, in its order
 
   double length() const;                     ///< [m]
   int nearest_node(double arclength) const;  ///< to an arclength [m]

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,18 @@ struct KnotDrawing {
     bool upper = false;           ///< of the upper grip
   };
   struct Pull {
-    std::string end;
+    std::string end;        ///< or the landmark, of a weight
     double fraction = 1.0;  ///< of the pre-load F_p [-]
+  };
+  /// A place of the rope, that of a point it is drawn through.
+  struct Landmark {
+    std::string name;
+    std::size_t strand = 0, point = 0;
+  };
+  struct Reading {
+    std::string name;
+    KnotReading::Kind kind = KnotReading::Kind::kLoop;
+    std::size_t first = 0, second = 0;  ///< numbers of its landmarks
   };
 
   std::string name;    ///< as a method gives it
@@ -36,9 +47,11 @@ struct KnotDrawing {
   std::vector<Strand> strands;
   std::vector<std::string> lower, upper;  ///< ends that the grips hold
   std::vector<Post> posts;                ///< the first of a grip that holds no end stands for it
-  std::vector<Pull> weights;              ///< that hang on free ends once the knot is tied
+  std::vector<Pull> weights;              ///< that hang on free ends and landmarks once the knot is tied
   std::vector<std::vector<Pull>> tie;     ///< ends that are pulled together, in order: free ones and upper ones
-  std::string text;                       ///< all that describes its shape and how it is tied, the same for equal ones
+  std::vector<Landmark> landmarks;
+  std::vector<Reading> read;  ///< at most PerKnot::kMost
+  std::string text;           ///< all that describes its shape and how it is tied, the same for equal ones
 
   enum class End { kLower, kUpper, kFree };
   End held(const std::string& end) const;

@@ -51,6 +51,8 @@ struct RunFacts {
   LoadCellOptions load_cell;          ///< load cell that read the forces
   Specification specification;        ///< requirements on the results
   std::string version;                ///< version of this package
+  /// names of what the knot's file reads
+  std::vector<std::string> knot_readings;
 };
 
 /// The largest memory that this process has used so far [bytes].
