@@ -155,7 +155,7 @@ class Warnings {
           " until the knots lock, so a real test would have to be pulled more slowly");
   }
 
-  /// A straight strand of the length L between clamps, under the tension T, writhes at the torque M of
+  /// One straight strand of the length L between clamps, under the tension T, writhes at the torque M of
   ///
   ///     M^2 = 4 k_b T + (2 q k_b/L)^2,
   ///
@@ -165,7 +165,7 @@ class Warnings {
   ///
   /// Source: Greenhill 1883.
   void of_twist() {
-    if (!results_.peak_torque) return;
+    if (!results_.peak_torque || facts_.strands > 1) return;
     const Material& material = facts_.material;
     const double k_b = material.other ? std::min(material.bending_stiffness, material.other->bending_stiffness)
                                       : material.bending_stiffness;
