@@ -31,8 +31,9 @@ NormalLaw normal_law(const Material& material, double tolerance) {
 }
 
 double pair_friction(const Material& material, const PhysicsOptions& physics) {
-  const double other = material.other->friction_coefficient;
-  return physics.pair_friction.value_or(std::min(material.friction_coefficient, other));
+  const double own = material.friction_coefficient, other = material.other->friction_coefficient;
+  const double by_rule = physics.pair_rule == PairRule::kMean ? 0.5 * (own + other) : std::min(own, other);
+  return physics.pair_friction.value_or(by_rule);
 }
 
 NormalLaw normal_law_between(const Material& a, const Material& b, double tolerance) {

@@ -100,6 +100,9 @@ void check_other_material(const Method& m) {
        StretchingRegistry::entry(own.stretching.law).name);
   same("bending_law", BendingRegistry::entry(other.bending.law).name, BendingRegistry::entry(own.bending.law).name);
   same("bending_set", format_number(other.bending_set), format_number(own.bending_set));
+  const bool mean = m.physics.pair_rule == PairRule::kMean;
+  has_effect(m.material.other != nullptr, "physics.friction.pair", std::string(mean ? "mean" : "smaller"),
+             std::string("smaller"), "with other_material");
   same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
   for (const auto& [section, material] :
        {std::pair<const char*, const Material*>{"material", &own}, {"other_material", &other}})

@@ -50,6 +50,10 @@ class KeyWalk : public Fields {
   void visit_number(const char* key, double& value, const Range& range, Unset) override {
     add_number(key, range.unit, value);
   }
+  void visit_number_or_word(const char* key, std::optional<double>& value, const Range& range, std::size_t&,
+                            const std::vector<std::string>&) override {
+    add_number(key, range.unit, value);
+  }
   void visit_whole_number(const char* key, double& value, double, double) override { add_number(key, "-", value); }
   void visit_name(const char* key, std::size_t&, const std::vector<std::string>&) override { add_other(key); }
 

@@ -79,6 +79,9 @@ TEST(OtherMaterial, FrictionOfThePairIsTheSmallerOneUnlessItIsGiven) {
   const Method smaller = sheet_bend(slippery);
   EXPECT_EQ(pair_friction(smaller.material, smaller.physics), 0.1);
   std::vector<std::string> given = slippery;
+  const Method mean = sheet_bend({slippery[0], slippery[1], "physics.friction.pair=mean"});
+  EXPECT_EQ(pair_friction(mean.material, mean.physics), 0.5 * (0.1 + mean.material.friction_coefficient));
+  EXPECT_THAT(method_yaml(mean), HasSubstr("pair: mean"));
   given.push_back("physics.friction.pair=0.3");
   const Method set = sheet_bend(given);
   const StepSettings settings = step_settings(set.specimen, set.material, set.machine, set.physics);
@@ -172,6 +175,9 @@ TEST(OtherMaterial, IsRefusedInOneLineWhereNothingTellsRopesApart) {
                             {{other, "other_material.friction_couple=0.5"}, "other_material.friction_couple"},
                             {{other, "other_material.rolling_resistance=0.1"}, "other_material.rolling_resistance"},
                             {{other, "material.rolling_resistance=0.1"}, "material.rolling_resistance"},
+                            {{other, "physics.friction.pair=larger"}, "smaller or mean"},
+                            {{"physics.friction.pair=mean"},
+                             "physics.friction.pair is mean, but has an effect only with other_material"},
                             {{other, "physics.contact.law=edge"}, "physics.contact.law"},
                             {{other, "analysis.margin=true"}, "analysis.margin"},
                             {{other, "other_material.radius=2"}, "other_material.radius"},
