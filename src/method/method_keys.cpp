@@ -122,6 +122,7 @@ constexpr Label kLabels[] = {
     {"material.bending_set", "Share of the tied bend that sets"},
     {"material.breaking.law", "What parts the rod"},
     {"material.breaking.bending_share", "Share of its bend that a fibre bears"},
+    {"material.breaking.crushing_share", "Strength lost by being pressed flat"},
     {"material.breaking.weibull_modulus", "Weibull modulus of the strength"},
     {"material.breaking.tested_length", "Length whose mean strength is known"},
     {"material.breaking.weaker_share", "Share of specimens that are weaker"},

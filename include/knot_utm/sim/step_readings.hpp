@@ -48,6 +48,8 @@ class StepReadings {
   std::vector<ContactForce> contact_forces() const;
   /// Sum of the normal forces of strands and rollers on each node [N].
   Eigen::VectorXd normal_forces() const;
+  /// What strands and rollers press on each node with; of contacts as they were last evaluated, in any case.
+  Pressing pressing() const;
   double normal_force_between(const NodeRange& a, const NodeRange& b) const;
   double roller_normal_force(const NodeRange& piece) const;
 
