@@ -468,10 +468,10 @@ double RollingResistance::growth_of_hysteresis(double lost, double radius, doubl
   return 2.0 * lost / (3.0 * M_PI) * std::sqrt(3.0 * radius / stretching_stiffness);
 }
 
-FrictionMemory remember(const Friction& friction, const RollingResistance& rolling, const ContactPoint& contact,
+FrictionMemory remember(const Friction& friction, const RollingLaws& rolling, const ContactPoint& contact,
                         const SurfacePoint& surface, double dt) {
   FrictionMemory out = remember(friction, contact, dt);
-  out.rolled = rolling.presliding * surface.zeta;
+  out.rolled = rolling[contact.pair].presliding * surface.zeta;
   return out;
 }
 
@@ -505,9 +505,10 @@ void add_shifts(std::vector<ContactPoint>& contacts, const std::vector<SurfacePo
   });
 }
 
-void set_couples(const RollingResistance& rolling, const std::vector<ContactPoint>& contacts,
+void set_couples(const RollingLaws& laws, const std::vector<ContactPoint>& contacts,
                  std::vector<SurfacePoint>& surfaces) {
   visit_active(contacts, [&](const Contacts4& four, std::size_t) {
+    const RollingResistance& rolling = laws[four[0]->pair];
     const Four<const ContactPoint> of(four);
     const Points4 points = points_of(four, contacts, surfaces);
     const FourVectors m = cross(lever_of(points) * of(&ContactPoint::x), of(&ContactPoint::force));
@@ -547,9 +548,9 @@ void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const
   if (!contact.on_roller()) add(contact.b0, contact.beta + 3, surface.s_b, on_b);
 }
 
-std::size_t linearise(const ContactLaws& laws, const RollingResistance& rolling, double dt,
-                      const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
-                      const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models) {
+std::size_t linearise(const ContactLaws& laws, const RollingLaws& rolling, double dt, const ContactLinearisation& how,
+                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
+                      std::size_t from, SurfaceModels& models) {
   const auto friction = [&](int pair) -> const Friction& { return laws[pair].friction; };
   return linearise_next(
       friction, contacts, surfaces, from, models, [&](const auto& law, const Contacts4& four, const Points4& points) {
@@ -557,13 +558,13 @@ std::size_t linearise(const ContactLaws& laws, const RollingResistance& rolling,
         const OneFoot foot{of(&ContactPoint::inverse_g)};
         const FourPressures pressures(laws[four[0]->pair].normal, how, of);
         const auto fill = [&](const auto& levers) {
-          FourSurfaces(pressures, law, rolling, dt, how, four, points, foot, levers).model(models.model);
+          FourSurfaces(pressures, law, rolling[four[0]->pair], dt, how, four, points, foot, levers).model(models.model);
         };
         is_even(points) ? fill(EvenLevers()) : fill(UnevenLevers(points));
       });
 }
 
-std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingResistance& rolling, double dt,
+std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingLaws& rolling, double dt,
                       const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
                       const std::vector<SurfacePoint>& surfaces, const std::vector<EdgeFeet>& feet, std::size_t from,
                       SurfaceModels& models) {
@@ -583,7 +584,7 @@ std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const Rol
                             both.tu[lane] = feet_of.inverse_tu;
                             both.uu[lane] = feet_of.inverse_uu;
                           }
-                          FourSurfaces(pressures, law, rolling, dt, how, four, points, both).model(models.model);
+                          FourSurfaces(pressures, law, rolling[0], dt, how, four, points, both).model(models.model);
                         });
 }
 

@@ -109,9 +109,10 @@ std::optional<double> error_of_break_in_bend(const SpecimenOptions& specimen, co
                        physics.contact_law == ContactLaw::kSmooth &&
                        FrictionRegistry::entry(physics.friction.law).studied;
   if (!studied) return {};
-  return kBreakInBend * coarseness(tolerances(physics, specimen, material),
-                                   of(Accuracy::kNormal, answer(physics, specimen, material)),
-                                   specimen.edge_length / material.radius);
+  const bool crushed = material.breaking.number(FibreBreaking::kCrushingShare) > 0.0;
+  return (crushed ? kBreakCrushed : kBreakInBend) *
+         coarseness(tolerances(physics, specimen, material), of(Accuracy::kNormal, answer(physics, specimen, material)),
+                    specimen.edge_length / material.radius);
 }
 
 }  // namespace

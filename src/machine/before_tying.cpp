@@ -65,7 +65,7 @@ std::string automatic_warning(double preload, double stretch, const Material& ma
 /// part it.
 double exposed_by(double stretch, double bend, const Material& material) {
   if (!parts_by_bending(material)) return 0.0;
-  return std::get<FibreBreaking>(breaking_law_of(material)).fraction({0.0, stretch, bend});
+  return std::get<FibreBreaking>(breaking_law_of(material)).fraction({0.0, stretch, bend, 0.0});
 }
 
 /// Warns of a strain that the outermost fibre of a tied knot may not bear. It is empty where nothing is known to fail.

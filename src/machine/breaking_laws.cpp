@@ -9,7 +9,8 @@ TensionBreaking TensionBreaking::of(const Material& material) { return {*materia
 
 FibreBreaking FibreBreaking::of(const Material& material) {
   const auto& keys = material.breaking;
-  return {strain_under(material, *material.breaking_force), keys.number(kBendingShare),
+  const double strain = strain_under(material, *material.breaking_force);
+  return {strain, keys.number(kBendingShare), keys.number(kCrushingShare) * strain / *material.breaking_force,
           WeakestLink(keys.number(kWeibullModulus), keys.number(kTestedLength), keys.number(kWeakerShare))};
 }
 

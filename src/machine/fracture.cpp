@@ -26,22 +26,46 @@ Vec3 turn(const Points& position, Eigen::Index node) {
   return sine > 0.0 ? Vec3(axis * (turning_angle(e, f) / sine)) : Vec3(Vec3::Zero());
 }
 
-/// kappa of a node: that of the turn within h to either side of it. Nodes turn evenly along their Voronoi lengths.
-double curvature(const RodProperties& rod, const Points& position, Eigen::Index node) {
-  if (!turns(rod, node)) return 0.0;
+/// Calls add(i, w_i) for the nodes within a radius to either side of one. What they have lies evenly along their
+/// Voronoi lengths.
+template <class Add>
+void along_a_diameter(const RodProperties& rod, Eigen::Index node, const Add& add) {
+  if (!turns(rod, node)) return;
   const double h = rod.material_at(node).radius;
   const auto half = [&](Eigen::Index i) { return 0.5 * rod.voronoi_length[i]; };
-  Vec3 sum = turn(position, node) * std::min(1.0, h / half(node));
+  add(node, std::min(1.0, h / half(node)));
   for (const int step : {-1, 1}) {
     double begin = half(node);  // of the next node's length, from here
     for (Eigen::Index i = node + step; begin < h && turns(rod, i); i += step) {
       const double length = rod.voronoi_length[i];
-      sum += turn(position, i) * std::min(1.0, (h - begin) / length);
+      add(i, std::min(1.0, (h - begin) / length));
       begin += length;
     }
   }
-  return sum.norm() / (2.0 * h);
 }
+
+/// h kappa of a node.
+double bend(const RodProperties& rod, const Points& position, Eigen::Index node) {
+  Vec3 sum = Vec3::Zero();
+  along_a_diameter(rod, node, [&](Eigen::Index i, double share) { sum += turn(position, i) * share; });
+  const double h = rod.material_at(node).radius;
+  return h * (sum.norm() / (2.0 * h));
+}
+
+/// h p of a node.
+double pressed(const RodProperties& rod, const Pressing& pressing, Eigen::Index node) {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  along_a_diameter(rod, node, [&](Eigen::Index i, double share) { sum += share * pressing.col(i); });
+  return 0.25 * (sum[3] + sum.head<3>().norm());
+}
+
+/// How a rod lies in its contacts.
+struct Loading {
+  const RodProperties& rod;
+  const Points& position;
+  const StretchedBefore& before;
+  const Pressing& pressing;
+};
 
 /// Edges of whole ropes of one material.
 struct EdgesOfRopes {
@@ -50,41 +74,40 @@ struct EdgesOfRopes {
 
 /// Calls use(j, LoadedEdge) for those that are not cut.
 template <class Law, class Use>
-void each_edge(const Law& law, const RodProperties& rod, const Points& position, const StretchedBefore& before,
-               const EdgesOfRopes& edges, const Use& use) {
-  const double h = rod.material_at(edges.begin).radius;
-  double bend_before = 0.0;
+void each_edge(const Law& law, const Loading& on, const EdgesOfRopes& edges, const Use& use) {
+  const bool crushes = law.crushes() && on.pressing.cols() == on.rod.nodes();
+  double bend_before = 0.0, pressed_before = 0.0;
   for (Eigen::Index j = edges.begin; j < edges.end; ++j) {
-    const double bend = law.kBends ? h * curvature(rod, position, j + 1) : 0.0;
-    const StretchedEdge stretched = stretched_edge(rod, position, j, before);
-    if (!rod.is_cut(j))
-      use(j, LoadedEdge{respond(rod, j, stretched).tension, stretched.stretch - 1.0, std::max(bend, bend_before)});
-    bend_before = bend;
+    const double bend_behind = law.kBends ? bend(on.rod, on.position, j + 1) : 0.0,
+                 pressed_behind = crushes ? pressed(on.rod, on.pressing, j + 1) : 0.0;
+    const StretchedEdge stretched = stretched_edge(on.rod, on.position, j, on.before);
+    if (!on.rod.is_cut(j))
+      use(j, LoadedEdge{respond(on.rod, j, stretched).tension, stretched.stretch - 1.0,
+                        std::max(bend_behind, bend_before), std::max(pressed_behind, pressed_before)});
+    bend_before = bend_behind;
+    pressed_before = pressed_behind;
   }
 }
 
 template <class Law>
-Exposure worst_edge(const Law& law, const RodProperties& rod, const Points& position, const StretchedBefore& before,
-                    const EdgesOfRopes& edges) {
+Exposure worst_edge(const Law& law, const Loading& on, const EdgesOfRopes& edges) {
   Exposure out;
-  each_edge(law, rod, position, before, edges, [&](Eigen::Index j, const LoadedEdge& edge) {
+  each_edge(law, on, edges, [&](Eigen::Index j, const LoadedEdge& edge) {
     const double fraction = law.fraction(edge);
     if (fraction > out.fraction) out = {fraction, static_cast<int>(j), Law::kLimit, law.limited(edge)};
   });
   return out;
 }
 
-Exposure exposure(const TensionBreaking& law, const RodProperties& rod, const Points& position,
-                  const StretchedBefore& before, const EdgesOfRopes& edges) {
-  return worst_edge(law, rod, position, before, edges);
+Exposure exposure(const TensionBreaking& law, const Loading& on, const EdgesOfRopes& edges) {
+  return worst_edge(law, on, edges);
 }
 
-Exposure exposure(const FibreBreaking& law, const RodProperties& rod, const Points& position,
-                  const StretchedBefore& before, const EdgesOfRopes& edges) {
-  Exposure out = worst_edge(law, rod, position, before, edges);
+Exposure exposure(const FibreBreaking& law, const Loading& on, const EdgesOfRopes& edges) {
+  Exposure out = worst_edge(law, on, edges);
   WeakestLink::Sum sum(law.link);
-  each_edge(law, rod, position, before, edges,
-            [&](Eigen::Index j, const LoadedEdge& edge) { sum.add(law.fraction(edge), rod.rest_length[j]); });
+  each_edge(law, on, edges,
+            [&](Eigen::Index j, const LoadedEdge& edge) { sum.add(law.fraction(edge), on.rod.rest_length[j]); });
   out.fraction = sum.fraction();
   return out;
 }
@@ -98,13 +121,19 @@ RopeStrengths::RopeStrengths(const Material& material, const RodProperties& rod)
     ropes_.push_back({breaking_law_of(*material.other), others, rod.edges()});
 }
 
-Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& position,
-                                     const StretchedBefore& before) const {
+bool RopeStrengths::crush() const {
+  return std::any_of(ropes_.begin(), ropes_.end(), [](const Ropes& ropes) {
+    return std::visit([](const auto& law) { return law.crushes(); }, ropes.law);
+  });
+}
+
+Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& position, const StretchedBefore& before,
+                                     const Pressing& pressing) const {
   Exposure out;
   for (const Ropes& ropes : ropes_) {
     const Exposure found = std::visit(
         [&](const auto& law) {
-          return exposure(law, rod, position, before, {ropes.begin, ropes.end});
+          return exposure(law, Loading{rod, position, before, pressing}, {ropes.begin, ropes.end});
         },
         ropes.law);
     if (found.fraction > out.fraction || out.edge < 0) out = found;

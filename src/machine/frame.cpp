@@ -22,10 +22,15 @@ constexpr double kInertia = 3.0;  // m/m_a
 Frame::Frame(double stiffness, const Material& material, int strands, double around)
     : stiffness_(stiffness), specimen_(std::numeric_limits<double>::max()) {
   if (!(stiffness > 0.0)) throw InvalidInput("machine.stiffness", std::to_string(stiffness), "more than 0 N/m");
-  const double line_density = material.density * M_PI * material.radius * material.radius;
-  strands_ = strands * material.stretching_stiffness;
-  damping_ = strands * std::sqrt(material.stretching_stiffness * line_density) + stiffness * kFrameTime;
-  mass_ = kInertia * line_density * around;
+  // Either rope may be in the upper grip.
+  for (const Material* rope : {&material, material.other.get()}) {
+    if (!rope) continue;
+    const double line_density = rope->density * M_PI * rope->radius * rope->radius;
+    strands_ = std::max(strands_, strands * rope->stretching_stiffness);
+    damping_ =
+        std::max(damping_, strands * std::sqrt(rope->stretching_stiffness * line_density) + stiffness * kFrameTime);
+    mass_ = std::max(mass_, kInertia * line_density * around);
+  }
 }
 
 bool Frame::rigid() const { return std::isinf(stiffness_); }

@@ -19,6 +19,13 @@ constexpr double kCandidateMargin = 1.0;     // gap up to which pairs of segment
 constexpr int kMostIterations = 12;          // of Newton's method in a step
 constexpr double kResidualAtLittleTension = 1e-3;  // loose knots bear much less than k_b/h^2, and are read too
 
+/// That of contacts of one material. `presliding`: in its radius.
+RollingResistance rolling_of(const Material& material, double presliding) {
+  const double h = material.radius;
+  return {material.rolling_resistance, h, presliding * h,
+          RollingResistance::growth_of_hysteresis(material.rolling_hysteresis, h, material.stretching_stiffness)};
+}
+
 }  // namespace
 
 double friction_couple(const Material& material, const PhysicsOptions& physics) {
@@ -31,14 +38,25 @@ NormalLaw normal_law(const Material& material, double tolerance) {
 }
 
 double pair_friction(const Material& material, const PhysicsOptions& physics) {
-  const double other = material.other->friction_coefficient;
-  return physics.pair_friction.value_or(std::min(material.friction_coefficient, other));
+  const double own = material.friction_coefficient, other = material.other->friction_coefficient;
+  const double by_rule = physics.pair_rule == PairRule::kMean ? 0.5 * (own + other) : std::min(own, other);
+  return physics.pair_friction.value_or(by_rule);
 }
 
 NormalLaw normal_law_between(const Material& a, const Material& b, double tolerance) {
   const NormalLaw of_a = normal_law(a, tolerance), of_b = normal_law(b, tolerance);
   const double softer = 2.0 * of_a.stiffness * of_b.stiffness / (of_a.stiffness + of_b.stiffness);
   return {softer, tolerance, 0.5 * (of_a.stiffening + of_b.stiffening)};
+}
+
+RollingResistance rolling_between(const Material& a, const Material& b, double presliding) {
+  const double h = 2.0 / (1.0 / a.radius + 1.0 / b.radius), k_a = default_contact_stiffness(a),
+               k_b = default_contact_stiffness(b), share_of_a = k_b / (k_a + k_b);
+  const auto mean = [&](double of_a, double of_b) { return of_b + share_of_a * (of_a - of_b); };
+  const auto soft = [](const Material& of) { return of.radius * of.radius / of.stretching_stiffness; };  // 1/(pi E)
+  const double lost = mean(a.rolling_hysteresis, b.rolling_hysteresis), stretching = 2.0 * h * h / (soft(a) + soft(b));
+  return {mean(a.rolling_resistance, b.rolling_resistance), h, presliding * h,
+          RollingResistance::growth_of_hysteresis(lost, h, stretching)};
 }
 
 bool friction_rolls(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics) {
@@ -58,10 +76,7 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   out.friction = Friction::of(physics.friction, {material.friction_coefficient, h, tolerance.presliding});
   out.roller_friction = Friction::of(physics.friction, {machine.roller_friction, h, tolerance.presliding});
   out.friction_couple = friction_couple(material, physics);
-  if (out.friction_couple > 0.0)
-    out.rolling = {
-        material.rolling_resistance, h, tolerance.presliding * h,
-        RollingResistance::growth_of_hysteresis(material.rolling_hysteresis, h, material.stretching_stiffness)};
+  if (out.friction_couple > 0.0) out.rolling = rolling_of(material, tolerance.presliding);
   if (material.other) {
     const Material& other = *material.other;
     const double h_other = other.radius, middle = 0.5 * (h + h_other);
@@ -71,7 +86,14 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
     const NormalLaw own = normal_law(other, tolerance.contact_tolerance * h_other),
                     between = normal_law_between(material, other, tolerance.contact_tolerance * middle);
     out.others = {laws(between, pair_friction(material, physics), middle),
-                  laws(own, other.friction_coefficient, h_other), laws(own, machine.roller_friction, h_other)};
+                  laws(own, other.friction_coefficient, h_other),
+                  laws(own, machine.roller_friction, h_other),
+                  {},
+                  {}};
+    if (out.friction_couple > 0.0) {
+      out.others->rolling_between = rolling_between(material, other, tolerance.presliding);
+      out.others->rolling_own = rolling_of(other, tolerance.presliding);
+    }
   }
   // A slow test; and a rod that is free to turn is then the same with twist and without. But where friction rolls
   // strands their spin can jump as they let go, and without inertia no step would be short enough.

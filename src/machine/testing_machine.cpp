@@ -239,14 +239,18 @@ struct TestingMachine::Impl {
     breaks.emplace(shortest, exposure());
   }
   Exposure exposure() const {
-    return strengths->most_exposed(stepper->rod(), stepper->state().position, StretchedBefore(stepper->state()));
+    return strengths->most_exposed(stepper->rod(), stepper->state().position, StretchedBefore(stepper->state()),
+                                   pressing());
   }
+  /// Of the step that is judged, where the rod's law of breaking asks for it.
+  Pressing pressing() const { return strengths->crush() ? stepper->readings().pressing() : Pressing(); }
 
   /// Why a step that was solved is none that the rod and the machine make. Empty: it is.
   std::string refuse(const Points& end, double dt) const {
     if (parted()) return "";
     if (breaks) {
-      const Exposure to = strengths->most_exposed(stepper->rod(), end, StretchedBefore(stepper->state(), dt));
+      const Exposure to =
+          strengths->most_exposed(stepper->rod(), end, StretchedBefore(stepper->state(), dt), pressing());
       if (std::string why = breaks->refuse(to, dt); !why.empty()) return why;
     }
     const double least = kLeastPassed * material.bending_stiffness / (material.radius * material.radius);

@@ -77,6 +77,17 @@ void check_breaking(const Material& material, const std::string& section) {
                "with " + section + "breaking.weibull_modulus");
 }
 
+/// What resists rolling needs surfaces that roll. `section`: as for check_breaking.
+void check_rolling(const Material& material, const PhysicsOptions& physics, const std::string& section) {
+  const bool rolls = friction_couple(material, physics) > 0.0;
+  const std::string resistance = section + "rolling_resistance", hysteresis = section + "rolling_hysteresis",
+                    where = "with " + section + "friction_couple above 0 and friction.at: surface";
+  has_effect(rolls, resistance.c_str(), material.rolling_resistance, 0.0, where);
+  has_effect(rolls, hysteresis.c_str(), material.rolling_hysteresis, 0.0, where);
+  has_effect(is_solid(material), hysteresis.c_str(), material.rolling_hysteresis, 0.0,
+             "in a solid rod, whose stretching_stiffness says how wide its contacts are");
+}
+
 /// The laws of a material have their keys, and no others.
 void check_laws(const Material& material, const std::string& section) {
   check_law<StretchingRegistry>(material.stretching, section, "stretching_law");
@@ -89,6 +100,9 @@ void check_other_material(const Method& m) {
   const bool several = m.specimen.drawing && m.specimen.drawing->strands.size() > 1;
   has_effect(m.material.other != nullptr, "physics.friction.pair", m.physics.pair_friction.value_or(-1.0), -1.0,
              "with other_material");
+  const bool mean = m.physics.pair_rule == PairRule::kMean;
+  has_effect(m.material.other != nullptr, "physics.friction.pair", std::string(mean ? "mean" : "smaller"),
+             std::string("smaller"), "with other_material");
   if (!m.material.other) return;
   const Material &own = m.material, &other = *m.material.other;
   has_effect(several, "other_material", other.name, std::string(),
@@ -101,14 +115,9 @@ void check_other_material(const Method& m) {
   same("bending_law", BendingRegistry::entry(other.bending.law).name, BendingRegistry::entry(own.bending.law).name);
   same("bending_set", format_number(other.bending_set), format_number(own.bending_set));
   same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
-  for (const auto& [section, material] :
-       {std::pair<const char*, const Material*>{"material", &own}, {"other_material", &other}})
-    for (const auto& [key, value] :
-         {std::pair<const char*, double>{".rolling_resistance", material->rolling_resistance},
-          {".rolling_hysteresis", material->rolling_hysteresis}})
-      if (value != 0.0) reject(std::string(section) + key, value, "0 where there is an other_material");
   if (m.physics.contact_law == ContactLaw::kEdge)
     throw InvalidInput("physics.contact.law", "edge", "smooth where there is an other_material");
+  check_rolling(other, m.physics, "other_material.");
   check_laws(other, "other_material.");
 }
 
@@ -158,13 +167,7 @@ void check_effects(const Method& m) {
   has_effect(can_part(m.material), "machine.after_break", std::string(follows ? "follow" : "stop"), std::string("stop"),
              "with material.breaking_force");
 
-  const Material& material = m.material;
-  const bool rolls = friction_couple(material, m.physics) > 0.0;
-  constexpr const char* kWhereItRolls = "with material.friction_couple above 0 and friction.at: surface";
-  has_effect(rolls, "material.rolling_resistance", material.rolling_resistance, 0.0, kWhereItRolls);
-  has_effect(rolls, "material.rolling_hysteresis", material.rolling_hysteresis, 0.0, kWhereItRolls);
-  has_effect(is_solid(material), "material.rolling_hysteresis", material.rolling_hysteresis, 0.0,
-             "in a solid rod, whose stretching_stiffness says how wide its contacts are");
+  check_rolling(m.material, m.physics, "material.");
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
   check_laws(m.material, "material.");
 }

@@ -43,6 +43,11 @@ double slowest_pull(const Program& program, double scale) {
 /// long.
 double strength(const Material& material) { return material.breaking_force.value_or(material.stretching_stiffness); }
 
+/// That of the weaker rope: it bears at least half of the load, and parts before the stronger one shows its strength.
+double weaker_strength(const Material& material) {
+  return material.other ? std::min(strength(material), strength(*material.other)) : strength(material);
+}
+
 /// The next larger of 1, 2, 5, 10, 20 ..., as cells are sold.
 double next_cell(double load) {
   const double decade = std::pow(10.0, std::floor(std::log10(load)));
@@ -53,7 +58,7 @@ double next_cell(double load) {
 
 double capacity(const Material& material, const Method* known) {
   const double asked = known ? std::max(known->ends.load.value_or(0.0), largest(known->program, "N")) : 0.0;
-  const double load = std::max(kMarginOfCell * strength(material), asked);
+  const double load = std::max(kMarginOfCell * weaker_strength(material), asked);
   return std::min(next_cell(std::max(load, kLeastCapacity)), kLargestCapacity);
 }
 

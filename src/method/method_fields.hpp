@@ -131,7 +131,7 @@ inline void physics(Fields& f, PhysicsOptions& o) {
     friction.choice("law", o.friction.law, kFrictionLawNames);
     friction.choice("at", o.friction_at, std::array{"surface", "centreline"});
     law_keys<FrictionRegistry>(friction, o.friction);
-    friction.optional_number("pair", o.pair_friction, Range{0.0, 5.0, "-"}, "smaller");
+    friction.number_or_word("pair", o.pair_friction, Range{0.0, 5.0, "-"}, o.pair_rule, std::array{"smaller", "mean"});
   });
   f.section("contact", [&o](Fields& contact) {
     contact.choice("law", o.contact_law, std::array{"smooth", "edge"});

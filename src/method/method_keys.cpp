@@ -50,6 +50,10 @@ class KeyWalk : public Fields {
   void visit_number(const char* key, double& value, const Range& range, Unset) override {
     add_number(key, range.unit, value);
   }
+  void visit_number_or_word(const char* key, std::optional<double>& value, const Range& range, std::size_t&,
+                            const std::vector<std::string>&) override {
+    add_number(key, range.unit, value);
+  }
   void visit_whole_number(const char* key, double& value, double, double) override { add_number(key, "-", value); }
   void visit_name(const char* key, std::size_t&, const std::vector<std::string>&) override { add_other(key); }
 
@@ -118,6 +122,7 @@ constexpr Label kLabels[] = {
     {"material.bending_set", "Share of the tied bend that sets"},
     {"material.breaking.law", "What parts the rod"},
     {"material.breaking.bending_share", "Share of its bend that a fibre bears"},
+    {"material.breaking.crushing_share", "Strength lost by being pressed flat"},
     {"material.breaking.weibull_modulus", "Weibull modulus of the strength"},
     {"material.breaking.tested_length", "Length whose mean strength is known"},
     {"material.breaking.weaker_share", "Share of specimens that are weaker"},

@@ -240,6 +240,16 @@ class Reader : public Fields {
     if (node.IsDefined()) value = checked(key, node, range, unset == Unset::kAuto ? "auto" : "");
   }
 
+  void visit_number_or_word(const char* key, std::optional<double>& value, const Range& range, std::size_t& index,
+                            const std::vector<std::string>& words) override {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    const auto word = std::find(words.begin(), words.end(), node.IsScalar() ? node.Scalar() : words.front());
+    const bool named = node.IsNull() || (node.IsScalar() && word != words.end());
+    value = named ? std::nullopt : std::optional(checked(key, node, range, listed(words)));
+    index = named ? static_cast<std::size_t>(word - words.begin()) : 0;
+  }
+
   void visit_whole_number(const char* key, double& value, double min, double max) override {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
@@ -341,6 +351,13 @@ class Writer : public Fields {
  private:
   void visit_number(const char* key, double& value, const Range&, Unset) override {
     map_[key] = format_yaml_number(value);
+  }
+  void visit_number_or_word(const char* key, std::optional<double>& value, const Range&, std::size_t& index,
+                            const std::vector<std::string>& words) override {
+    if (value)
+      map_[key] = format_yaml_number(*value);
+    else if (index > 0)
+      map_[key] = words[index];
   }
   void visit_whole_number(const char* key, double& value, double, double) override { map_[key] = whole_text(value); }
   void visit_name(const char* key, std::size_t& index, const std::vector<std::string>& names) override {

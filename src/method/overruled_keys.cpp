@@ -61,10 +61,14 @@ void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>
   if (material.other)
     change_other(material, [&](Material& other) { drop_keys_of_former_laws("other_material.", by, other); });
   drop_keys_of_former_law<FrictionRegistry>("physics.friction.", "law", by, method.physics.friction);
-  const GivenBy rolls = std::max({by("material.friction_couple"), by("physics.friction.at"), by("compatibility")});
-  if (friction_couple(material, method.physics) > 0.0) return;
-  if (by("material.rolling_resistance") < rolls) material.rolling_resistance = 0.0;
-  if (by("material.rolling_hysteresis") < rolls) material.rolling_hysteresis = 0.0;
+  const auto drop_rolling = [&](const std::string& section, Material& of) {
+    const GivenBy rolls = std::max({by(section + "friction_couple"), by("physics.friction.at"), by("compatibility")});
+    if (friction_couple(of, method.physics) > 0.0) return;
+    if (by(section + "rolling_resistance") < rolls) of.rolling_resistance = 0.0;
+    if (by(section + "rolling_hysteresis") < rolls) of.rolling_hysteresis = 0.0;
+  };
+  drop_rolling("material.", material);
+  if (material.other) change_other(material, [&](Material& other) { drop_rolling("other_material.", other); });
 }
 
 }  // namespace knot_utm

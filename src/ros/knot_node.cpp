@@ -78,6 +78,8 @@ void KnotNode::begin_specimen() {
   info.radius = method_.material.radius;
   info.length = machine_.rod().length();
   info.nodes = static_cast<std::uint32_t>(machine_.rod().nodes());
+  info.other_radius = machine_.rod().other_material.value_or(machine_.rod().material).radius;
+  info.first_of_other = static_cast<std::uint32_t>(machine_.rod().first_of_other());
   specimen_.publish(info);
 }
 

@@ -142,23 +142,29 @@ Marker triangles(const char* ns) {
 }
 
 /// Dark bands on the rod, each along the edges beside its node.
-Marker gauge_marker(const Points& points, const std::vector<Eigen::Index>& nodes, double radius) {
+Marker gauge_marker(const Points& points, const std::vector<Eigen::Index>& nodes, const RopeRadii& radius) {
   Marker m = triangles("gauge_marks");
   for (const Eigen::Index node : nodes) {
     if (node < 1 || node + 1 >= points.cols()) continue;
     const Vec3 here = points.col(node);
     const auto towards = [&](Eigen::Index other) -> Vec3 {
       const Vec3 offset = points.col(other) - here;
-      return here + std::min(1.0, kGaugeMark * radius / offset.norm()) * offset;
+      return here + std::min(1.0, kGaugeMark * radius(node) / offset.norm()) * offset;
     };
     Points band(3, 3);
     band << towards(node - 1), here, towards(node + 1);
-    Tube(m, band, kAboveTheRod * radius, TubeOptions().sides).draw([](std::size_t) { return kInk; });
+    Tube(m, band, kAboveTheRod * radius(node), TubeOptions().sides).draw([](std::size_t) { return kInk; });
   }
   return m;
 }
 
 }  // namespace
+
+RopeRadii::RopeRadii(const Material& material, const std::vector<int>& cuts) : RopeRadii(material.radius) {
+  if (!material.other || cuts.empty()) return;
+  others = material.other->radius;
+  first_of_others = cuts.front() + 1;
+}
 
 Eigen::VectorXd tension_at_nodes(const Eigen::VectorXd& tension, const std::vector<int>& cuts) {
   const Eigen::Index edges = tension.size();
@@ -172,20 +178,20 @@ Eigen::VectorXd tension_at_nodes(const Eigen::VectorXd& tension, const std::vect
   return out;
 }
 
-Eigen::VectorXd curvature_at_nodes(const Points& points, double radius, const std::vector<int>& cuts) {
+Eigen::VectorXd curvature_at_nodes(const Points& points, const RopeRadii& radius, const std::vector<int>& cuts) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(points.cols());
   for (Eigen::Index i = 1; i + 1 < points.cols(); ++i) {
     const Vec3 before = points.col(i) - points.col(i - 1), after = points.col(i + 1) - points.col(i);
     const double length_before = before.norm(), length_after = after.norm();
     if (length_before <= 0.0 || length_after <= 0.0) continue;
     const double angle = turning_angle(before / length_before, after / length_after);
-    out[i] = radius * 2.0 * angle / (length_before + length_after);
+    out[i] = radius(i) * 2.0 * angle / (length_before + length_after);
   }
   for (const Piece& rope : pieces_between(points.cols(), cuts)) out[rope.begin] = out[rope.end - 1] = 0.0;
   return out;
 }
 
-Marker tube_marker(const Points& points, const Colors& colors, double radius, const TubeOptions& options) {
+Marker tube_marker(const Points& points, const Colors& colors, const RopeRadii& radius, const TubeOptions& options) {
   Marker m = triangles("rod");
   if (points.cols() < 2) return m;
   const std::size_t corners = 6 * static_cast<std::size_t>(options.sides) * static_cast<std::size_t>(points.cols());
@@ -193,18 +199,18 @@ Marker tube_marker(const Points& points, const Colors& colors, double radius, co
   m.colors.reserve(corners);
   for (const Piece& piece : pieces_between(points.cols(), options.missing)) {
     if (piece.nodes() < 2) continue;
-    Tube(m, points.middleCols(piece.begin, piece.nodes()), radius, options.sides).draw([&](std::size_t node) {
-      return colors[static_cast<std::size_t>(piece.begin) + node];
-    });
+    Tube(m, points.middleCols(piece.begin, piece.nodes()), radius(piece.begin), options.sides)
+        .draw([&](std::size_t node) { return colors[static_cast<std::size_t>(piece.begin) + node]; });
   }
   return m;
 }
 
-Marker spheres_marker(const Points& points, const Colors& colors, double radius, const std::vector<int>& missing) {
+Marker spheres_marker(const Points& points, const Colors& colors, double radius, const std::vector<int>& missing,
+                      const NodesOfRopes& nodes) {
   Marker m = base_marker(names::kBaseFrame, "rod", 0, Marker::SPHERE_LIST);
   m.scale.x = m.scale.y = m.scale.z = 2.0 * radius;
   m.color = color(1.0, 1.0, 1.0);
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+  for (Eigen::Index i = nodes.begin; i < std::min(nodes.end, points.cols()); ++i) {
     const std_msgs::ColorRGBA& here = colors[static_cast<std::size_t>(i)];
     m.points.push_back(to_point(points.col(i)));
     m.colors.push_back(here);
@@ -235,13 +241,15 @@ Marker contact_marker(const std::vector<ContactForce>& forces, double radius, co
 
 ScenePicture::ScenePicture(const SpecimenOptions& specimen, const MachineOptions& machine, const Material& material)
     : bodies_(grip_bodies(specimen, machine, material)),
-      radius_(material.radius),
+      material_(material),
+      radii_(material.radius),
       tension_(ColorScale::of_tension(material, machine.load_cell)),
       curvature_(ColorScale::of_curvature()) {}
 
 void ScenePicture::begin(const Points& points, const std::vector<int>& cuts) {
   gauge_.clear();
   cuts_ = cuts;
+  radii_ = RopeRadii(material_, cuts);
   arclength_ = Eigen::VectorXd::Zero(points.cols());
   const auto is_cut = [&](Eigen::Index edge) { return std::binary_search(cuts.begin(), cuts.end(), edge); };
   for (Eigen::Index i = 1; i < points.cols(); ++i)
@@ -270,7 +278,7 @@ std::vector<int> ScenePicture::missing(Eigen::Index parted) const {
 Colors ScenePicture::colors(const SceneView& view, Eigen::Index parted) const {
   const bool by_tension = color_by_ == ColorBy::kTension;
   Eigen::VectorXd value =
-      by_tension ? tension_at_nodes(view.tension, cuts_) : curvature_at_nodes(view.points, radius_, cuts_);
+      by_tension ? tension_at_nodes(view.tension, cuts_) : curvature_at_nodes(view.points, radii_, cuts_);
   value.conservativeResizeLike(Eigen::VectorXd::Constant(view.points.cols(), Sample::kNone));
   if (parted >= 0 && by_tension) value.setConstant(Sample::kNone);
   if (parted >= 0 && !by_tension) value.segment(parted, 2).setZero();  // no bend is there any more
@@ -284,13 +292,13 @@ Marker ScenePicture::rod_marker(const SceneView& view) const {
   const Eigen::Index parted = parted_edge(view);
   TubeOptions tube;
   tube.missing = missing(parted);
-  return tube_marker(view.points, colors(view, parted), radius_, tube);
+  return tube_marker(view.points, colors(view, parted), radii_, tube);
 }
 
 void ScenePicture::add_bodies(const SceneView& view, std::vector<Marker>& markers) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    markers.push_back(
-        body_marker(static_cast<int>(i), bodies_[i], bodies_[i].goes_up ? view.upper_grip : view.lower_grip, radius_));
+    markers.push_back(body_marker(static_cast<int>(i), bodies_[i],
+                                  bodies_[i].goes_up ? view.upper_grip : view.lower_grip, thickest(material_)));
 }
 
 namespace {
@@ -309,9 +317,9 @@ visualization_msgs::MarkerArray stamped(std::vector<Marker> markers, const ros::
 }  // namespace
 
 visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view, const ros::Time& stamp) const {
-  std::vector<Marker> markers{rod_marker(view), gauge_marker(view.points, gauge_, radius_),
-                              contact_marker(show_contacts_ ? view.contacts : std::vector<ContactForce>(), radius_,
-                                             tension_, kLongestForce * radius_)};
+  std::vector<Marker> markers{rod_marker(view), gauge_marker(view.points, gauge_, radii_),
+                              contact_marker(show_contacts_ ? view.contacts : std::vector<ContactForce>(), radii_.first,
+                                             tension_, kLongestForce * radii_.first)};
   add_bodies(view, markers);
   return stamped(std::move(markers), stamp);
 }
@@ -321,7 +329,14 @@ visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view, 
   Colors shown = colors(view, parted);
   for (const Eigen::Index node : gauge_)
     if (node < view.points.cols()) shown[static_cast<std::size_t>(node)] = kInk;
-  std::vector<Marker> markers{spheres_marker(view.points, shown, radius_, missing(parted))};
+  const auto row = [&](double radius, const NodesOfRopes& nodes) {
+    return spheres_marker(view.points, shown, radius, missing(parted), nodes);
+  };
+  std::vector<Marker> markers{row(radii_.first, {0, radii_.first_of_others})};
+  if (radii_.first_of_others < view.points.cols()) {
+    markers.push_back(row(radii_.others, {radii_.first_of_others}));
+    markers.back().id = 1;
+  }
   add_bodies(view, markers);
   return stamped(std::move(markers), stamp);
 }

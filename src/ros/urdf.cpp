@@ -71,7 +71,7 @@ class Shapes {
  public:
   Shapes(const Method& method, const Vec3& lower_grip)
       : bodies_(grip_bodies(method.specimen, method.machine, method.material)),
-        radius_(method.material.radius),
+        radius_(thickest(method.material)),
         lower_grip_(lower_grip),
         end_to_end_(method.specimen.end_to_end),
         travel_(method.machine.travel) {

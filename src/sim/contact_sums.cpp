@@ -6,25 +6,40 @@ namespace knot_utm {
 
 namespace {
 
-/// Weights on three nodes of the sum 1, of which those below zero count as zero.
-void share(const double* weights, double sign, int first, double normal, Eigen::VectorXd& force) {
+/// Calls add(node, weight) with weights on three nodes of the sum 1, of which those below zero count as zero.
+template <class Add>
+void share(const double* weights, double sign, int first, const Add& add) {
   double sum = 0.0;
   for (int k = 0; k < 3; ++k) sum += std::max(0.0, sign * weights[k]);
   for (int k = 0; k < 3; ++k) {
     const double weight = std::max(0.0, sign * weights[k]);
-    if (weight > 0.0) force[first + k] += weight / sum * normal;
+    if (weight > 0.0) add(first + k, weight / sum);
+  }
+}
+
+/// Calls add(node, its share of the normal force [N], the direction of it) for both sides of those that touch.
+template <class Add>
+void each_share(const std::vector<ContactPoint>& contacts, const Add& add) {
+  for (const ContactPoint& contact : contacts) {
+    if (!contact.touches()) continue;
+    const double normal = contact.weight * contact.pressure;
+    share(contact.c, 1.0, contact.a0, [&](int node, double weight) { add(node, weight * normal, contact.n); });
+    if (!contact.on_roller())
+      share(contact.c + 3, -1.0, contact.b0, [&](int node, double weight) { add(node, weight * normal, -contact.n); });
   }
 }
 
 }  // namespace
 
 void add_normal_forces(const std::vector<ContactPoint>& contacts, Eigen::VectorXd& force) {
-  for (const ContactPoint& contact : contacts) {
-    if (!contact.touches()) continue;
-    const double normal = contact.weight * contact.pressure;
-    share(contact.c, 1.0, contact.a0, normal, force);
-    if (!contact.on_roller()) share(contact.c + 3, -1.0, contact.b0, normal, force);
-  }
+  each_share(contacts, [&](int node, double normal, const Vec3&) { force[node] += normal; });
+}
+
+void add_pressing(const std::vector<ContactPoint>& contacts, Pressing& pressing) {
+  each_share(contacts, [&](int node, double normal, const Vec3& along) {
+    pressing.col(node).head<3>() += normal * along;
+    pressing(3, node) += normal;
+  });
 }
 
 std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position) {

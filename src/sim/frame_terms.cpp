@@ -74,6 +74,19 @@ void set_tangents_of(std::vector<FourPairs>& pairs, const std::vector<FourVector
   }
 }
 
+/// At its ends a cut edge goes on as the rope does there. It may lie back along a rope, a turn that no curvature has.
+void straighten_cuts(const std::vector<int>& cuts, std::vector<FourPairs>& pairs) {
+  const auto copy = [](const FourVectors& from, FourVectors& to, int lane) {
+    to.x[lane] = from.x[lane];
+    to.y[lane] = from.y[lane];
+    to.z[lane] = from.z[lane];
+  };
+  for (const int cut : cuts) {
+    if (cut > 0) copy(pairs[at(cut - 1) / 4].u, pairs[at(cut - 1) / 4].v, (cut - 1) % 4);
+    if (at(cut) / 4 < pairs.size()) copy(pairs[at(cut) / 4].v, pairs[at(cut) / 4].u, cut % 4);
+  }
+}
+
 }  // namespace
 
 FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
@@ -118,6 +131,7 @@ FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
 
 void FrameTerms::part(int edge) {
   bending_.part(edge);
+  cuts_.push_back(edge);
   stiffness_[at(edge)] = stiffness_[at(edge + 1)] = 0.0;
 }
 
@@ -142,6 +156,7 @@ void FrameTerms::begin(const StepStart& step) {
   }
   for (std::size_t g = 0; g + 1 < start_fours_.size(); ++g) start_fours_[g] = four(start_tangent_, 4 * g);
   set_tangents_of(start_pairs_, start_fours_);
+  straighten_cuts(cuts_, start_pairs_);
   for (int i = 1; i < edges; ++i) {
     reference_twist_[at(i)] = start.reference_twist[i - 1];
     start_twist_[at(i)] =
@@ -176,6 +191,7 @@ void FrameTerms::set_tangents(const Points& position) {
     put(over_e / (1.0 + dot(before, now)) * cross(now, before), lean_, 4 * g);
   }
   set_tangents_of(pairs_, tangent_fours_);
+  straighten_cuts(cuts_, pairs_);
   for (std::size_t g = 0; g < pairs_.size(); ++g) {
     pairs_[g].over_e = four(inverse_length_, 4 * g);
     pairs_[g].over_f = four(inverse_length_, 4 * g + 1);

@@ -62,7 +62,11 @@ struct Equation {
     }
     if constexpr (D == 4)
       if (settings.friction_couple > 0.0) {
-        const RollingResistance& rolling = settings.rolling;
+        RollingLaws rolling = settings.rolling;
+        if (settings.others) {
+          rolling.of[1] = settings.others->rolling_between;
+          rolling.of[2] = settings.others->rolling_own;
+        }
         if (settings.friction.on() || (settings.others && strands_of_others_rub(*settings.others)))
           strands.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
         if (settings.roller_friction.on() || (settings.others && settings.others->on_rollers.friction.on()))

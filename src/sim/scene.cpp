@@ -9,6 +9,10 @@ namespace {
 
 constexpr int kMostIterations = 10000;
 
+void archive_rolling(Archive& archive, RollingResistance& rolling) {
+  archive(rolling.coefficient, rolling.radius, rolling.presliding, rolling.growth);
+}
+
 }  // namespace
 
 void Boundary::state(Archive& archive, int nodes) {
@@ -30,13 +34,20 @@ void Boundary::state(Archive& archive, int nodes) {
   for (const SpringHold& hold : holds) require_below(nodes, "node on a spring", hold.node);
 }
 
+void StepSettings::OtherLaws::state(Archive& archive) {
+  archive(between, own, on_rollers);
+  if (!archive.optional_section("PRLL", rolling_between.on() || rolling_own.on())) return;
+  for (RollingResistance* rolling : {&rolling_between, &rolling_own}) archive_rolling(archive, *rolling);
+  archive.require(rolling_between.on() || rolling_own.on(), "resistance of pairs to rolling", "0");
+}
+
 void StepSettings::state(Archive& archive) {
   archive.section("SET6");  // "SET5" named its pressure law, "SET4" had a bending law
   archive.choice("contact law", contact_law, ContactLaw::kEdge);
   archive(pressure_law, friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia,
           residual, residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit,
           overlap_limit, candidate_margin);
-  if (friction_couple > 0.0) archive(rolling.coefficient, rolling.radius, rolling.presliding, rolling.growth);
+  if (friction_couple > 0.0) archive_rolling(archive, rolling);
   archive.number("iterations", max_iterations, 1, kMostIterations);
   if (archive.optional_section("PAIR", others.has_value())) {
     if (archive.loads()) others.emplace();

@@ -43,6 +43,13 @@ Eigen::VectorXd StepReadings::normal_forces() const {
   return force;
 }
 
+Pressing StepReadings::pressing() const {
+  Pressing out = Pressing::Zero(4, state_.position.cols());
+  add_pressing(strands_, out);
+  add_pressing(rollers_now_.contacts(), out);
+  return out;
+}
+
 double StepReadings::normal_force_between(const NodeRange& a, const NodeRange& b) const {
   return knot_utm::normal_force_between(strands_, a, b);
 }

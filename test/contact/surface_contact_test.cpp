@@ -193,8 +193,7 @@ class Surface : public testing::Test {
     return out;
   }
 
-  void expect_exact(const Friction& friction, double couple, const RollingResistance& rolling = {},
-                    double fraction = 1e-6) {
+  void expect_exact(const Friction& friction, double couple, const RollingLaws& rolling = {}, double fraction = 1e-6) {
     Kind kind(scene, friction);
     kind.contact.act_at_surface(couple, scene.turns, rolling);
     const Eigen::VectorXd at = scene.unknowns();
@@ -257,7 +256,22 @@ TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWithSmoothedFrictionAndASh
 TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWhereItResistsRolling) {
   for (const double presliding : {1e-3, 5.0})
     for (const double growth : {0.0, 0.05})
-      this->expect_exact(MemoryFriction{0.4, 1e-3 * kRadius}, 0.7, {0.3, kRadius, presliding * kRadius, growth});
+      this->expect_exact(MemoryFriction{0.4, 1e-3 * kRadius}, 0.7,
+                         RollingResistance{0.3, kRadius, presliding * kRadius, growth});
+}
+
+/// All contacts of its scene are between both materials.
+using SurfaceOfTwoMaterials = Surface<OfTwoMaterials>;
+
+TEST_F(SurfaceOfTwoMaterials, JacobianIsTheDerivativeOfTheForcesWhereOnlyTheirPairResistsRolling) {
+  RollingLaws rolling;
+  rolling.of[1] = {0.3, 0.8 * kRadius, 0.5 * kRadius, 0.05};
+  expect_exact(MemoryFriction{0.4, 1e-3 * kRadius}, 0.7, rolling);
+  OfTwoMaterials with(scene, MemoryFriction{0.4, 1e-3 * kRadius}), of_others(with);
+  rolling.of[0] = {0.7, 0.3 * kRadius, kRadius};
+  with.contact.act_at_surface(0.7, scene.turns, rolling);
+  of_others.contact.act_at_surface(0.7, scene.turns, rolling[1]);
+  EXPECT_EQ(forces(with), forces(of_others));
 }
 
 /// In the step, a straight strand bends around another one until its feet are about to jump: G falls to 4e-4 |b'|^2,
@@ -292,13 +306,13 @@ TEST_F(SurfaceWhereAFootIsAboutToJump, JacobianIsTheDerivativeOfTheForces) {
   EXPECT_NEAR(least, kG, 0.1 * kG);
   EXPECT_GT(weighting, 0.4);
   for (const double presliding : {1e-3, 5.0})
-    expect_exact(MemoryFriction{0.4, presliding * kRadius}, 1.0, {0.3, kRadius, 1e-3 * kRadius}, 1e-9);
+    expect_exact(MemoryFriction{0.4, presliding * kRadius}, 1.0, RollingResistance{0.3, kRadius, 1e-3 * kRadius}, 1e-9);
 }
 
 TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   Wound scene;
   OnARoller kind(scene, MemoryFriction{0.4, 0.02 * kRadius});
-  kind.contact.act_at_surface(0.8, scene.turns, {0.3, kRadius, 0.05 * kRadius});
+  kind.contact.act_at_surface(0.8, scene.turns, RollingResistance{0.3, kRadius, 0.05 * kRadius});
   const auto evaluated = [&](const Eigen::VectorXd& unknowns) {
     scene.set(unknowns.head(4 * scene.nodes()));
     scene.roller.turn = unknowns[4 * scene.nodes()];
@@ -365,7 +379,7 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
 /// resistance to rolling takes up.
 TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
   TypeParam kind(this->scene, MemoryFriction{0.4, 1e-3 * kRadius});
-  kind.contact.act_at_surface(0.7, this->scene.turns, {0.3, kRadius, 0.05 * kRadius});
+  kind.contact.act_at_surface(0.7, this->scene.turns, RollingResistance{0.3, kRadius, 0.05 * kRadius});
   const Eigen::VectorXd force = this->forces(kind);
   Eigen::VectorXd way = this->scene.unknowns();
   for (Eigen::Index i = 0; i < this->scene.nodes(); ++i) way.segment<3>(4 * i) -= this->scene.start.col(i);

@@ -285,6 +285,63 @@ TEST(Fracture, AStrandAroundAPostPartsByTheBendOfThePost) {
   }
 }
 
+/// Of an arc of radius R under the tension T, pressed from inside by p = T/R, a straight strand squeezed between two by
+/// as much on either side, and one that is pulled: fraction = T/F_b + c h p/F_b.
+TEST(Fracture, CrushingCountsOnceWhetherTheOtherSideIsHeldByTensionOrByAStrand) {
+  constexpr double kForce = 200.0, kShare = 1.5, kPressed = 3e3;  // F_b [N], c, p [N/m]
+  Material material = bent(0.0);
+  material.breaking_force = kForce;
+  material.breaking.set("crushing_share", kShare);
+  constexpr int kNodes = 41;
+  const double h = material.radius, edge = 0.3 * h;
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(kNodes - 1, edge));
+  const RopeStrengths strengths(material, rod);
+  EXPECT_TRUE(strengths.crush());
+  EXPECT_FALSE(RopeStrengths(bent(0.3), rod).crush());
+  const double strain = 1e-4, tension = material.stretching_stiffness * strain / kForce;
+  const Points position = along_z(std::vector<double>(kNodes - 1, edge * (1.0 + strain)));
+  Pressing from_below = Pressing::Zero(4, kNodes), squeezed = from_below;
+  from_below.row(0).setConstant(kPressed * edge);
+  from_below.row(3) = from_below.row(0);
+  squeezed.row(3) = 2.0 * from_below.row(0);
+  for (const Pressing& pressing : {from_below, squeezed})
+    EXPECT_NEAR(strengths.most_exposed(rod, position, {}, pressing).fraction, tension + kShare * h * kPressed / kForce,
+                1e-9);
+  EXPECT_NEAR(strengths.most_exposed(rod, position).fraction, tension, 1e-9);
+  // A force at one node alone is that on a diameter of rod.
+  Pressing crossed = Pressing::Zero(4, kNodes);
+  crossed(1, 20) = crossed(3, 20) = 0.1 * kForce;
+  EXPECT_NEAR(strengths.most_exposed(rod, position, {}, crossed).fraction, tension + 0.5 * 0.1 * kShare, 1e-9);
+}
+
+/// A limp strand around a frictionless post of radius R, its centreline at R + h, is pressed by p = T/(R + h), and
+/// parts at T = F_b/(1 + c h/(R + h)): it parts under 1 % more and holds with 1 % less, of which its stiffness, where
+/// it leaves the post, and its polygon take 0.3 %. It has next to no mass, with which a load that is hung on would
+/// swing.
+TEST(Fracture, AStrandAroundAPostIsCrushedAtTheLoadOfTheClosedForm) {
+  constexpr double kPost = 0.02, kTension = 400.0, kShare = 2.0;  // diameter [m], [N]
+  Material material = bent(0.0);
+  const double h = material.radius;
+  material.breaking.set("crushing_share", kShare);
+  SpecimenOptions specimen = knot_of(knot_named("capstan")).defaults(h);
+  specimen.knot = knot_named("capstan");
+  specimen.wrap = M_PI;
+  specimen.post_diameter = kPost;
+  specimen.edge_length = 0.5 * h;
+  knot_of(specimen).suit(SpecimenOptions(specimen), 0.0, h, specimen);
+  HoldStep settle;
+  settle.duration = 2.0;
+  PhysicsOptions physics;
+  physics.inertia = 1e-6;
+  const double parts_at = kTension * (1.0 + kShare * h / (0.5 * kPost + h));
+  for (const double more : {0.99, 1.01}) {
+    specimen.tail_load = more * kTension;
+    material.breaking_force = parts_at;
+    const Pulled held = run(specimen, material, physics, {settle});
+    EXPECT_EQ(held.program.ended_by(), more > 1.0 ? EndedBy::kBreak : EndedBy::kProgram) << held.program.reason();
+  }
+}
+
 /// What joins two ropes is no part of them: neither its length nor the bend at its ends counts.
 TEST(Fracture, NoRodPartsWhereItIsCut) {
   const Material material = bent(1.0);

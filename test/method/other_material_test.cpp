@@ -11,6 +11,7 @@
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
@@ -79,6 +80,9 @@ TEST(OtherMaterial, FrictionOfThePairIsTheSmallerOneUnlessItIsGiven) {
   const Method smaller = sheet_bend(slippery);
   EXPECT_EQ(pair_friction(smaller.material, smaller.physics), 0.1);
   std::vector<std::string> given = slippery;
+  const Method mean = sheet_bend({slippery[0], slippery[1], "physics.friction.pair=mean"});
+  EXPECT_EQ(pair_friction(mean.material, mean.physics), 0.5 * (0.1 + mean.material.friction_coefficient));
+  EXPECT_THAT(method_yaml(mean), HasSubstr("pair: mean"));
   given.push_back("physics.friction.pair=0.3");
   const Method set = sheet_bend(given);
   const StepSettings settings = step_settings(set.specimen, set.material, set.machine, set.physics);
@@ -107,6 +111,59 @@ TEST(OtherMaterial, BothRopesAreLighterByTheSameFactor) {
   EXPECT_EQ(moving.density, factor * method.material.density);
   EXPECT_EQ(moving.other->density, factor * method.material.other->density);
   EXPECT_LE(factor, inertia_factor(static_cast<const RodMaterial&>(method.material), method.physics, 0.1));
+}
+
+/// The rope that gives way more takes more of the work of rolling, of which it loses its own share.
+TEST(OtherMaterial, TheirContactResistsRollingAsItsTwoHalvesDo) {
+  const Method method = sheet_bend({"material=pink_vps", "other_material=pink_vps", "other_material.radius=0.001",
+                                    "material.rolling_hysteresis=0.1", "other_material.rolling_resistance=0.3"});
+  const Material &one = method.material, &other = *method.material.other;
+  const StepSettings settings = step_settings(method.specimen, one, method.machine, method.physics);
+  const RollingResistance &between = settings.others->rolling_between, &own = settings.others->rolling_own;
+  EXPECT_EQ(settings.rolling.coefficient, 0.1);
+  EXPECT_EQ(own.coefficient, 0.3);
+  EXPECT_EQ(own.radius, 0.001);
+  EXPECT_EQ(own.growth, 0.0);
+  EXPECT_DOUBLE_EQ(between.radius, 2.0 / (1.0 / one.radius + 1000.0));
+  const double k = default_contact_stiffness(one), k_other = default_contact_stiffness(other);
+  EXPECT_NEAR(between.coefficient, (0.1 * k_other + 0.3 * k) / (k + k_other), 1e-15);
+  // The same one twice is as one.
+  const RollingResistance same = rolling_between(one, one, 1e-3);
+  EXPECT_DOUBLE_EQ(same.coefficient, settings.rolling.coefficient);
+  EXPECT_DOUBLE_EQ(same.radius, settings.rolling.radius);
+  EXPECT_NEAR(same.growth, settings.rolling.growth, 1e-15 + 1e-12 * same.growth);
+  EXPECT_GT(same.growth, 0.0);
+  // Beside a rigid one, the soft one takes all the work.
+  Material rigid = one;
+  rigid.contact_stiffness = 1e13;
+  rigid.rolling_resistance = rigid.rolling_hysteresis = 0.0;
+  EXPECT_NEAR(rolling_between(one, rigid, 1e-3).coefficient, one.rolling_resistance, 1e-6);
+}
+
+TEST(OtherMaterial, WhatResistsRollingIsSavedWithTheSettings) {
+  for (const char* resists : {"0", "0.3"}) {
+    const Method method = sheet_bend({"other_material=polyester_cord", "other_material.radius=0.001",
+                                      std::string("other_material.rolling_resistance=") + resists});
+    const StepSettings saved = step_settings(method.specimen, method.material, method.machine, method.physics);
+    StepSettings loaded = saved;
+    loaded.others.reset();
+    std::string bytes, again;
+    Archive::to(bytes).save(saved);
+    Archive from = Archive::from(bytes, "settings", "a file");
+    from(loaded);
+    EXPECT_EQ(loaded.others->rolling_own.coefficient, saved.others->rolling_own.coefficient);
+    EXPECT_EQ(loaded.others->rolling_between.radius, resists[1] ? saved.others->rolling_between.radius : 0.0);
+    Archive::to(again).save(loaded);
+    EXPECT_EQ(again, bytes);
+  }
+}
+
+TEST(OtherMaterial, TheCellSuitsTheWeakerRope) {
+  const Method alone = sheet_bend({}),
+               strong = sheet_bend({"other_material=polyester_cord", "other_material.breaking_force=1e6"}),
+               weak = sheet_bend({"other_material=polyester_cord", "other_material.breaking_force=100"});
+  EXPECT_EQ(strong.machine.load_cell.capacity, alone.machine.load_cell.capacity);
+  EXPECT_LT(weak.machine.load_cell.capacity, 0.2 * alone.machine.load_cell.capacity);
 }
 
 TEST(OtherMaterial, TheRopeThatIsNearestToItsOwnBreakingForceParts) {
@@ -170,8 +227,14 @@ TEST(OtherMaterial, IsRefusedInOneLineWhereNothingTellsRopesApart) {
                              "other_material.bending_law is elastic, but must be that of material, frictional"},
                             {{other, "other_material.stretching_law=neo_hookean"}, "other_material.stretching_law"},
                             {{other, "other_material.friction_couple=0.5"}, "other_material.friction_couple"},
-                            {{other, "other_material.rolling_resistance=0.1"}, "other_material.rolling_resistance"},
-                            {{other, "material.rolling_resistance=0.1"}, "material.rolling_resistance"},
+                            {{other, "material.friction_couple=0", "other_material.friction_couple=0",
+                              "other_material.rolling_resistance=0.1"},
+                             "other_material.rolling_resistance is 0.1, but has an effect only with other_material."},
+                            {{other, "other_material.rolling_hysteresis=0.1"},
+                             "other_material.rolling_hysteresis is 0.1, but has an effect only in a solid rod"},
+                            {{other, "physics.friction.pair=larger"}, "smaller or mean"},
+                            {{"physics.friction.pair=mean"},
+                             "physics.friction.pair is mean, but has an effect only with other_material"},
                             {{other, "physics.contact.law=edge"}, "physics.contact.law"},
                             {{other, "analysis.margin=true"}, "analysis.margin"},
                             {{other, "other_material.radius=2"}, "other_material.radius"},

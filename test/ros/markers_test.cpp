@@ -216,6 +216,31 @@ TEST_F(ScenePictureTest, RopesAreDrawnEachByItself) {
     EXPECT_FALSE(point.x > 0.25 && point.z > gap_begin + 1e-9 && point.z < gap_end - 1e-9);
 }
 
+/// The first rope lies along x = 0, those of another material along x = 0.5.
+TEST_F(ScenePictureTest, RopesOfAnotherMaterialHaveTheirOwnRadius) {
+  Points both = Points::Zero(3, 102);
+  both.row(2) << Eigen::RowVectorXd::LinSpaced(51, 0.0, 1.0), Eigen::RowVectorXd::LinSpaced(51, 0.0, 1.0);
+  both.row(0).tail(51).setConstant(0.5);
+  Material two = material(), thin = material();
+  thin.radius = 0.001;
+  two.other = std::make_shared<const Material>(thin);
+  picture = ScenePicture(SpecimenOptions(), MachineOptions(), two);
+  picture.begin(both, {50});
+  double widest[2] = {0.0, 0.0};
+  for (const auto& point : part(draw(both), "rod").points) {
+    double& of = widest[point.x < 0.25 ? 0 : 1];
+    of = std::max(of, std::hypot(point.x - (point.x < 0.25 ? 0.0 : 0.5), point.y));
+  }
+  EXPECT_NEAR(widest[0], 0.002, 1e-12);
+  EXPECT_NEAR(widest[1], 0.001, 1e-12);
+  const Eigen::VectorXd tension = Eigen::VectorXd::Constant(101, 1.0);
+  const SceneView view{both, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, "sliding"};
+  std::vector<std::pair<double, double>> rows;  // diameter, and x of the first sphere
+  for (const auto& marker : picture.draw_small(view, ros::Time(1.0)).markers)
+    if (marker.ns == "rod") rows.emplace_back(marker.scale.x, marker.points.front().x);
+  EXPECT_EQ(rows, (std::vector<std::pair<double, double>>{{0.004, 0.0}, {0.002, 0.5}}));
+}
+
 /// Its axis is the cylinder's, which stands along z before the marker's pose turns it.
 TEST_F(ScenePictureTest, APostIsACylinderWhereTheSpecimenHasIt) {
   SpecimenOptions capstan = knot_of(knot_named("capstan")).defaults(material().radius);

@@ -81,6 +81,38 @@ TEST_P(CutRod, MovesAsItsRopesDoByThemselves) {
   EXPECT_EQ(joined->tension()[kEdges], 0.0);
 }
 
+/// As two strands that were both drawn upwards, one below the other: a turn by half a circle has no curvature.
+TEST_P(CutRod, MayBeJoinedByALinkThatLiesBackAlongItsRopes) {
+  const double h = braided_rope().radius;
+  const auto strand = [&](double from) {
+    Points x = Points::Zero(3, kEdges + 1);
+    for (int i = 0; i <= kEdges; ++i) x.col(i) = Vec3(0.0, 0.0, from + h * i);
+    return x;
+  };
+  const auto fallen = [&](const Points& x, const std::vector<int>& cuts) {
+    Ropes ropes({0.0}, false);
+    ropes.rod = make_rod(braided_rope(), lengths(x) / 1.01, cuts);
+    ropes.state = {};
+    ropes.state.position = x;
+    ropes.state.velocity = Points::Zero(3, x.cols());
+    if (GetParam()) initialise_frames(&ropes.state);
+    ropes.boundary.fixed_nodes.clear();
+    for (int first = 0; first < static_cast<int>(x.cols()); first += kEdges + 1)
+      ropes.boundary.fixed_nodes.push_back({first, x.col(first)});
+    StepSettings settings = falling();
+    settings.gravity = Vec3(9.81, 0.0, 0.0);
+    const std::unique_ptr<TimeStep> step = TimeStep::make(ropes.rod, ropes.state, settings);
+    for (int i = 0; i < 10; ++i) EXPECT_TRUE(step->step(ropes.boundary, 1e-4).accepted());
+    return step->state().position;
+  };
+  const Points upper = strand(0.0);
+  Points both(3, 2 * upper.cols());
+  both << upper, strand(-3.0 * kEdges * h);
+  const Points x = fallen(both, {kEdges}), one = fallen(upper, {});
+  EXPECT_GT(one.row(0).maxCoeff(), 1e-6);
+  EXPECT_NEAR((x.leftCols(kEdges + 1) - one).cwiseAbs().maxCoeff(), 0.0, 1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(WithoutAndWithTwist, CutRod, ::testing::Bool());
 
 TEST(CutRod, HasTheMassLengthAndEnergyOfItsRopes) {

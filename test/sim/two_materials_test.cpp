@@ -58,7 +58,9 @@ StepSettings settings_of(const Material& material, double mu_between, double mu_
   const double presliding = 1e-3 * material.radius;
   out.others = {{out.pressure_law, MemoryFriction{mu_between, presliding}},
                 {out.pressure_law, MemoryFriction{mu_others, presliding}},
-                {out.pressure_law, out.roller_friction}};
+                {out.pressure_law, out.roller_friction},
+                {},
+                {}};
   return out;
 }
 
@@ -73,10 +75,16 @@ TEST(TwoMaterials, TheSameOneTwiceIsOneToTheLastBit) {
     if (twist) initialise_frames(&state);
     StepSettings one = closed_form_settings(material);
     one.friction = MemoryFriction{0.4, 1e-3 * h};
-    if (twist) one.friction_couple = 1.0;
+    if (twist) {
+      one.friction_couple = 1.0;
+      one.rolling = {0.2, h, 1e-3 * h};
+    }
     StepSettings two = one;
-    two.others = {
-        {one.pressure_law, one.friction}, {one.pressure_law, one.friction}, {one.pressure_law, one.roller_friction}};
+    two.others = {{one.pressure_law, one.friction},
+                  {one.pressure_law, one.friction},
+                  {one.pressure_law, one.roller_friction},
+                  one.rolling,
+                  one.rolling};
     const auto as_one = TimeStep::make(make_rod(material, ropes.lengths(), ropes.cuts), state, one);
     const auto as_two = TimeStep::make(make_rod(material, material, ropes.lengths(), ropes.cuts), state, two);
     double pressed = 0.0;

@@ -56,7 +56,7 @@ class EdgeContact {
   EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
 
   /// As SmoothContact's.
-  void act_at_surface(double couple, const SectionTurns& turns, const RollingResistance& rolling = {}) {
+  void act_at_surface(double couple, const SectionTurns& turns, const RollingLaws& rolling = {}) {
     lever_ = 0.5 * couple;
     rolling_ = rolling;
     turns_ = &turns;
@@ -144,7 +144,7 @@ class EdgeContact {
   double lever_ = 0.0;                   // lambda of SurfacePoint
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
-  RollingResistance rolling_;
+  RollingLaws rolling_;
   std::vector<Memory> memory_;  // ascending in arclength_a
   bool first_evaluation_ = true;
 };

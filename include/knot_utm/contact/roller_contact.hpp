@@ -65,7 +65,7 @@ class RollerContact {
   void tell_apart(const PairLaws& others) { laws_.of[2] = others; }
 
   /// As SmoothContact's.
-  void act_at_surface(double couple, const SectionTurns& turns, const RollingResistance& rolling = {}) {
+  void act_at_surface(double couple, const SectionTurns& turns, const RollingLaws& rolling = {}) {
     couple_ = couple;
     rolling_ = rolling;
     turns_ = &turns;
@@ -159,7 +159,7 @@ class RollerContact {
   double couple_ = 0.0;                  // eta: fraction of friction's couple that a section transmits
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
-  RollingResistance rolling_;
+  RollingLaws rolling_;
   std::vector<double> prediction_, committed_prediction_;  // of the pressure, < 0: none; indexed as memory_
   std::vector<FrictionMemory> memory_;  // of roller r at point q of segment i: [(r segments + i) 2 + q]
 };

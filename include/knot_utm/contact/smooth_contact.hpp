@@ -48,7 +48,7 @@ class SmoothContact {
   /// From now on friction acts at the surfaces of the strands, whose sections transmit the fraction `couple` of its
   /// couple (SurfacePoint), and contacts resist rolling. Otherwise it acts on the centrelines. `turns` belong to the
   /// positions that are evaluated and must outlive this object.
-  void act_at_surface(double couple, const SectionTurns& turns, const RollingResistance& rolling = {}) {
+  void act_at_surface(double couple, const SectionTurns& turns, const RollingLaws& rolling = {}) {
     couple_ = couple;
     rolling_ = rolling;
     turns_ = &turns;
@@ -187,7 +187,7 @@ class SmoothContact {
   double couple_ = 0.0;                  // eta of SurfacePoint
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
-  RollingResistance rolling_;
+  RollingLaws rolling_;
   MemoryList accepted_;          // of the last accepted step
   std::vector<char> recalled_;   // of each entry of iterate_: assigned to a foot
   MemoryList iterate_;           // of the last evaluation; before the first of a step, the accepted ones

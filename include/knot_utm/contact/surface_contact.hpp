@@ -103,6 +103,16 @@ struct RollingResistance {
   static double growth_of_hysteresis(double lost, double radius, double stretching_stiffness);
 };
 
+/// That of all pairs of materials, by ContactPoint::pair, as ContactLaws.
+struct RollingLaws {
+  RollingResistance of[3];
+
+  RollingLaws(const RollingResistance& all = {}) : of{all, all, all} {}
+
+  const RollingResistance& operator[](int pair) const { return of[pair]; }
+  bool on() const { return of[0].on() || of[1].on() || of[2].on(); }
+};
+
 /// How the feet of a contact between edges move (edge_contact.hpp): inverse of H, zero where a foot stays [1/m^2].
 struct EdgeFeet {
   double inverse_tt = 0.0, inverse_tu = 0.0, inverse_uu = 0.0;
@@ -116,11 +126,11 @@ void add_shifts(std::vector<ContactPoint>& contacts, const std::vector<SurfacePo
 Vec3 rolling(const ContactPoint& contact, const SurfacePoint& surface);
 
 /// Sets SurfacePoint::on_a and on_b of every active contact, once its force is known, and what resists rolling.
-void set_couples(const RollingResistance& rolling, const std::vector<ContactPoint>& contacts,
+void set_couples(const RollingLaws& rolling, const std::vector<ContactPoint>& contacts,
                  std::vector<SurfacePoint>& surfaces);
 
 /// What the friction law and the resistance to rolling keep of a contact once the step is accepted.
-FrictionMemory remember(const Friction& friction, const RollingResistance& rolling, const ContactPoint& contact,
+FrictionMemory remember(const Friction& friction, const RollingLaws& rolling, const ContactPoint& contact,
                         const SurfacePoint& surface, double dt);
 /// What resistance to rolling takes up in the step: the work against C [J].
 double rolling_loss(const ContactPoint& contact, const SurfacePoint& surface);
@@ -164,12 +174,12 @@ struct SurfaceModels {
 /// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
 /// four active contacts of one pair of materials from number `from` on, or as many as follow each other. `surfaces`:
 /// one for each of `contacts`. Returns the number from which to go on.
-std::size_t linearise(const ContactLaws& laws, const RollingResistance& rolling, double dt,
-                      const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
-                      const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models);
+std::size_t linearise(const ContactLaws& laws, const RollingLaws& rolling, double dt, const ContactLinearisation& how,
+                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
+                      std::size_t from, SurfaceModels& models);
 
 /// The same between edges, which have two feet each.
-std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingResistance& rolling, double dt,
+std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingLaws& rolling, double dt,
                       const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
                       const std::vector<SurfacePoint>& surfaces, const std::vector<EdgeFeet>& feet, std::size_t from,
                       SurfaceModels& models);

@@ -10,6 +10,7 @@ struct LoadedEdge {
   double tension;  ///< T [N]
   double strain;   ///< lambda - 1 [-]
   double bend;     ///< h kappa, the strain by which bending alone stretches the outermost fibre [-]
+  double pressed;  ///< h p, p the force per length that contacts press it flat with; 0 where its law does not ask [N]
 };
 
 }  // namespace knot_utm

@@ -5,6 +5,7 @@
 #include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/stretching.hpp"
+#include "knot_utm/sim/pressing.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
@@ -27,12 +28,24 @@ struct Exposure {
 /// A rod bends no sharper than its section is wide. Without the mean, a limp rope would be bent over a length of
 /// (k_b/T)^1/2 where a strand presses on it, some hundredths of h at the loads that part it, so that the largest
 /// curvature would grow as edges get shorter. Cut edges, and ends of ropes, bear nothing.
+///
+/// The force that presses it flat is the mean along the same diameter, at its more pressed end. Forces from one side
+/// press on all of a section that tension holds against them, and those from two sides press once, not twice:
+///
+///   p = (sum_i w_i |f|_i + |sum_i w_i f_i|)/(4 h)
+///
+///   f_i, |f|_i  sum of the normal forces of contacts at node i, and of their sizes (Pressing) [N]
 class RopeStrengths {
  public:
   /// By the breaking laws of the materials of its ropes, which say all about those that can part.
   RopeStrengths(const Material& material, const RodProperties& rod);
 
-  Exposure most_exposed(const RodProperties& rod, const Points& position, const StretchedBefore& before = {}) const;
+  /// Whether one of the laws asks for what contacts press with.
+  bool crush() const;
+
+  /// `pressing`: of all nodes, where one of the laws asks for it.
+  Exposure most_exposed(const RodProperties& rod, const Points& position, const StretchedBefore& before = {},
+                        const Pressing& pressing = {}) const;
 
  private:
   struct Ropes {

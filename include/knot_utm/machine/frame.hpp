@@ -50,11 +50,11 @@ class Frame {
   void state(Archive& archive);
 
  private:
-  double stiffness_;  ///< K [N/m]
-  double strands_;    ///< n k_s [N]
-  double specimen_;   ///< k, unless taut strands are softer [N/m]
-  double damping_;    ///< c [N s/m]
-  double mass_;       ///< m [kg]
+  double stiffness_;      ///< K [N/m]
+  double strands_ = 0.0;  ///< n k_s [N]
+  double specimen_;       ///< k, unless taut strands are softer [N/m]
+  double damping_ = 0.0;  ///< c [N s/m]
+  double mass_ = 0.0;     ///< m [kg]
 };
 
 }  // namespace knot_utm

@@ -25,6 +25,15 @@ NormalLaw normal_law(const Material& material, double tolerance);
 /// that 2/K = 1/K_a + 1/K_b.
 NormalLaw normal_law_between(const Material& a, const Material& b, double tolerance);
 
+/// Resistance to rolling between strands of two materials. Either half of a contact loses its own share of the work
+/// that goes into it, and more work goes into the one that gives way more; the share lost by hysteresis goes alike:
+///
+///   mu_r = (mu_a K_b + mu_b K_a)/(K_a + K_b)
+///
+/// The pressed strip is as wide as that of two strands of the radius h with 2/h = 1/h_a + 1/h_b, and of a modulus with
+/// 2/E = 1/E_a + 1/E_b (Johnson, Contact Mechanics, 4.2). `presliding`: in that radius [-].
+RollingResistance rolling_between(const Material& a, const Material& b, double presliding);
+
 /// Friction coefficient between ropes of two materials (physics.friction.pair) [-].
 double pair_friction(const Material& material, const PhysicsOptions& physics);
 

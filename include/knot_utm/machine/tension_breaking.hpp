@@ -25,6 +25,7 @@ struct TensionBreaking {
 
   double limited(const LoadedEdge& edge) const { return edge.tension; }
   double fraction(const LoadedEdge& edge) const { return edge.tension / breaking_force; }
+  bool crushes() const { return false; }
 };
 
 }  // namespace knot_utm

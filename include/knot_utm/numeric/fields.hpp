@@ -51,6 +51,14 @@ class Fields {
     visit_whole_number(key, number, static_cast<double>(min), static_cast<double>(max));
     value = static_cast<Integer>(number);
   }
+  /// A number, or one of some words in place of it, the first of which is the default: an enumeration's, in its order.
+  template <class Enum, class Words>
+  void number_or_word(const char* key, std::optional<double>& value, const Range& range, Enum& word,
+                      const Words& words) {
+    std::size_t index = static_cast<std::size_t>(word);
+    visit_number_or_word(key, value, range, index, {words.begin(), words.end()});
+    word = static_cast<Enum>(index);
+  }
   virtual void text(const char* key, std::string& value, std::size_t most_characters = kAnyLength) = 0;
   /// The name of a file, which a method gives as seen from its own folder.
   virtual void file(const char* key, std::string& value) { text(key, value); }
@@ -73,6 +81,8 @@ class Fields {
   static constexpr std::size_t kAnyLength = std::numeric_limits<std::size_t>::max();
 
   virtual void visit_number(const char* key, double& value, const Range& range, Unset unset) = 0;
+  virtual void visit_number_or_word(const char* key, std::optional<double>& value, const Range& range,
+                                    std::size_t& index, const std::vector<std::string>& words) = 0;
   virtual void visit_whole_number(const char* key, double& value, double min, double max) = 0;
   virtual void visit_name(const char* key, std::size_t& index, const std::vector<std::string>& names) = 0;
 };

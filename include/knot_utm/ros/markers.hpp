@@ -4,6 +4,7 @@
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/color_scale.hpp"
 #include "knot_utm/sim/contact_force.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 
@@ -19,10 +21,21 @@ namespace knot_utm {
 /// and the next (RodProperties::cuts).
 Eigen::VectorXd tension_at_nodes(const Eigen::VectorXd& tension, const std::vector<int>& cuts = {});
 
+/// Radii of ropes that follow each other, of which those behind the first one may be of another material [m].
+struct RopeRadii {
+  double first, others;
+  Eigen::Index first_of_others = std::numeric_limits<Eigen::Index>::max();  ///< node
+
+  RopeRadii(double all) : first(all), others(all) {}
+  RopeRadii(const Material& material, const std::vector<int>& cuts);
+
+  double operator()(Eigen::Index node) const { return node < first_of_others ? first : others; }
+};
+
 /// Curvature at the nodes times the radius of the rod, which is the bending strain at the rod's surface [-]. The
 /// curvature is that of the circle that touches both edges of the node at their midpoints. Zero at the ends of each
 /// rope.
-Eigen::VectorXd curvature_at_nodes(const Points& points, double radius, const std::vector<int>& cuts = {});
+Eigen::VectorXd curvature_at_nodes(const Points& points, const RopeRadii& radius, const std::vector<int>& cuts = {});
 
 using Colors = std::vector<std_msgs::ColorRGBA>;
 
@@ -34,13 +47,18 @@ struct TubeOptions {
   std::vector<int> missing;  ///< edges that are not drawn, ascending: cuts, and one that has parted
 };
 /// `colors`: one for each node.
-visualization_msgs::Marker tube_marker(const Points& points, const Colors& colors, double radius,
+visualization_msgs::Marker tube_marker(const Points& points, const Colors& colors, const RopeRadii& radius,
                                        const TubeOptions& options);
 
+/// The nodes from one to another, without the latter.
+struct NodesOfRopes {
+  Eigen::Index begin = 0, end = std::numeric_limits<Eigen::Index>::max();
+};
+
 /// The same as a row of spheres, a SPHERE_LIST, with a fiftieth of the bytes. Where edges are long, there are spheres
-/// between the nodes, too.
+/// between the nodes, too. All spheres of a list are of one size: ropes of another radius need another list.
 visualization_msgs::Marker spheres_marker(const Points& points, const Colors& colors, double radius,
-                                          const std::vector<int>& missing = {});
+                                          const std::vector<int>& missing = {}, const NodesOfRopes& nodes = {});
 
 /// One line for each contact force, centred at the contact. The lines stick out of the strands where the strands are
 /// pressed together. Half of a line has the length `longest` [m] times the place of the force on the scale of tension.
@@ -90,7 +108,8 @@ class ScenePicture {
   void add_bodies(const SceneView& view, std::vector<visualization_msgs::Marker>& markers) const;
 
   std::vector<GripBody> bodies_;
-  double radius_;  ///< of the rod [m]
+  Material material_;
+  RopeRadii radii_;
   std::vector<int> cuts_;
   Eigen::VectorXd arclength_;        ///< of the nodes along all ropes, at the beginning of the specimen [m]
   std::vector<Eigen::Index> gauge_;  ///< nodes that carry a gauge mark

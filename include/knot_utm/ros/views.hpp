@@ -50,13 +50,13 @@ class Views {
   /// `cuts`: edges between one rope and the next.
   Views(const SpecimenOptions& specimen, const MachineOptions& machine, const Material& material,
         const std::vector<int>& cuts = {})
-      : bodies_(grip_bodies(specimen, machine, material)), radius_(material.radius), cuts_(cuts) {}
+      : bodies_(grip_bodies(specimen, machine, material)), radius_(thickest(material)), cuts_(cuts) {}
 
   Looks look(const Points& points, const Vec3& lower_grip, const Vec3& upper_grip, const Sample& sample);
 
  private:
   std::vector<GripBody> bodies_;
-  double radius_;  ///< of the rod [m]
+  double radius_;  ///< of the thickest rope [m]
   std::vector<int> cuts_;
   bool seen_ = false;
   Phase phase_ = Phase::kIdle;

@@ -5,6 +5,7 @@
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/contact_force.hpp"
+#include "knot_utm/sim/pressing.hpp"
 
 namespace knot_utm {
 
@@ -26,6 +27,9 @@ double roller_normal_force(const std::vector<ContactPoint>& contacts, const Node
 /// nodes of either point by those of its weights c_k that are of its side's sign. For pictures: by the other weights of
 /// a smooth centreline a strand would pull at its neighbours.
 void add_normal_forces(const std::vector<ContactPoint>& contacts, Eigen::VectorXd& force);
+
+/// Adds the same forces to what presses on each node.
+void add_pressing(const std::vector<ContactPoint>& contacts, Pressing& pressing);
 
 /// The forces of those contacts that touch between strands; a law has evaluated all of them at `position`.
 std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position);

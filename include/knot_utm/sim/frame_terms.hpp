@@ -157,6 +157,7 @@ class FrameTerms {
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j
   bool curved_ = false;      // at rest, as the step begins
+  std::vector<int> cuts_;    // edges
   bool rolls_;               // turns_ are asked for
   const RodState* start_ = nullptr;
   double dt_ = 0.0;

@@ -11,13 +11,15 @@ enum class ContactLaw { kSmooth, kEdge };
 enum class TwistMode { kAuto, kOn, kOff };
 enum class FrictionAt { kSurface, kCentreline };
 enum class Accuracy { kDraft, kNormal, kFine };
+enum class PairRule { kSmaller, kMean };
 
 /// The `physics` section of a method. Values left unset follow from `accuracy`.
 struct PhysicsOptions {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< g [m/s^2]
   FrictionOptions friction;                           ///< friction.law and the keys of that law
   FrictionAt friction_at = FrictionAt::kSurface;      ///< friction.at: surface | centreline
-  std::optional<double> pair_friction;  ///< friction.pair: coefficient of two materials; unset: the smaller of theirs
+  PairRule pair_rule = PairRule::kSmaller;       ///< friction.pair: smaller | mean of the coefficients of two materials
+  std::optional<double> pair_friction;           ///< friction.pair as a number, which goes before the rule [-]
   ContactLaw contact_law = ContactLaw::kSmooth;  ///< contact.law: smooth | edge
   TwistMode twist = TwistMode::kAuto;            ///< twist: auto (where the scene can twist) | on | off
   Accuracy accuracy = Accuracy::kNormal;         ///< accuracy: draft | normal | fine

@@ -88,12 +88,13 @@ struct StepSettings {
   /// the first one, among themselves, and on rollers.
   struct OtherLaws {
     PairLaws between, own, on_rollers;
-    void state(Archive& archive) { archive(between, own, on_rollers); }
+    RollingResistance rolling_between, rolling_own;  ///< the latter on rollers, too
+    void state(Archive& archive);
   };
   std::optional<OtherLaws> others;
   double friction_couple =
       0.0;                    ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
-  RollingResistance rolling;  ///< of all contacts; only where friction acts at the surfaces
+  RollingResistance rolling;  ///< of the first rope's contacts; only where friction acts at the surfaces
   double weighting_time = 0.05;             ///< relaxation time of weighting factors (smooth_contact.hpp) [s]
   Vec3 gravity = Vec3::Zero();              ///< g [m/s^2]
   double drag = 0.0;                        ///< c, force -c v per length [N s/m^2]

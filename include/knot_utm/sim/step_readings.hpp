@@ -49,6 +49,8 @@ class StepReadings {
   /// Sum of the normal forces of strands and rollers on each node [N].
   Eigen::VectorXd normal_forces() const;
   Eigen::VectorXd strand_normal_forces() const;  ///< of strands alone
+  /// What strands and rollers press on each node with; of contacts as they were last evaluated, in any case.
+  Pressing pressing() const;
   double normal_force_between(const NodeRange& a, const NodeRange& b) const;
   double roller_normal_force(const NodeRange& piece) const;
 

@@ -187,7 +187,7 @@ class OneTest:
         self.load = run.units.force.scale * self.tested["load"]
         self.title = f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}"
         some = np.unique(np.linspace(0, len(self.shapes) - 1, VIEWS).astype(int))
-        views = np.array([view(run, self.shapes[i], run.method["material"]["radius"]) for i in some])
+        views = np.array([view(run, self.shapes[i], run.thickest()) for i in some])
         self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())
 
     def first(self):

@@ -120,7 +120,7 @@ def draw(runs, file, command):
         axes.set_title(f"{letter}   s = {1e3 * until_break(run)['extension'][-1]:.1f} mm", loc="left")
     # One scale for all of them.
     drawn = 1e3 * np.vstack([to_picture(shape.points) for shape in shapes])[:, :2]
-    margin = 2e3 * runs[-1].method["material"]["radius"]
+    margin = 2e3 * runs[-1].thickest()
     for axes in figure.axes:
         axes.set_xlim(drawn[:, 0].min() - margin, drawn[:, 0].max() + margin)
         axes.set_ylim(drawn[:, 1].min() - margin, drawn[:, 1].max() + margin)

@@ -26,7 +26,7 @@ def pictures(run, marks, shapes, looks):
     radius = run.method["material"]["radius"]
     scale = next((one for one in colour_scales(shapes, radius, run.units) if one.name == "tension"), None)
     rods = [tubes_of(run, shape, shapes[0], scale) for shape in shapes]
-    views = [view(run, shape, radius) for shape in shapes]
+    views = [view(run, shape, run.thickest()) for shape in shapes]
     return [picture(run, list(zip(marks, shapes, rods, views)), scale, look) for look in looks]
 
 

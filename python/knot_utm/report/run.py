@@ -77,6 +77,10 @@ class Run:
         first, other = self.method["material"]["radius"], self.method.get("other_material")
         return [other["radius"] if other and part.start > shape.cuts[0] else first for part in parts]
 
+    def thickest(self):
+        """Radius of the thickest rope [m]."""
+        return max(self.method[of]["radius"] for of in ("material", "other_material") if of in self.method)
+
     def has_knot(self):
         return self.reasons.get("knot_efficiency") != "there is no knot"
 

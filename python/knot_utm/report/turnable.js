@@ -36,15 +36,15 @@
   }
 
   // A piece of the rod: a smooth line through its nodes, a tube around it, and a disc at either end.
-  function piece(shape, first, end) {
+  function piece(shape, first, end, radius) {
     const nodes = [];
     for (let i = first; i < end; ++i) nodes.push(node(shape, i));
     const line = new THREE.CatmullRomCurve3(nodes);
     line.getPointAt = line.getPoint;  // by the number of the node, which has the colour, and not by the length
     line.getTangentAt = line.getTangent;
-    const tube = new THREE.TubeBufferGeometry(line, PIECES * (nodes.length - 1), data.radius, SIDES);
+    const tube = new THREE.TubeBufferGeometry(line, PIECES * (nodes.length - 1), radius, SIDES);
     const ends = [0, 1].map(at => {
-      const disc = new THREE.CircleBufferGeometry(data.radius, SIDES);
+      const disc = new THREE.CircleBufferGeometry(radius, SIDES);
       disc.lookAt(line.getTangent(at).multiplyScalar(2 * at - 1));
       disc.translate(...line.getPoint(at).toArray());
       return coloured(disc, () => colour(shape, at ? end - 1 : first));
@@ -144,8 +144,8 @@
     const state = data.states[shape];
     rod.children.forEach(part_of_rod => part_of_rod.geometry.dispose());
     rod.remove(...rod.children);
-    (data.pieces[shape] || [[0, data.nodes]]).forEach(([first, end]) =>
-      piece(shape, first, end).forEach(geometry => rod.add(new THREE.Mesh(geometry, paint_of_rod))));
+    data.pieces[shape].forEach(([first, end, radius]) =>
+      piece(shape, first, end, radius).forEach(geometry => rod.add(new THREE.Mesh(geometry, paint_of_rod))));
     wheels.forEach((wheel, i) => wheel.position.set(0, 0, data.rollers[shape][i]));
     slider.value = shape;
     part("words").textContent = state.words;

@@ -44,7 +44,7 @@ def content(run, series, marks):
     return {"radius": 1e3 * run.method["material"]["radius"], "nodes": points.shape[1],
             "times": [shape.time for shape in shapes], "first": first_shown(shapes, marks),
             "low": low.tolist(), "step": step.tolist(), "points": encoded(np.rint((points - low) / step), "<u2"),
-            "pieces": [pieces_where_several(shape, shapes[0]) for shape in shapes], "unknown": list(UNKNOWN),
+            "pieces": [pieces_of(run, shape, shapes[0]) for shape in shapes], "unknown": list(UNKNOWN),
             "quantities": [coloured(scale, values, points.shape[1]) for scale in scales],
             "rollers": [[z for z, _ in one] for one in wheels], "roller_radius": wheels[0][0][1] if wheels[0] else 0.0,
             "curve": curve_of(run), "states": [state(run, shape) for shape in shapes]}
@@ -61,10 +61,10 @@ def first_shown(shapes, marks):
     return min(whole, key=lambda i: abs(shapes[i].time - mark.time)) if mark else whole[-1]
 
 
-def pieces_where_several(shape, whole):
-    """[[first node, node behind the last]]; None: it is one rope, and whole."""
+def pieces_of(run, shape, whole):
+    """[[first node, node behind the last, radius]]."""
     found = pieces(shape, whole)
-    return None if found == [slice(0, len(shape.points))] else [[one.start, one.stop] for one in found]
+    return [[one.start, one.stop, 1e3 * radius] for one, radius in zip(found, run.radii(shape, found))]
 
 
 def coloured(scale, values, nodes):

@@ -14,7 +14,7 @@ import matplotlib.pyplot
 import matplotlib.text
 import numpy as np
 
-from knot_utm.report import colours, curve_figures, curves, marks, page, rod_pictures, shapes, style, tube, typefaces
+from knot_utm.report import colours, curve_figures, curves, marks, page, rod_pictures, shapes, style, tube, turnable, typefaces
 from knot_utm.report.curves import few_points
 from knot_utm.report.run import Run
 
@@ -79,6 +79,14 @@ class ABrokenRod(unittest.TestCase):
         values = colours.node_values(whole._replace(tension=np.where(np.arange(9) == 5, 0.0, 2.0)))
         np.testing.assert_array_equal(values["tension"], np.full(10, 2.0))
         np.testing.assert_allclose(values["curvature"], 0.0, atol=1e-6)
+
+    def test_of_two_materials_is_as_thick_as_each(self):
+        nodes = np.column_stack([np.where(np.arange(10) < 6, 0.0, 5.0), np.zeros(10), np.linspace(0.0, 0.9, 10)])
+        shape, run = shapes.Shape(0.0, nodes, np.ones(9), cuts=(5,)), Run.__new__(Run)
+        for other, radii in ({"other_material": {"radius": 0.003}}, (2.0, 3.0)), ({}, (2.0, 2.0)):
+            run.method = {"material": {"radius": 0.002}, **other}
+            self.assertEqual(turnable.pieces_of(run, shape, shape), [[0, 6, radii[0]], [6, 10, radii[1]]])
+            self.assertEqual(run.thickest(), 1e-3 * radii[1])
 
     def test_is_shown_parted_at_the_end_also_where_no_shape_was_recorded_behind_the_break(self):
         nodes = np.zeros((3, 3))
