@@ -38,9 +38,9 @@ double FreeEnds::length(const Tail& tail, const Eigen::VectorXd& normal_force) c
   return std::abs(before + part * (at - before) - arclength_[tail.begin]);
 }
 
-PerKnot FreeEnds::lengths(const Eigen::VectorXd& normal_force) const {
+PerKnot FreeEnds::lengths(const Eigen::VectorXd& strands, const Eigen::VectorXd& all) const {
   PerKnot out = PerKnot::unknown(tails_.size());
-  for (std::size_t k = 0; k < tails_.size(); ++k) out[k] = length(tails_[k], normal_force);
+  for (std::size_t k = 0; k < tails_.size(); ++k) out[k] = length(tails_[k], touched_ ? strands : all);
   return out;
 }
 

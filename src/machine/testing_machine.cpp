@@ -341,7 +341,10 @@ struct TestingMachine::Impl {
     s.balance_offset = cell.offset();
     s.tail_force = s.excess_length = PerKnot::unknown(static_cast<std::size_t>(knot_of(specimen).about().knots));
     if (tying) tying->read(s);
-    if (free_ends && knows_contacts()) s.tail_length = free_ends->lengths(stepper->readings().strand_normal_forces());
+    if (free_ends && knows_contacts()) {
+      const StepReadings& readings = stepper->readings();
+      s.tail_length = free_ends->lengths(readings.strand_normal_forces(), readings.normal_forces());
+    }
     const ContactReading contact = stepper->readings().contact();
     s.max_penetration = contact.largest_overlap / thinnest(material);
     s.normal_force = contact.normal_force;
@@ -390,6 +393,7 @@ struct TestingMachine::Impl {
     archive.same("knot", watch ? 1 : 0);
     if (tying) archive(*tying);
     if (watch) archive(*watch);
+    if (free_ends) archive(*free_ends);
     if (archive.loads()) substeps.clear();
   }
 
@@ -413,6 +417,7 @@ struct TestingMachine::Impl {
           const double apart = grips.end_to_end(grip);
           if (tying) tying->follow(phase, {to, displacement, grip}, dt);
           grips.follow_weights(weight_borne(to));
+          if (free_ends) free_ends->follow(stepper->readings().contact().touching > 0);
           extension_zero += grips.end_to_end(grip) - apart;  // what slips through the upper grip extends nothing
           judge_break(dt);
           substeps.push_back(read(command, to));
