@@ -44,26 +44,22 @@ void EndTying::enter(const Command& command, const Place& now) {
   }
 }
 
-void EndTying::add_group() {
-  for (const PulledEnd& end : groups_[pulled_groups_]) {
-    const double load = end.fraction * preload_;
-    pulling_.add(end.node, end.direction, load / (kGripStretch * radius_), load);
-  }
-  ++pulled_groups_;
+void EndTying::add(const PulledEnd& end) {
+  const double load = end.fraction * preload_;
+  pulling_.add(end.node, end.direction, load / (kGripStretch * radius_), load);
 }
 
 /// It is tied once there is none. What the upper grip holds goes over to the grip that pulls it.
 void EndTying::pull_next_group(double time) {
   if (pulled_groups_ == groups_.size()) return enter(Stage::kTied, time);
   const Points& x = stepper_.state().position;
-  const std::vector<PulledEnd>& group = groups_[pulled_groups_];
-  std::vector<double> before;
-  for (const PulledEnd& end : group) before.push_back(pulling_.force_at(end.node, x) + held_with(end));
-  add_group();
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    pulling_.begin_with(group[i].node, before[i], x);
-    if (group[i].held()) grips_.let_slip(group[i].node, group[i].held_next);
+  for (const PulledEnd& end : groups_[pulled_groups_]) {
+    const double before = pulling_.force_at(end.node, x) + held_with(end);
+    add(end);
+    pulling_.begin_with(end.node, before, x);
+    if (end.held()) grips_.let_slip(end.node, end.held_next);
   }
+  ++pulled_groups_;
   pulling_.begin_pull();
   enter(Stage::kPulling, time);
 }
@@ -153,7 +149,9 @@ void EndTying::state(Archive& archive) {
   archive.number("groups of pulled ends", groups, 0, static_cast<int>(groups_.size()));
   if (archive.loads()) {
     pulling_.clear();
-    for (pulled_groups_ = 0; pulled_groups_ < static_cast<std::size_t>(groups);) add_group();
+    pulled_groups_ = static_cast<std::size_t>(groups);
+    for (std::size_t i = 0; i < pulled_groups_; ++i)
+      for (const PulledEnd& end : groups_[i]) add(end);
   }
   archive(pulling_, speed_, ramp_time_, stage_begin_, rest_, not_tied_);
   archive.list(ramp_from_);

@@ -47,7 +47,7 @@ class EndTying final : public Tying {
   enum class Stage { kIdle, kSettling, kPulling, kTied, kRamp, kRest, kFree };
 
   void enter(Stage stage, double time);
-  void add_group();
+  void add(const PulledEnd& end);
   void pull_next_group(double time);
   double load(std::size_t grip, double time) const;
   void follow_slipping(const Place& now);
