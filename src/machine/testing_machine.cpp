@@ -143,7 +143,9 @@ struct TestingMachine::Impl {
   }
 
   /// What is tied gets its weight when it is let go: all at once, it would swing, and its knots could jump open.
-  double weight_borne(double at_time) const { return tying ? tying->weight_borne(at_time) : 1.0; }
+  double weight_borne(double at_time) const {
+    return specimen.to_be_tied && tying ? tying->weight_borne(at_time) : 1.0;
+  }
 
   void apply_weight(double at_time) {
     stepper->set_gravity(weight_borne(at_time) * gravity);
@@ -417,7 +419,7 @@ struct TestingMachine::Impl {
           const double apart = grips.end_to_end(grip);
           if (tying) tying->follow(phase, {to, displacement, grip}, dt);
           grips.follow_weights(weight_borne(to));
-          if (free_ends) free_ends->follow(stepper->readings().contact().touching > 0);
+          if (free_ends) free_ends->follow(stepper->readings().contact().normal_force > 0.0);
           extension_zero += grips.end_to_end(grip) - apart;  // what slips through the upper grip extends nothing
           judge_break(dt);
           substeps.push_back(read(command, to));

@@ -38,6 +38,8 @@ CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
 void CentrelineTerms::part(int edge) {
   const auto j = static_cast<std::size_t>(edge);
   stretching_stiffness_[j] = bending_stiffness_[j] = bending_stiffness_[j + 1] = 0.0;
+  for (const std::size_t end : {j, j + 1})
+    if (end > 0 && end < tangent_.size()) ends_of_cuts_.push_back(end);
 }
 
 void CentrelineTerms::begin(const StepStart& start, bool predicts) {
@@ -90,6 +92,8 @@ void CentrelineTerms::add_stretching_forces(const Law& law, std::size_t begin, s
 void CentrelineTerms::add_bending_forces(std::vector<Lanes>& force) {
   const std::size_t edges = tangent_.size();
   for (std::size_t i = 1; i < edges; ++i) cosine_[i / 4][i % 4] = dot(tangent_[i - 1], tangent_[i]);
+  // A cut edge may lie straight back along its rope, a turn whose slope is infinite.
+  for (const std::size_t i : ends_of_cuts_) cosine_[i / 4][i % 4] = 1.0;
   for (std::size_t four = 0; four < cosine_.size(); ++four) {
     const auto slopes = BendingSlopes<Lanes>::at(cosine_[four]);
     bending_slope_[four] = slopes.first;
@@ -130,7 +134,7 @@ CentrelineTerms::Energy CentrelineTerms::energy(const Points& increment) const {
     const Lanes change = {w[3] - w[0], w[4] - w[1], w[5] - w[2], 0.0};
     out.along += tension_[j] * dot(tangent_[j], change);
     const Lanes turned = inverse_length_[j] * change;
-    if (bends_ && j > 0) {
+    if (bends_ && j > 0 && bending_stiffness_[j] > 0.0) {
       const Lanes &t_e = tangent_[j - 1], &t_f = tangent_[j];
       const Lanes apart = t_f - t_e;
       const double c = cosine_[j / 4][j % 4], slope = bending_stiffness_[j] * bending_slope_[j / 4][j % 4];

@@ -92,6 +92,7 @@ class CentrelineTerms {
   double largest_tension_ = 0.0;
   std::vector<double> stretching_stiffness_;  // k_s of every edge [N]; 0: cut
   std::vector<double> bending_stiffness_;     // k_b/lbar of every node [N m]; 0: at a cut edge
+  std::vector<std::size_t> ends_of_cuts_;     // inner nodes
   // As isotropic_bending.hpp names them.
   std::vector<Lanes> tangent_;           // t of every edge
   std::vector<double> inverse_length_;   // 1/|e| [1/m]
