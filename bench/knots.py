@@ -11,7 +11,7 @@ KNOTS = ["reef", "sheet_bend", "zeppelin", "carrick", "figure_eight_bend", "doub
 TAILS = (1.0, 1.05, 0.95, 1.02)    # of the automatic ones, a start each
 TAIL, EDGE = 30.0, 1.01            # automatic, before refinement [h]
 FINER = 0.5                        # edges over those of `fine`
-CPU_LIMIT = 600.0                  # of a run [s]
+CPU_LIMIT = 600                    # of a run [s]
 SURE = 2.0                         # standard errors that a difference may be by chance
 LARGEST = 0.05                     # of a mean, beyond chance
 

@@ -198,7 +198,7 @@ def report_on_batch(folder, command, version):
     readings, missing = all_readings(batch)
     length = batch.units.length
     return render("batch.html.j2", {
-        "title": f"{knot_of(batch.method)}, {batch.method['material'].get('name', 'own material')}",
+        "title": f"{knot_of(batch.method, batch.folder)}, {batch.method['material'].get('name', 'own material')}",
         "head": [*head_of(batch.report), *tested_as(batch)], "report": batch.report, "logo": logo_of(batch),
         "headlines": headlines(batch),
         "count": len(batch.specimens), "counted": len(batch.counted), "rejected": list(batch.reasons.items()),
@@ -212,7 +212,7 @@ def report_on_batch(folder, command, version):
         "verdict": verdict_of_all(checks, "%s keep all limits."), "checks": checks_of_all(checks),
         "asked_verdict": verdict_of_all(asked, "%s meet the specification.") if asked else None,
         "asked": checks_of_all(asked), "drawn": drawn_tables(batch) if batch.specimens else [],
-        "facts": [*method_facts(batch.method, batch.units), ("Specimens", drawing_facts(batch), "")],
+        "facts": [*method_facts(batch.method, batch.units, batch.folder), ("Specimens", drawing_facts(batch), "")],
         "program": program(batch.method, batch.units), "si": batch.units.are_default,
         "files": with_specimens(files_of(folder), batch), "command": printable(command), "version": version,
         "folder": printable(folder)})

@@ -64,6 +64,7 @@ class Simulated:
     """The run that a curve is from: its method, its result, and what its method says of reports."""
 
     def __init__(self, folder):
+        self.folder = folder
         method = os.path.join(folder, "method.yaml")
         self.method, self.report = read_yaml(method), texts_of(method, "report")
         self.result = read_yaml(os.path.join(folder, "result.yaml"))
@@ -179,6 +180,6 @@ def side_facts(run, units):
     """What a curve is from, and what its run warns of."""
     if run is None:
         return "This curve is a file of its own: no run of knot_utm stands beside it.", []
-    words = (f"This curve was simulated: {knot_of(run.method)}, {run.method['material'].get('name', 'own material')}, knot_utm "
-             f"{run.result.get('version')}, ended by {run.result.get('ended_by')}.")
+    words = (f"This curve was simulated: {knot_of(run.method, run.folder)}, {run.method['material'].get('name', 'own material')}, "
+             f"knot_utm {run.result.get('version')}, ended by {run.result.get('ended_by')}.")
     return words, all_in_units(run.result.get("warnings") or [], units)

@@ -1,8 +1,10 @@
 """A method as a person reads it: what was tested, on what, and how; and what a laboratory says of a test by a standard."""
+import os
+
 from knot_utm import tool
 from knot_utm.report import quantities
 from knot_utm.report.quantities import is_number, number, Unit
-from knot_utm.report.run import PULLING
+from knot_utm.report.run import PULLING, read_yaml
 
 # Labels and units of dotted keys.
 LABELS = {row["key"]: row["label"] for row in tool.listing("method-keys")}
@@ -80,8 +82,17 @@ def sentence(label):
     return label[:1].upper() + label[1:]
 
 
-def knot_of(method):
-    return TITLES.get(method["specimen"]["knot"], str(method["specimen"]["knot"]))
+def knot_of(method, folder=""):
+    """What a person calls it. `folder`: of the run, where a user's own knot lies."""
+    name = str(method["specimen"]["knot"])
+    return TITLES.get(name) or str(drawing_of(method, folder).get("title") or name)
+
+
+def drawing_of(method, folder=""):
+    """What the file of its knot says; {} where the program draws it, or the file is gone."""
+    name = str(method["specimen"]["knot"])
+    files = (os.path.join(folder, name), os.path.join(tool.CONFIG, "knots", name + ".yaml"))
+    return next((read_yaml(file) for file in files if name not in TITLES and os.path.isfile(file)), {})
 
 
 def keys_of_specimen(specimen):
@@ -120,7 +131,7 @@ def without_idle_keys(method):
     return {**method, "material": material, "machine": machine, "physics": physics}
 
 
-def method_facts(method, units):
+def method_facts(method, units, folder=""):
     """[(title, [(label, text)], remark)]"""
     method = without_idle_keys(method)
     specimen, material, machine = method["specimen"], method["material"], method["machine"]
@@ -129,7 +140,7 @@ def method_facts(method, units):
     cell = cell if isinstance(cell, dict) else {}
     facts = Facts(method, units)
     return [
-        ("Specimen", [("Knot", knot_of(method)), *facts.of("specimen", specimen, keys_of_specimen(specimen))], ""),
+        ("Specimen", [("Knot", knot_of(method, folder)), *facts.of("specimen", specimen, keys_of_specimen(specimen))], ""),
         ("Material", [("Name", str(material.get("name", "own"))), *facts.of("material", material)], material.get("notes") or ""),
         *([("Material of the other ropes", [("Name", str(other.get("name", "own"))), *facts.of("other_material", other)],
             other.get("notes") or "")] if other else []),

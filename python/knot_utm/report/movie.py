@@ -185,7 +185,7 @@ class OneTest:
         self.begin = float(self.tested["time"][0])
         self.extension = run.units.length.scale * self.tested["extension"]
         self.load = run.units.force.scale * self.tested["load"]
-        self.title = f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}"
+        self.title = f"{knot_of(run.method, run.folder)}, {run.method['material'].get('name', 'own material')}"
         some = np.unique(np.linspace(0, len(self.shapes) - 1, VIEWS).astype(int))
         views = np.array([view(run, self.shapes[i], run.thickest()) for i in some])
         self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())

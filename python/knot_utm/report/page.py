@@ -66,10 +66,10 @@ def report_on_run(folder, command, version):
     return render("run.html.j2", {
         **figures_of(run, marks), "marks": marks, "largest": largest, "run": run,
         "result": {**run.result, **told, "warnings": all_in_units(run.result.get("warnings") or [], run.units)},
-        "title": f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}",
+        "title": f"{knot_of(run.method, run.folder)}, {run.method['material'].get('name', 'own material')}",
         "head": [*head_of(run.report), *particulars(run.report, run.method, run.value("gauge_length"), run.units)],
         "report": run.report, "logo": logo_of(run), "headlines": headlines(run, largest),
-        "facts": method_facts(run.method, run.units), "program": program(run.method, run.units),
+        "facts": method_facts(run.method, run.units, run.folder), "program": program(run.method, run.units),
         "gave_up": run.result.get("ended_by") == "solver", "results": results, "unmeasured": unmeasured,
         "checks": checks, "verdict": words, "good": good,
         "asked": asked, "asked_verdict": specification_verdict(run.result, asked),

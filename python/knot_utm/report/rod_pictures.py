@@ -6,7 +6,7 @@ from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.colors import LogNorm, to_rgb
 
 from knot_utm.report.colours import colour_scales, node_values
-from knot_utm.report.method_facts import post_diameter
+from knot_utm.report.method_facts import drawing_of, post_diameter
 from knot_utm.report.quantities import with_unit
 from knot_utm.report.shapes import lengths, pieces
 from knot_utm.report.style import as_png, GREY, HUB, INK, ROLLER, SMALL, USUAL
@@ -18,6 +18,7 @@ NEAR = 2.6      # strands whose centrelines are nearer than this many radii touc
 MARGIN = 4.0    # around what is shown [radii]
 LONGEST = 7.0   # a picture wider than this many of its heights shows the knot alone
 HIGHEST = 0.8   # a picture, of its width
+FROM_ITS_END = 0.99  # a post whose axis runs to the eye within 8 degrees: cosine
 NAME = 0.24     # of a name above its picture [in]
 
 
@@ -88,26 +89,36 @@ class Tubes:
 
 
 def rollers(run, shape):
-    """[(place along the load axis, radius)] [mm], and so of a post."""
+    """[(place along the load axis, place across, radius)] [mm], and so of posts that stand for a grip or beside such a one."""
     post = post_diameter(run.method)
     if post is not None:
-        return [(0.0, 0.5e3 * post)]
-    if run.method["machine"]["grips"] != "rollers":
-        return []
-    radius = 0.5e3 * run.method["machine"]["roller_diameter"]
-    return [(z, radius) for z in (0.0, 1e3 * float(np.interp(shape.time, run.curve["time"], run.curve["end_to_end"])))]
+        return [(0.0, 0.0, 0.5e3 * post)]
+    apart = 1e3 * float(np.interp(shape.time, run.curve["time"], run.curve["end_to_end"]))
+    if run.method["machine"]["grips"] == "rollers":
+        radius = 0.5e3 * run.method["machine"]["roller_diameter"]
+        return [(z, 0.0, radius) for z in (0.0, apart)]
+    drawing = drawing_of(run.method, run.folder)
+    return [post for grip, z in (("lower", 0.0), ("upper", apart)) if not drawing.get(grip)
+            for post in posts_of(drawing, grip, z, 1e3 * run.thickest())]
+
+
+def posts_of(drawing, grip, place, radius):
+    """Those of a grip that are seen from their end. The first one is the grip, at a place along the load axis; radius of the rod."""
+    posts = [post for post in drawing.get("posts") or [] if post.get("grip", "lower") == grip]
+    return [(place + radius * (post["through"][2] - posts[0]["through"][2]), radius * post["through"][0], radius * post["radius"])
+            for post in posts if abs(post["along"][1]) > FROM_ITS_END * np.linalg.norm(post["along"])]
 
 
 def draw_rollers(axes, run, shape):
-    for z, radius in rollers(run, shape):
-        axes.add_patch(plt.Circle((z, 0.0), radius, facecolor=ROLLER, edgecolor=HUB, lw=0.8, zorder=1))
-        axes.add_patch(plt.Circle((z, 0.0), 0.15 * radius, facecolor=HUB, edgecolor="none", zorder=1))
+    for z, x, radius in rollers(run, shape):
+        axes.add_patch(plt.Circle((z, x), radius, facecolor=ROLLER, edgecolor=HUB, lw=0.8, zorder=1))
+        axes.add_patch(plt.Circle((z, x), 0.15 * radius, facecolor=HUB, edgecolor="none", zorder=1))
 
 
 def view(run, shape, radius):
     """Left, right, bottom, top [mm] of what is shown: rod and rollers, or the knot alone where it would be too small."""
     shown = to_picture(shape.points)
-    ends = [[1e-3 * (z + side * r), 1e-3 * side * r] for z, r in rollers(run, shape) for side in (-1.0, 1.0)]
+    ends = [[1e-3 * (z + side * r), 1e-3 * (x + side * r)] for z, x, r in rollers(run, shape) for side in (-1.0, 1.0)]
     whole = box_around(np.vstack([shown[:, :2], *ends]), radius)
     if whole[1] - whole[0] <= LONGEST * (whole[3] - whole[2]) * 1.6:
         return whole

@@ -64,8 +64,8 @@
   const rod = new THREE.Group();
   const paint_of_rod = new THREE.MeshPhongMaterial({vertexColors: THREE.VertexColors, shininess: 30, specular: 0x222222});
   scene.add(rod);
-  const wheels = data.rollers[0].map(() => new THREE.Mesh(
-    new THREE.CylinderBufferGeometry(data.roller_radius, data.roller_radius, 5 * data.radius, 64),
+  const wheels = data.roller_radii.map(radius => new THREE.Mesh(
+    new THREE.CylinderBufferGeometry(radius, radius, 5 * data.radius, 64),
     new THREE.MeshPhongMaterial({color: 0xe3e8ec, transparent: true, opacity: 0.55})));
   wheels.forEach(wheel => scene.add(wheel));
 
@@ -146,7 +146,7 @@
     rod.remove(...rod.children);
     data.pieces[shape].forEach(([first, end, radius]) =>
       piece(shape, first, end, radius).forEach(geometry => rod.add(new THREE.Mesh(geometry, paint_of_rod))));
-    wheels.forEach((wheel, i) => wheel.position.set(0, 0, data.rollers[shape][i]));
+    wheels.forEach((wheel, i) => wheel.position.set(data.rollers[shape][i][1], 0, data.rollers[shape][i][0]));
     slider.value = shape;
     part("words").textContent = state.words;
     markers.forEach(({element, up, holds}) => {

@@ -46,7 +46,7 @@ def content(run, series, marks):
             "low": low.tolist(), "step": step.tolist(), "points": encoded(np.rint((points - low) / step), "<u2"),
             "pieces": [pieces_of(run, shape, shapes[0]) for shape in shapes], "unknown": list(UNKNOWN),
             "quantities": [coloured(scale, values, points.shape[1]) for scale in scales],
-            "rollers": [[z for z, _ in one] for one in wheels], "roller_radius": wheels[0][0][1] if wheels[0] else 0.0,
+            "rollers": [[[z, x] for z, x, _ in one] for one in wheels], "roller_radii": [radius for _, _, radius in wheels[0]],
             "curve": curve_of(run), "states": [state(run, shape) for shape in shapes]}
 
 

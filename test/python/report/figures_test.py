@@ -173,14 +173,23 @@ class APicture(unittest.TestCase):
 
     def test_has_the_rollers_of_every_loop_and_the_post_of_a_strand_around_one(self):
         shape = shapes.Shape(0.0, np.zeros((2, 3)), None)
-        for knot, grips, expected in (("fisherman", "rollers", [(0.0, 20.0), (250.0, 20.0)]),
-                                      ("multiple_fisherman", "rollers", [(0.0, 20.0), (250.0, 20.0)]),
-                                      ("fisherman", "clamps", []), ("capstan", "nodes", [(0.0, 15.0)]),
-                                      ("straight", "clamps", []), ("overhand", "nodes", [])):
+        for knot, grips, expected in (("fisherman", "rollers", [(0.0, 0.0, 20.0), (250.0, 0.0, 20.0)]),
+                                      ("multiple_fisherman", "rollers", [(0.0, 0.0, 20.0), (250.0, 0.0, 20.0)]),
+                                      ("fisherman", "clamps", []), ("capstan", "nodes", [(0.0, 0.0, 15.0)]),
+                                      ("straight", "clamps", []), ("overhand", "nodes", []), ("reef", "clamps", []),
+                                      ("bowline", "clamps", [(0.0, 0.0, 10.0)])):
             run = SimpleNamespace(method={"specimen": {"knot": knot, "post_diameter": 0.03},
                                           "machine": {"grips": grips, "roller_diameter": 0.04}},
-                                  curve={"time": [0.0, 1.0], "end_to_end": [0.25, 0.3]})
+                                  curve={"time": [0.0, 1.0], "end_to_end": [0.25, 0.3]}, folder="", thickest=lambda: 0.002)
             self.assertEqual(rod_pictures.rollers(run, shape), expected, (knot, grips))
+
+    def test_a_post_of_the_upper_grip_moves_with_it_and_others_beside_it(self):
+        drawing = {"upper": [], "posts": [{"through": [0, 0, 5], "along": [0, 1, 0], "radius": 3},
+                                          {"through": [1, 0, 30], "along": [0, 2, 0], "radius": 4, "grip": "upper"},
+                                          {"through": [2, 0, 33], "along": [0, 1, 0], "radius": 5, "grip": "upper"},
+                                          {"through": [2, 0, 33], "along": [1, 0, 0], "radius": 5, "grip": "upper"}]}
+        self.assertEqual(rod_pictures.posts_of(drawing, "upper", 90.0, 2.0), [(90.0, 2.0, 8.0), (96.0, 4.0, 10.0)])
+        self.assertEqual(rod_pictures.posts_of(drawing, "lower", 0.0, 2.0), [(0.0, 0.0, 6.0)])
 
 class ACompliantFrame(unittest.TestCase):
     def test_is_drawn_as_far_as_its_crosshead_went(self):
