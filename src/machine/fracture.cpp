@@ -141,10 +141,6 @@ Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& pos
   return out;
 }
 
-Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position) {
-  return RopeStrengths(material, rod).most_exposed(rod, position);
-}
-
 double transit_time(const RodMaterial& material, double length) {
   const double mass = material.density * M_PI * material.radius * material.radius;
   return length * std::sqrt(mass / material.stretching_stiffness);

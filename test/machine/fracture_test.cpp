@@ -38,7 +38,7 @@ TEST(Fracture, NoCutEdgeIsExposed) {
   x.row(2) << 0.0, edge, 2.0 * edge, 3.0 * edge, 0.0, edge, 2.0 * edge, 3.0 * edge;
   x.row(0).tail(4).setConstant(100.0 * edge);
   const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(7, edge), {3});
-  EXPECT_NEAR(most_exposed(material, rod, x).fraction, 0.0, 1e-9);
+  EXPECT_NEAR(RopeStrengths(material, rod).most_exposed(rod, x).fraction, 0.0, 1e-9);
 }
 
 struct Pulled {
@@ -198,7 +198,7 @@ TEST(Fracture, StrainOfTheOutermostFibreIsThatOfTensionAndOfItsShareOfBending) {
       position.col(i + 1) = position.col(i) + edge * Vec3(std::cos(kTurn * i), std::sin(kTurn * i), 0.0);
     // kappa is over the length at rest.
     const double strain = (kStretch - 1.0) + share * material.radius * kStretch / kRadius;
-    const Exposure found = most_exposed(material, rod, position);
+    const Exposure found = RopeStrengths(material, rod).most_exposed(rod, position);
     EXPECT_NEAR(found.fraction, strain / 0.2, 1e-12);
     EXPECT_NEAR(found.value, strain, 1e-12);
     EXPECT_EQ(found.limit, BreakLimit::kStrain);
@@ -224,13 +224,13 @@ TEST(Fracture, ByTensionItIsTheEdgeWithTheLargestOne) {
   const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(4, 0.01));
   Points position = along_z({0.01, 0.01, 0.01001, 0.01});
   const double tension = material.stretching_stiffness * 1e-3;
-  const Exposure found = most_exposed(material, rod, position);
+  const Exposure found = RopeStrengths(material, rod).most_exposed(rod, position);
   EXPECT_EQ(found.edge, 2);
   EXPECT_NEAR(found.fraction, tension / 100.0, 1e-9);
   EXPECT_EQ(found.limit, BreakLimit::kForce);
   EXPECT_NEAR(found.value, tension, 1e-7);
   position.row(2) *= 0.9;
-  EXPECT_EQ(most_exposed(material, rod, position).edge, -1) << "nothing is under tension";
+  EXPECT_EQ(RopeStrengths(material, rod).most_exposed(rod, position).edge, -1) << "nothing is under tension";
 }
 
 /// The strain of a straight rod under its breaking force is the stretching law's own: lambda - lambda^-2 = 3 T/k_s.
@@ -240,7 +240,8 @@ TEST(Fracture, ARodOfRubberPartsStraightAtItsBreakingForceToo) {
   const double lambda = 1.6;
   rubber.breaking_force = rubber.stretching_stiffness / 3.0 * (lambda - 1.0 / (lambda * lambda));
   const RodProperties rod = make_rod(rubber, Eigen::VectorXd::Constant(4, 0.01));
-  EXPECT_NEAR(most_exposed(rubber, rod, along_z(std::vector<double>(4, 0.016))).fraction, 1.0, 1e-12);
+  EXPECT_NEAR(RopeStrengths(rubber, rod).most_exposed(rod, along_z(std::vector<double>(4, 0.016))).fraction, 1.0,
+              1e-12);
 }
 
 /// Once half of its load has relaxed, a rod bears half of its tension, and parts at twice the stretch.
@@ -280,7 +281,8 @@ TEST(Fracture, AStrandAroundAPostPartsByTheBendOfThePost) {
     const Pulled held = run(specimen, material, PhysicsOptions(), {settle});
     Material weak = bent(kShare);
     weak.breaking_force = weak.stretching_stiffness * bend + kTension;
-    const Exposure found = most_exposed(weak, held.bench.rod(), held.bench.state().position);
+    const Exposure found =
+        RopeStrengths(weak, held.bench.rod()).most_exposed(held.bench.rod(), held.bench.state().position);
     EXPECT_NEAR(found.fraction, 1.0, 0.02) << edge / h;
   }
 }
@@ -348,7 +350,7 @@ TEST(Fracture, NoRodPartsWhereItIsCut) {
   const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(5, 0.01), {2});
   Points position = along_z({0.0101, 0.0101, 0.0, 0.0102, 0.0101});
   for (int i = 3; i < 6; ++i) position.col(i) += Vec3(0.3, 0.0, 0.0);
-  const Exposure found = most_exposed(material, rod, position);
+  const Exposure found = RopeStrengths(material, rod).most_exposed(rod, position);
   EXPECT_EQ(found.edge, 3);
   EXPECT_NEAR(found.value, 0.02, 1e-12);
 }

@@ -175,12 +175,12 @@ TEST(OtherMaterial, TheRopeThatIsNearestToItsOwnBreakingForceParts) {
   const RodProperties rod = make_rod(method.material, *method.material.other, Eigen::VectorXd::Constant(9, h), {4});
   Points x = Points::Zero(3, 10);
   for (int i = 0; i < 10; ++i) x(2, i) = 1.01 * h * i;
-  const Exposure found = most_exposed(method.material, rod, x);
+  const Exposure found = RopeStrengths(method.material, rod).most_exposed(rod, x);
   EXPECT_GE(found.edge, 5);
   EXPECT_NEAR(found.fraction, 0.01 * method.material.stretching_stiffness / 1000.0, 1e-9);
   const Method unbreakable = sheet_bend({"other_material=polyester_cord", "material.breaking_force=none"});
   EXPECT_TRUE(can_part(unbreakable.material));
-  EXPECT_GE(most_exposed(unbreakable.material, rod, x).edge, 5);
+  EXPECT_GE(RopeStrengths(unbreakable.material, rod).most_exposed(rod, x).edge, 5);
 }
 
 TEST(OtherMaterial, TheAutomaticPreloadTiesTheStifferRopeAndSparesTheWeakerOne) {

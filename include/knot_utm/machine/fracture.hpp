@@ -54,7 +54,6 @@ class RopeStrengths {
   };
   std::vector<Ropes> ropes_;
 };
-Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position);
 
 /// Time that a wave of tension takes along a length [m] of the rod: length sqrt(rho pi h^2/k_s) [s].
 double transit_time(const RodMaterial& material, double length);
