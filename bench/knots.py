@@ -16,25 +16,25 @@ SURE = 2.0                         # standard errors that a difference may be by
 LARGEST = 0.05                     # of a mean, beyond chance
 
 
-def report(runner, materials, seeds=2):
+def report(runner, materials, seeds=2, knots=None):
     return Report("Knots from files: `normal` against finer ones",
                   f"`{METHOD}`, {seeds} starts of each knot, whose tails differ by up to 5 %. Finer: `physics.accuracy: fine`, and edges "
                   f"{FINER:g} times as long as it has. Largest loads in the pull [N], means and their standard errors. Where a rope parts at "
                   "one of both and slips at the other, the mesh decides what the knot does, and the change says nothing. The gate holds for "
                   f"what is left of a change, over the mean, after {SURE:g} standard errors of the difference.",
-                  [study(runner, material, seeds) for material in materials], None)
+                  [study(runner, material, seeds, knots or KNOTS) for material in materials])
 
 
-def study(runner, material, seeds):
+def study(runner, material, seeds, knots):
     radius = read_yaml(os.path.join(runner.root, f"config/materials/{material}.yaml"))["radius"]
     levels = {"normal": {}, "finer": {"physics.accuracy": "fine", "specimen.edge_length": round(FINER * EDGE * radius, 9)}}
     runs = runner.run_all([(f"{material}/{knot}_{level}_{k}",
                             {"specimen.knot": knot, "material": material, "specimen.tail": round(TAIL * radius * TAILS[k], 9), **settings},
-                            METHOD) for knot in KNOTS for level, settings in levels.items() for k in range(seeds)],
+                            METHOD) for knot in knots for level, settings in levels.items() for k in range(seeds)],
                           cpu_limit=CPU_LIMIT)
-    each = [runs[i * seeds:(i + 1) * seeds] for i in range(2 * len(KNOTS))]
+    each = [runs[i * seeds:(i + 1) * seeds] for i in range(2 * len(knots))]
     normal, finer = each[0::2], each[1::2]
-    table = Table(material, KNOTS)
+    table = Table(material, knots)
     loads = {}
     for name, starts in (("normal", normal), ("finer", finer)):
         loads[name] = [[run.reading("peak_force") for run in some] for some in starts]

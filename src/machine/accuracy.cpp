@@ -151,13 +151,15 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   if (!StretchingRegistry::entry(material.stretching.law).studied) return out;
   if (study == ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
   out.break_in_bend = error_of_break_in_bend(specimen, material, physics);
-  const bool studied = study == ErrorStudy::kFisherman && specimen.to_be_tied &&
-                       physics.contact_law == ContactLaw::kSmooth &&
-                       FrictionRegistry::entry(physics.friction.law).studied && studied_section(material, physics) &&
-                       machine.roller_friction == 0.0 && rollers_hold(specimen, machine);
+  const bool studied = specimen.to_be_tied && physics.contact_law == ContactLaw::kSmooth &&
+                       FrictionRegistry::entry(physics.friction.law).studied && studied_section(material, physics);
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
   const Answer rod = answer(physics, specimen, material);
+  if (study == ErrorStudy::kDrawnKnot && !material.other)
+    out.largest_load = coarseness(tolerances(physics, specimen, material), of(Accuracy::kNormal, rod), edge) *
+                       (is_solid(material) ? kDrawnInSolid : kDrawnInRope);
+  if (study != ErrorStudy::kFisherman || machine.roller_friction != 0.0 || !rollers_hold(specimen, machine)) return out;
   const bool solid = rod.stretches, opposite = specimen.handedness == Handedness::kOpposite;
   const Tolerances own = tolerances(physics, specimen, material);
   // Where a rope is tied hard, edges in its knots are shorter, and so is the error there. The strands do not gain by

@@ -97,8 +97,11 @@ void EndTying::let_go(double duration, double time) {
   enter(Stage::kRamp, time);
 }
 
+double EndTying::extra_drag(double to) const {
+  return stage_ == Stage::kSettling ? settling_.drag(to - stage_begin_) : 0.0;
+}
+
 void EndTying::hold(Boundary& boundary, double from, double to) const {
-  if (stage_ == Stage::kSettling) boundary.extra_drag = settling_.drag(to - stage_begin_);
   if (stage_ == Stage::kPulling || stage_ == Stage::kTied)
     pulling_.add_to(boundary, stage_ == Stage::kPulling ? speed_ * (to - from) : 0.0);
   if (stage_ != Stage::kRamp) return;

@@ -19,32 +19,34 @@ constexpr double kInertia = 3.0;  // m/m_a
 
 }  // namespace
 
-Frame::Frame(double stiffness, const Material& material, int strands, double around)
-    : stiffness_(stiffness), specimen_(std::numeric_limits<double>::max()) {
+Frame::Frame(double stiffness, const Material& material, int strands, double moved)
+    : stiffness_(stiffness), specimen_(std::numeric_limits<double>::max()), number_(strands), moved_(moved) {
   if (!(stiffness > 0.0)) throw InvalidInput("machine.stiffness", std::to_string(stiffness), "more than 0 N/m");
   // Either rope may be in the upper grip.
   for (const Material* rope : {&material, material.other.get()}) {
     if (!rope) continue;
-    const double line_density = rope->density * M_PI * rope->radius * rope->radius;
+    line_density_ = std::max(line_density_, rope->density * M_PI * rope->radius * rope->radius);
     strands_ = std::max(strands_, strands * rope->stretching_stiffness);
-    damping_ =
-        std::max(damping_, strands * std::sqrt(rope->stretching_stiffness * line_density) + stiffness * kFrameTime);
-    mass_ = std::max(mass_, kInertia * line_density * around);
   }
 }
 
 bool Frame::rigid() const { return std::isinf(stiffness_); }
 
-double Frame::grip_after(double grip, double displacement, double force, double length, double dt) const {
+double Frame::resistance(double dt, double drag) const {
+  const double inert = line_density_ + drag * dt;
+  return (std::sqrt(number_ * strands_ * inert) + stiffness_ * kFrameTime + kInertia * inert * moved_ / dt) / dt;
+}
+
+double Frame::grip_after(double grip, double displacement, double force, double length, double dt, double drag) const {
   if (rigid()) return displacement;
-  const double resistance = std::min(specimen_, strands_ / length) + (damping_ + mass_ / dt) / dt;
-  return grip + (stiffness_ * (displacement - grip) - force) / (stiffness_ + resistance);
+  const double resists = std::min(specimen_, strands_ / length) + resistance(dt, drag);
+  return grip + (stiffness_ * (displacement - grip) - force) / (stiffness_ + resists);
 }
 
 bool Frame::passed_balance(double moved, double grip, double displacement, double force, double length, double dt,
-                           double least) const {
+                           double drag, double least) const {
   constexpr double kMuch = 0.1;
-  if (rigid() || (damping_ + mass_ / dt) / dt >= strands_ / length) return false;
+  if (rigid() || resistance(dt, drag) >= strands_ / length) return false;
   const double too_much = force - stiffness_ * (displacement - grip);
   return std::copysign(1.0, moved) * too_much > kMuch * std::abs(force) + least;
 }

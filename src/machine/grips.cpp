@@ -63,6 +63,12 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     weights_.push_back({weight.node, -weight.fraction * tying_load(specimen, material) * Vec3::UnitZ()});
   if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
   if (supports_.pins.empty()) hold(upper_nodes_, knot.held_above(centreline, clamped));
+  const auto half_edge = [&](int edge) {
+    const bool there = edge >= 0 && edge + 1 < centreline.points.cols() &&
+                       std::find(centreline.cuts.begin(), centreline.cuts.end(), edge) == centreline.cuts.end();
+    return there ? 0.5 * (centreline.points.col(edge + 1) - centreline.points.col(edge)).norm() : 0.0;
+  };
+  for (const FixedNode& node : upper_nodes_) length_held_ += half_edge(node.node - 1) + half_edge(node.node);
   if (!knot_utm::clamp_turns(specimen, machine)) return;
   const std::size_t strands = upper_nodes_.size() / 2;
   for (auto frame = held_frames_.end() - static_cast<std::ptrdiff_t>(strands); frame != held_frames_.end(); ++frame) {
@@ -241,7 +247,12 @@ double Grips::end_to_end(double displacement) const {
   return (upper(displacement) - lower()).norm();
 }
 
-double Grips::length_around(double radius) const { return on_rollers() ? M_PI * (rollers_[1].radius + radius) : 0.0; }
+double Grips::length_moved(double radius) const {
+  if (on_rollers()) return M_PI * (rollers_[1].radius + radius);
+  double length = length_held_;
+  for (const Roller& pin : supports_.pins) length += M_PI * (pin.radius + radius);
+  return length;
+}
 
 template <typename RollerForce, typename Reaction>
 double Grips::sum_upper(double pulled_with, RollerForce roller_force, Reaction reaction) const {

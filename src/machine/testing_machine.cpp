@@ -77,6 +77,7 @@ struct TestingMachine::Impl {
   double recoil_end = 0.0;  // of a rod that has just parted [s]
   BreakPlace break_place = BreakPlace::kNone;
   double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]
+  double drag_tried = 0.0;    // of its motion [N s/m^2]
   int step_index = -1;
   Phase phase = Phase::kIdle;
   Vec3 gravity;         // on the mass that is accelerated [m/s^2]
@@ -95,7 +96,7 @@ struct TestingMachine::Impl {
         machine(machine_),
         physics(physics_),
         grips(specimen_, machine_, centreline, material),
-        frame(machine_.stiffness, material, bearing_strands(specimen_), grips.length_around(material_.radius)),
+        frame(machine_.stiffness, material, bearing_strands(specimen_), grips.length_moved(material_.radius)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);
@@ -183,13 +184,14 @@ struct TestingMachine::Impl {
     refused = false;
     // This depends on the last accepted state only, so that a step that is tried again begins from the same.
     if (!frame.rigid()) borne_before = grips.force_upper(*stepper);
-    grip_tried = frame.grip_after(grip, travel, borne_before, held_length(from, to), to - from);
+    boundary.extra_drag = drag_of_settling(to) + (tying ? tying->extra_drag(to) : 0.0);
+    drag_tried = drag() + boundary.extra_drag;
+    grip_tried = frame.grip_after(grip, travel, borne_before, held_length(from, to), to - from, drag_tried);
     grips.set(grip_tried, tying ? tying->left_to_put_on(to) : 0.0, boundary);
     grips.turn_rollers(to, boundary.rollers);
     grips.turn_clamp(start.turn + fraction * (command.turn - start.turn), boundary);
     apply_weight(to);
     boundary.grips.clear();
-    boundary.extra_drag = drag_of_settling(to);
     if (tying) tying->hold(boundary, from, to);
     return boundary;
   }
@@ -258,7 +260,7 @@ struct TestingMachine::Impl {
     const double least = kLeastPassed * material.bending_stiffness / (material.radius * material.radius);
     const bool passed =
         frame.passed_balance(grip_tried - grip, grip_tried, travel_tried, grips.tried_force_upper(*stepper),
-                             held_length(time, time + dt), dt, least);
+                             held_length(time, time + dt), dt, drag_tried, least);
     return passed ? "the grip passed the balance of the forces of specimen and frame" : "";
   }
 

@@ -23,6 +23,7 @@ KnotDescription describe_drawn_knot() {
   out.any_shape = true;
   out.tied_by_ends = true;
   out.drawn_coil = kDrawnCoil;
+  out.error_study = ErrorStudy::kDrawnKnot;
   return out;
 }
 

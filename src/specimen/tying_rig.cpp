@@ -146,6 +146,11 @@ SpringHold TyingRig::guide(const Clamp& clamp) const {
   return hold;
 }
 
+double TyingRig::extra_drag(double to) const {
+  if (stage_ == Stage::kSettling) return settling_.drag(to - stage_begin_);
+  return stage_ == Stage::kPuttingOn || stage_ == Stage::kGuided ? putting_on_drag_ : 0.0;
+}
+
 void TyingRig::hold(Boundary& boundary, double from, double to) const {
   const double ramp = std::clamp(1.0 - (to - stage_begin_) / ramp_time_, 0.0, 1.0);
   if (stage_ == Stage::kFree) return;
@@ -155,8 +160,6 @@ void TyingRig::hold(Boundary& boundary, double from, double to) const {
     for (const Clamp& held : far_side_) boundary.forces.push_back({held.node, ramp * held.reaction});
   }
   hold_knots(boundary, ramp);
-  if (stage_ == Stage::kSettling) boundary.extra_drag = settling_.drag(to - stage_begin_);
-  if (stage_ == Stage::kPuttingOn || stage_ == Stage::kGuided) boundary.extra_drag = putting_on_drag_;
   if (stage_ == Stage::kSettling || stage_ == Stage::kPulling || stage_ == Stage::kTied) {
     grips_.add_to(boundary, stage_ == Stage::kPulling ? speed_ * (to - from) : 0.0);
   } else if (stage_ == Stage::kTailsRamp || stage_ == Stage::kLettingGo) {

@@ -53,6 +53,7 @@ std::optional<double> error_of_peak(const Results& results, const RunFacts& fact
     const double passed = *results.true_peak_force / (facts.strands * *weakest(facts.material)) - 1.0;
     return std::max(kBreakOfAStrand, passed);
   }
+  if (errors.largest_load) return errors.largest_load;
   if (results.break_place == BreakPlace::kKnot || slid_to_the_end(results)) return errors.plateau_force;
   if (!errors.locked_stiffness || !results.curve.locked_stiffness) return {};
   if (results.break_extension || !results.lock_extension || !errors.lock_extension) return errors.locked_stiffness;
@@ -98,7 +99,7 @@ ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   if (slid_to_the_end(results)) share.locked_stiffness.reset();
   if (share.locked_stiffness) *share.locked_stiffness += change_along_the_curve(results, share);
   const double speed = results.rate.drag.value_or(0.0) + results.rate.inertia.value_or(0.0);
-  for (std::optional<double>* error : {&share.plateau_force, &share.locked_stiffness})
+  for (std::optional<double>* error : {&share.plateau_force, &share.locked_stiffness, &share.largest_load})
     if (*error) **error += speed;
   const std::optional<double> of_peak = error_of_peak(results, facts, share);
   if (share.locked_stiffness) *share.locked_stiffness += noise_of_stiffness(results, facts.load_cell.noise);

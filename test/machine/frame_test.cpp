@@ -17,13 +17,13 @@ const double kRod = nylon().stretching_stiffness / kLength;
 TEST(Frame, ARigidOneTakesTheGripAlongToTheBit) {
   const Frame frame(std::numeric_limits<double>::infinity(), nylon(), 2, 0.0);
   EXPECT_TRUE(frame.rigid());
-  EXPECT_EQ(frame.grip_after(0.1, 1.0 / 3.0, 1e4, kLength, 0.1), 1.0 / 3.0);
+  EXPECT_EQ(frame.grip_after(0.1, 1.0 / 3.0, 1e4, kLength, 0.1, 0.0), 1.0 / 3.0);
 }
 
 TEST(Frame, WithoutAForceTheGripComesToTheCrosshead) {
   const Frame frame(1e6, nylon(), 1, 0.0);
   double grip = 0.0;
-  for (int i = 0; i < 200; ++i) grip = frame.grip_after(grip, 0.01, 0.0, kLength, 0.1);
+  for (int i = 0; i < 200; ++i) grip = frame.grip_after(grip, 0.01, 0.0, kLength, 0.1, 0.0);
   EXPECT_DOUBLE_EQ(grip, 0.01);
 }
 
@@ -36,7 +36,7 @@ TEST(Frame, TheGripComesToWhereForcesAreInBalanceFromOneSide) {
       for (const double dt : {1e-6, 1e-3, 0.1}) {
         double grip = 0.0;
         for (int i = 0; i < 1000; ++i) {
-          const double next = frame.grip_after(grip, 0.01, specimen * grip, kLength, dt);
+          const double next = frame.grip_after(grip, 0.01, specimen * grip, kLength, dt, 0.0);
           ASSERT_GE(next, grip * (1.0 - 1e-15));
           ASSERT_LE(next, balance * (1.0 + 1e-12));
           grip = next;
@@ -65,8 +65,8 @@ TEST(Frame, OnASlackSpecimenThatTightensTheGripStaysAtTheBalanceOfForces) {
       double next = 0.0, travel = 0.0;
       for (;; dt *= 0.5, ++refused) {
         travel = displacement + kSpeed * dt;
-        next = frame.grip_after(grip, travel, force(grip), kLength, dt);
-        if (!frame.passed_balance(next - grip, next, travel, force(next), kLength, dt, 0.0)) break;
+        next = frame.grip_after(grip, travel, force(grip), kLength, dt, 0.0);
+        if (!frame.passed_balance(next - grip, next, travel, force(next), kLength, dt, 0.0, 0.0)) break;
       }
       frame.follow(next - grip, force(next) - force(grip), kLength);
       grip = next;
@@ -86,8 +86,8 @@ TEST(Frame, OnASlackSpecimenThatTightensTheGripStaysAtTheBalanceOfForces) {
 TEST(Frame, InShortStepsTheGripMovesLittle) {
   const Frame frame(1e5, nylon(), 1, 0.0);
   const double at_rest = 0.05;  // 5 kN
-  const double wide = frame.grip_after(0.0, at_rest, 0.0, kLength, 1e-3),
-               narrow = frame.grip_after(0.0, at_rest, 0.0, kLength, 1e-6);
+  const double wide = frame.grip_after(0.0, at_rest, 0.0, kLength, 1e-3, 0.0),
+               narrow = frame.grip_after(0.0, at_rest, 0.0, kLength, 1e-6, 0.0);
   EXPECT_LT(narrow, 1e-2 * wide);
   const double impedance = std::sqrt(nylon().stretching_stiffness * nylon().density * M_PI) * nylon().radius;
   EXPECT_LT(narrow / 1e-6, 1e5 * at_rest / impedance) << "no faster than a wave in the rod lets it";
@@ -107,12 +107,33 @@ TEST(Frame, AMassOnTheGripComesToRestHoweverSoftTheFrameAndShortTheStep) {
         const double speed = (grip - before) / dt;
         const double force = mass * (speed - speed_before) / dt + wave * speed;
         before = grip;
-        grip = frame.grip_after(grip, grip, force, kLength, dt);  // the crosshead along, so that K pulls nowhere
+        grip = frame.grip_after(grip, grip, force, kLength, dt, 0.0);  // the crosshead along, so that K pulls nowhere
         ASSERT_LT(std::abs(grip), 1.0) << stiffness << " N/m, " << dt << " s";
         speed_before = speed;
         largest = i < 900 ? 0.0 : std::max(largest, std::abs(grip - before));
       }
       EXPECT_LT(largest, 1e-12) << stiffness << " N/m, " << dt << " s";
+    }
+  }
+}
+
+/// A long strand without inertia that is dragged: the grip moves as much of it as the pull spreads to within a step,
+/// against sqrt(k_s c/dt).
+TEST(Frame, OnADraggedStrandTheGripComesToRestHoweverSoftTheFrameAndShortTheStep) {
+  const double line_density = nylon().density * M_PI * nylon().radius * nylon().radius;
+  for (const double stiffness : {1.0, 1e3, 1e6}) {
+    const Frame frame(stiffness, nylon(), 1, 0.0);
+    for (const double dt : {1e-6, 1e-4, 1e-2}) {
+      const double drag = 1e3 * line_density / dt, spreads = std::sqrt(nylon().stretching_stiffness * drag / dt);
+      double before = -1e-3, grip = 0.0;
+      for (int i = 0; i < 5000; ++i) {
+        const double force = spreads * (grip - before);
+        before = grip;
+        grip = frame.grip_after(grip, 0.0, force, kLength, dt, drag);
+        ASSERT_LT(std::abs(grip), 1.0) << stiffness << " N/m, " << dt << " s";
+      }
+      // It was 1e-3 at first; a soft frame lets it creep back.
+      EXPECT_LT(std::abs(grip - before), 1e-4) << stiffness << " N/m, " << dt << " s";
     }
   }
 }

@@ -35,6 +35,7 @@ class EndTying final : public Tying {
   void enter(const Command& command, const Place& now) override;
   void follow(Phase phase, const Place& now, double dt) override;
   void hold(Boundary& boundary, double from, double to) const override;
+  double extra_drag(double to) const override;
   /// All that hangs on the rod is borne little by little as the knot is let go.
   double weight_borne(double time) const override;
   double held_length(double, double) const override { return grips_.end_to_end(0.0); }

@@ -73,8 +73,8 @@ class Grips {
   /// Distance of these [m].
   double end_to_end(double displacement) const;
 
-  /// Length of rod around a roller, half a turn; 0 where nodes are held [m].
-  double length_around(double radius) const;
+  /// Length of rod that moves with the upper grip: half a turn around a roller or a pin, or what is held [m].
+  double length_moved(double radius) const;
 
   /// Whether a point of the rod's centreline lies on a roller, or within two radii of a node that is held.
   bool hold(double displacement, const Vec3& point, double radius) const;
@@ -95,10 +95,11 @@ class Grips {
   bool comes_near(const Points& loop, double displacement, double radius);
   bool put_on_pins(const Points& loop, double displacement, double radius);
 
-  double narrower_ = 0.0;   // how much narrower than on the rollers the loop was drawn [m]
-  double clearance_ = 0.0;  // of narrower pins in the loop [m]
-  double lift_ = 0.0;       // of the lower one while the loop is put on [m]
-  std::vector<Pin> pins_;   // lower, upper; empty: the rollers' own places are free
+  double narrower_ = 0.0;     // how much narrower than on the rollers the loop was drawn [m]
+  double clearance_ = 0.0;    // of narrower pins in the loop [m]
+  double length_held_ = 0.0;  // by the upper grip [m]
+  double lift_ = 0.0;         // of the lower one while the loop is put on [m]
+  std::vector<Pin> pins_;     // lower, upper; empty: the rollers' own places are free
   std::vector<FixedNode> lower_nodes_, upper_nodes_;
   std::vector<int> slipping_;            // upper ones that are guided only
   Mat3 guides_ = Mat3::Zero();           // stiffness [N/m]

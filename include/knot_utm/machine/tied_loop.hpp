@@ -26,6 +26,7 @@ class TiedLoop final : public Tying {
   void follow(Phase phase, const Place& now, double dt) override;
   void leave(Phase phase, const Place& now) override;
   void hold(Boundary& boundary, double from, double to) const override;
+  double extra_drag(double to) const override { return rig_.extra_drag(to); }
   double left_to_put_on(double time) const override { return rig_.left_to_put_on(time); }
   /// None off the rollers, and all of it once they have taken the loop.
   double weight_borne(double time) const override {

@@ -40,6 +40,8 @@ class Tying {
 
   /// Adds its holders to a step between two times [s], or replaces those that the grips have put into the boundary.
   virtual void hold(Boundary& boundary, double from, double to) const = 0;
+  /// Drag beside that of the method, in a step until this time [N s/m^2].
+  virtual double extra_drag(double /*to*/) const { return 0.0; }
 
   /// Of a loop that is put on the rollers: the fraction of that time which is left.
   virtual double left_to_put_on(double /*time*/) const { return 0.0; }

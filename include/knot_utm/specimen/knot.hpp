@@ -29,7 +29,7 @@ struct Supports {
 };
 
 /// The study from which the errors of a knot's readings are known (machine/accuracy.hpp).
-enum class ErrorStudy { kNone, kStraight, kFisherman };
+enum class ErrorStudy { kNone, kStraight, kFisherman, kDrawnKnot };
 
 /// Properties of a knot that do not depend on its keys.
 struct KnotDescription {

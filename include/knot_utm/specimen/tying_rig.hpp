@@ -71,6 +71,8 @@ class TyingRig {
   /// KnotLandmarks.
   static double straight_strand(double radius, double runs_out = 0.0);
 
+  double extra_drag(double to) const;  ///< in a step until this time [N s/m^2]
+
   /// Adds its clamps and grips at time `to` to the boundary of a step from time `from` [s].
   void hold(Boundary& boundary, double from, double to) const;
 
