@@ -76,8 +76,8 @@ const char* motion_pattern_name(MotionPattern pattern) {
   return kNames[static_cast<std::size_t>(pattern)];
 }
 
-MotionPatternTracker::MotionPatternTracker(bool on_rollers)
-    : on_rollers_(on_rollers), turnover_(kTurnover * rigid_sliding(on_rollers)) {}
+MotionPatternTracker::MotionPatternTracker(bool on_rollers, double hung)
+    : on_rollers_(on_rollers), turnover_(kTurnover * rigid_sliding(on_rollers)), hung_(hung) {}
 
 void MotionPatternTracker::add(const Sample& sample) {
   if (sample.knot_type == KnotType::kKept && !came_apart(sample))
@@ -169,7 +169,7 @@ bool MotionPatternTracker::vanished() const {
 }
 
 bool MotionPatternTracker::knot_lost() const {
-  return type_lost_ && (crossed_ || pull_.empty() || borne_ < kGone * peak_ || vanished());
+  return type_lost_ && (crossed_ || pull_.empty() || borne_ - hung_ < kGone * (peak_ - hung_) || vanished());
 }
 
 std::optional<double> MotionPatternTracker::opened_when_mounted() const {

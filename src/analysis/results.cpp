@@ -234,13 +234,14 @@ EnergyParts energy_between(const Sample& from, const Sample& to) {
 
 namespace {
 
-constexpr double kBears = 0.5;  // fraction of the median force of a pull: what bears less is next to no load
+constexpr double kBears = 0.5;   // fraction of the median force of a pull: what bears less is next to no load ...
+constexpr double kLeast = 1e-4;  // ... and of the largest one, where most of a pull has none
 
 /// One way through all samples, in order.
 class Course {
  public:
-  Course(const std::vector<Sample>& samples, bool on_rollers, Results& results)
-      : samples_(samples), results_(results), motion_(on_rollers) {
+  Course(const std::vector<Sample>& samples, bool on_rollers, double hung, Results& results)
+      : samples_(samples), results_(results), motion_(on_rollers, hung) {
     for (const Sample& sample : samples) add(sample);
   }
 
@@ -273,9 +274,10 @@ class Course {
     for (const Load& load : loads_) forces.push_back(load.force);
     const auto middle = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() / 2);
     std::nth_element(forces.begin(), middle, forces.end());
+    const double least = std::max(kBears * *middle, kLeast * *std::max_element(forces.begin(), forces.end()));
     double largest = 0.0;
     for (const Load& load : loads_)
-      if (load.force > kBears * *middle && load.force > 0.0) largest = std::max(largest, load.moment / load.force);
+      if (load.force > least && load.force > 0.0) largest = std::max(largest, load.moment / load.force);
     return largest;
   }
 
@@ -462,11 +464,11 @@ void forget_rest_of_pull(Results& results) {
 }  // namespace
 
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
-                bool on_rollers) {
+                bool on_rollers, double hung) {
   Results results;
   results.ended_by = ended_by;
   if (samples.empty()) return results;
-  Course course(samples, on_rollers, results);
+  Course course(samples, on_rollers, hung, results);
   read_end(samples.back(), results);
   read_motion(samples, readings, on_rollers, course.motion(), results);
   read_tied(course, results);

@@ -13,6 +13,7 @@ constexpr double kOutside = 0.05;  // of a rope's normal force: what lies before
 FreeEnds::FreeEnds(const Centreline& centreline, const RodProperties& rod) : arclength_(rod.arclength()) {
   int first = 0;
   const auto add_rope = [&](int last) {
+    ropes_.push_back({first, last});
     for (const int end : centreline.free) {
       if (end == first) tails_.push_back({first, last, 1});
       if (end == last) tails_.push_back({last, first, -1});
@@ -38,9 +39,18 @@ double FreeEnds::length(const Tail& tail, const Eigen::VectorXd& normal_force) c
   return std::abs(before + part * (at - before) - arclength_[tail.begin]);
 }
 
-PerKnot FreeEnds::lengths(const Eigen::VectorXd& strands, const Eigen::VectorXd& all) const {
+bool FreeEnds::ropes_touch(const StepReadings& readings) const {
+  for (auto one = ropes_.begin(); one != ropes_.end(); ++one)
+    for (auto other = ropes_.begin(); other != one; ++other)
+      if (readings.normal_force_between(*one, *other) > 0.0) return true;
+  return false;
+}
+
+PerKnot FreeEnds::lengths(const StepReadings& readings) const {
   PerKnot out = PerKnot::unknown(tails_.size());
-  for (std::size_t k = 0; k < tails_.size(); ++k) out[k] = length(tails_[k], touched_ ? strands : all);
+  if (ropes_.size() > 1 && touched_ && !ropes_touch(readings)) return out;
+  const Eigen::VectorXd force = touched_ ? readings.strand_normal_forces() : readings.normal_forces();
+  for (std::size_t k = 0; k < tails_.size(); ++k) out[k] = length(tails_[k], force);
   return out;
 }
 

@@ -91,7 +91,7 @@ bool Grips::hold(double displacement, const Vec3& point, double radius) const {
 }
 
 void Grips::turn_clamp(double turn, Boundary& boundary) const {
-  if (!clamp_turns() || turn == 0.0) return;
+  if (!clamp_turns() || turn == 0.0 || !slipping_.empty()) return;
   auto frame = boundary.fixed_twists.end() - static_cast<std::ptrdiff_t>(turns_by_.size());
   for (const double by : turns_by_) (frame++)->angle += by * turn;
   if (turns_by_.size() == 1) return;

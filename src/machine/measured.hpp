@@ -77,8 +77,9 @@ inline constexpr double kRollingStiffness = 0.030;
 // an upper bound by judgement: the solution is exact except for the residual
 inline constexpr double kStraightStiffness = 1e-3;
 
-// The largest load of a knot from a file, in a solid rod and in a rope.
-inline constexpr double kDrawnInSolid = 0.05, kDrawnInRope = 0.12;
+// The largest load of a knot from a file, in a solid rod and in a rope that slips at less than its pre-load. They hold
+// 21 of 22 and 13 of 13 means of two starts (`scripts/bench knots`, by default and with six other knots).
+inline constexpr double kDrawnInSolid = 0.10, kDrawnInRope = 0.15;
 
 // Fraction of the error that each source contributes at `normal` with edges of one radius [-]; they sum to 1. For the
 // same draws each source by itself was reduced: edges to a half, contact tolerance to a half, presliding displacement

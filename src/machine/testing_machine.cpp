@@ -284,7 +284,9 @@ struct TestingMachine::Impl {
     std::ostringstream text;
     text << "the rod parted " << break_arclength(edge) << " m along its length" << which_rope(edge) << " ("
          << break_place_name(break_place)
-         << (reached.limit == BreakLimit::kForce ? ") at a tension of " : ") at a strain of its outermost fibre of ")
+         << (reached.limit == BreakLimit::kForce ? ") at a tension of "
+             : strengths->crush()                ? ") where stretch, bend and crushing came to a strain of "
+                                                 : ") at a strain of its outermost fibre of ")
          << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
     status = BenchStatus::kBroken;
     message = text.str();
@@ -345,10 +347,7 @@ struct TestingMachine::Impl {
     s.balance_offset = cell.offset();
     s.tail_force = s.excess_length = PerKnot::unknown(static_cast<std::size_t>(knot_of(specimen).about().knots));
     if (tying) tying->read(s);
-    if (free_ends && knows_contacts()) {
-      const StepReadings& readings = stepper->readings();
-      s.tail_length = free_ends->lengths(readings.strand_normal_forces(), readings.normal_forces());
-    }
+    if (free_ends && knows_contacts()) s.tail_length = free_ends->lengths(stepper->readings());
     const ContactReading contact = stepper->readings().contact();
     s.max_penetration = contact.largest_overlap / thinnest(material);
     s.normal_force = contact.normal_force;

@@ -307,7 +307,8 @@ std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& f
   out.upper = list_of(reader, "upper", top.take("upper"), "a list of names of ends", names);
   out.posts = list_of(reader, "posts", top.take("posts"), "a list of posts", post);
   out.tie = list_of(reader, "tie", top.take("tie"), "a list of maps such as {tail: 1}", pulls);
-  if (const YAML::Node weights = top.take("weights"); weights.IsDefined()) out.weights = pulls("weights", weights);
+  if (const YAML::Node weights = top.take("weights"); weights.IsDefined() && !weights.IsNull())
+    out.weights = pulls("weights", weights);
   const YAML::Node landmarks = top.take("landmarks"), read = top.take("read");
   top.finish();
   if (out.strands.empty()) reader.refuse("strands", "", "a knot must have at least one strand");

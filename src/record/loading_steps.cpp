@@ -160,7 +160,7 @@ void TwistStep::keys(fields::Fields& f, double) {
 }
 
 void TwistStep::check(const StepPlace& place) const {
-  if (!place.turns) place.misplaced("needs an upper grip that is a clamp, and no loop");
+  if (!place.turns) place.misplaced("needs an upper grip that is a clamp on strands which form no loop");
   if (turns == 0.0) throw InvalidInput(place.key() + ".turns", format_number(turns), "other than 0");
 }
 

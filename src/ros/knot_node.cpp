@@ -66,7 +66,8 @@ void KnotNode::begin_specimen() {
   next_ = 0;
   kept_.clear();
   sample_ = Sample();
-  motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine));
+  motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine),
+                                 hung_weight(method_.specimen, method_.material));
   show_.begin(method_, machine_.lower_grip(), machine_.state().position, machine_.rod().cuts);
   set_on_master(node_.resolveName(names::kRobotDescription),
                 machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip()));

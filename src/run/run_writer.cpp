@@ -58,7 +58,7 @@ class RunWriter {
   void add(const Record& record);
   RunFacts facts() const;
   Results results(EndedBy ended_by) const {
-    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value());
+    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value(), hung_);
   }
   /// Writes result.yaml, and the files of shapes.
   void finish(const Results& results, RunFacts facts, const Points& final_shape);
@@ -78,6 +78,7 @@ class RunWriter {
   double length_ = 0.0;                      // length of all ropes in the last known shape [m]
   LoopTurn turn_;                            // turning of a loop on rollers since it was mounted
   std::optional<double> radius_on_rollers_;  // radius of the rod [m]; empty: the specimen is not a loop on rollers
+  double hung_ = 0.0;                        // weight on it [N]
   bool far_side_held_ = false;
   CurveWriter curve_, full_curve_;
   ShapeSeries shapes_;
@@ -107,6 +108,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
         "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "
         "forces");
   if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
+  known_.free_ends = drawn.free.size();
+  hung_ = hung_weight(method.specimen, method.material);
   known_.foreseen = foreseen_warnings(method);
   weight_per_length_ =
       method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;

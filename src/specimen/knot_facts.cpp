@@ -81,17 +81,20 @@ std::string type_of(const Centreline& knot, double radius) {
   if (!knot.cuts.empty()) return type_of_ropes(knot);
   if (knot.knots.size() == 2) return type_of_loop(knot, radius);
   const bool held = knot.above.empty() || (knot.above.size() == 1 && knot.below.size() == 1);
-  return held ? type_of_rope(knot) : "not defined, as the rope has a free end";
+  if (held) return type_of_rope(knot);
+  return knot.free.empty() ? "not defined, as both ends are held by one grip"
+                           : "not defined, as the rope has a free end";
 }
 
 void find_sharpest_bend(const Centreline& knot, KnotFacts& out) {
+  constexpr double kStraight = 1e-9;  // what rounding turns a straight rope by [rad]
   out.sharpest_bend = std::numeric_limits<double>::infinity();
   for (const Piece& rope : pieces_between(knot.points.cols(), knot.cuts))
     for (Eigen::Index i = rope.begin + 1; i + 1 < rope.end; ++i) {
       const Vec3 before = knot.points.col(i) - knot.points.col(i - 1),
                  after = knot.points.col(i + 1) - knot.points.col(i);
       const double angle = turning_angle(before.normalized(), after.normalized());
-      const double radius = angle > 0.0 ? 0.5 * (before.norm() + after.norm()) / angle : out.sharpest_bend;
+      const double radius = angle > kStraight ? 0.5 * (before.norm() + after.norm()) / angle : out.sharpest_bend;
       if (radius >= out.sharpest_bend) continue;
       out.sharpest_bend = radius;
       out.sharpest = knot.points.col(i);

@@ -88,6 +88,13 @@ double tying_load(const SpecimenOptions& specimen, const Material& material) {
   return specimen.preload.value_or(default_preload(material));
 }
 
+double hung_weight(const SpecimenOptions& specimen, const Material& material) {
+  double parts = 0.0;
+  if (specimen.drawing)
+    for (const KnotDrawing::Pull& weight : specimen.drawing->weights) parts += weight.fraction;
+  return parts > 0.0 ? parts * tying_load(specimen, material) : 0.0;
+}
+
 bool Knot::has(const std::string& key) const {
   if (key == "knot" || key == "edge_length") return true;
   return std::find(about_.keys.begin(), about_.keys.end(), key) != about_.keys.end();

@@ -137,6 +137,11 @@ std::string why_no_reading(const Source& of) {
   const std::string not_pulled = why_not_pulled(of);
   return not_pulled.empty() ? "its ropes touch nowhere that ends a loop" : not_pulled;
 }
+std::string why_no_tail_slip(const Source& of) {
+  if (of.facts.free_ends == 0) return "no end of a rope is free that a file describes";
+  const std::string not_pulled = why_not_pulled(of);
+  return not_pulled.empty() ? "no rope with a free end touched another one as the pull began" : not_pulled;
+}
 Flag specification_passed(const Source& of) { return of.verdict.passed; }
 Flag not_equilibrated(const Source& of) { return !why_not_at_rest(of.results, of.facts).empty(); }
 Flag knot_type_preserved(const Source& of) {
@@ -195,7 +200,7 @@ constexpr ResultKey kKeys[] = {
     {"final_excess_length", "m", kKnots, "Length of rod within each knot at the end", of_knots<&R::final_excess_length>,
      kNoLoop},
     {"tail_slip", "m", kKnots, "Length of each free end that ran into the knot in the pull", of_knots<&R::tail_slip>,
-     "no end of a rope is free that a file describes"},
+     why_no_tail_slip},
     {"knot_readings", "-", kKnots, "Names of what the knot's file reads of it", knot_readings, kNoReason},
     {"knot_reading_begin", "m", kKnots, "What they are as the pull begins", of_knots<&R::knot_reading_begin>,
      why_no_reading},

@@ -59,6 +59,20 @@ TEST(RelativeErrors, GrowAsKnotsNearlyLockThemselves) {
   EXPECT_NEAR(with_moment(0.14 / 0.9), 5.0 * with_moment(0.0), 1e-12);
 }
 
+/// In one material, tied by the program.
+TEST(RelativeErrors, OfTheLargestLoadAreKnownOfKnotsFromFiles) {
+  const auto errors = [](std::vector<std::string> settings) {
+    settings.emplace_back("specimen.knot=reef");
+    const Method method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knot.yaml", settings);
+    return relative_errors(method.specimen, method.material, method.machine, method.physics).largest_load;
+  };
+  const double solid = errors({"material=pink_vps"}).value(), rope = errors({"material=nylon"}).value();
+  EXPECT_GT(rope, solid);
+  EXPECT_LT(errors({"material=nylon", "physics.accuracy=fine"}).value(), 0.6 * rope);
+  EXPECT_FALSE(errors({"material=nylon", "other_material=polyester_cord"}));
+  EXPECT_FALSE(errors({"material=nylon", "program=[{pull: {until: {extension: 0.1}}}]"})) << "as it is drawn";
+}
+
 /// Nylon's edges are shorter, as it is tied hard, and its error is smaller with their square.
 TEST(RelativeErrors, OfTheMethodOfTheFirstReleaseNeedNoWarning) {
   const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml", {"compatibility=1"});

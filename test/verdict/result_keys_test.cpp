@@ -185,6 +185,29 @@ TEST_F(ResultYaml, SaysHowMuchOfItsStrengthAKnotLeaves) {
   EXPECT_TRUE(says("knot_efficiency: null  # not predicted: "));
 }
 
+/// A rope that bears more than it was tied with nearly locks, and the mesh may decide whether it slips or parts.
+TEST_F(ResultYaml, HasAnErrorOfTheLargestLoadOfAKnotFromAFileUnlessARopeNearlyLocks) {
+  results.true_peak_force = 32.0;
+  facts.errors.largest_load = 0.125;
+  facts.preload = 64.0;
+  facts.material.radius = 1e-3;
+  facts.material.bending_stiffness = 1e-4;
+  facts.material.stretching_stiffness = 1e6;
+  EXPECT_TRUE(says("peak_force_error: 4\n"));
+  facts.preload = 16.0;
+  EXPECT_TRUE(says("peak_force_error: null  # "));
+  facts.material.stretching_stiffness = 400.0;
+  EXPECT_TRUE(says("peak_force_error: 4\n")) << "of a solid rod";
+}
+
+TEST_F(ResultYaml, SaysWhyNothingRanIntoAKnot) {
+  EXPECT_TRUE(says("tail_slip: null  # no end of a rope is free that a file describes"));
+  facts.free_ends = 2;
+  EXPECT_TRUE(says("tail_slip: null  # no rope with a free end touched another one as the pull began"));
+  results.true_peak_force.reset();
+  EXPECT_TRUE(says("tail_slip: null  # nothing was pulled"));
+}
+
 /// At rest both grips bear the same, apart from the rod's weight.
 TEST_F(ResultYaml, SaysWhetherThePullBeganAtRest) {
   results.true_peak_force = 31.0;

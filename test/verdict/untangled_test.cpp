@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "knot_utm/run/run_folder.hpp"
@@ -55,6 +57,22 @@ TEST_F(Untangled, NotWhatIsMountedAndPulledAsItWasTied) {
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(result(), AllOf(HasSubstr("ended_by: extension\n"), HasSubstr("knot_type_preserved: true\n"),
                               HasSubstr("motion_pattern: sliding\n")));
+}
+
+/// A knot from a file, in slippery rope, with weights of a twentieth of the pre-load on its tails.
+TEST_F(Untangled, AKnotThatLetsGoOfItsWeightsOrOfAnotherRope) {
+  const std::string heavy = folder() + "-reef.yaml";
+  std::ofstream(heavy) << read_whole(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knots/reef.yaml")
+                       << "weights: {lower_tail: 0.05, upper_tail: 0.05}\n";
+  for (const std::string& settings :
+       {"--set material=dyneema_2mm --set specimen.knot='" + heavy + "'",
+        std::string("--set material=polyester_cord --set other_material=dyneema_2mm --set specimen.knot=reef")}) {
+    const Answer answer = answer_of(tool(
+        "tensile_test", "knot --quiet --overwrite --out '" + folder() + "' --set physics.accuracy=draft " + settings));
+    EXPECT_EQ(answer.code, 0) << answer.text;
+    EXPECT_THAT(result(), HasSubstr("motion_pattern: untangling\n")) << settings;
+  }
+  std::filesystem::remove(heavy);
 }
 
 TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {

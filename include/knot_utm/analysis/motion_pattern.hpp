@@ -42,8 +42,9 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// For untangling the confidence is 1 if the knot type shows it, else 0.75.
 class MotionPatternTracker {
  public:
-  /// `on_rollers`: rollers hold the loop, not two of its nodes.
-  explicit MotionPatternTracker(bool on_rollers);
+  /// `on_rollers`: rollers hold the loop, not two of its nodes. `hung`: weight that hangs on the rod, and that a knot
+  /// which came undone still bears [N].
+  explicit MotionPatternTracker(bool on_rollers, double hung = 0.0);
 
   void add(const Sample& sample);
 
@@ -98,6 +99,7 @@ class MotionPatternTracker {
   double slid_ = 0.0;           ///< extension passed while sliding [m]
   double first_sliding_ = 0.0;  ///< extension at which de/ds was first below q [m]
   double last_sliding_ = 0.0;   ///< extension at which de/ds last rose through q, or at which it was last below q [m]
+  double hung_ = 0.0;           ///< [N]
   double peak_ = 0.0;           ///< largest F [N]
   std::array<Excess, PerKnot::kMost> excess_;                        ///< of each knot
   double tied_distance_ = std::numeric_limits<double>::quiet_NaN();  ///< e once the knots are tied and released [m]

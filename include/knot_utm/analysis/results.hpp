@@ -158,8 +158,9 @@ struct Results {
 };
 
 /// Evaluates a whole test. `samples` are all accepted time steps, and `readings` those of them that the load cell read.
-/// Readings after a break do not count. `on_rollers`: rollers hold the loop, not two of its nodes.
+/// Readings after a break do not count. `on_rollers`: rollers hold the loop, not two of its nodes. `hung`: weight that
+/// hangs on the rod [N].
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
-                bool on_rollers);
+                bool on_rollers, double hung = 0.0);
 
 }  // namespace knot_utm

@@ -5,6 +5,7 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/record/per_knot.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/step_readings.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 
 namespace knot_utm {
@@ -18,9 +19,9 @@ class FreeEnds {
  public:
   FreeEnds(const Centreline& centreline, const RodProperties& rod);
 
-  /// Of each free end, in the order along the rod [m]; unknown where its rope touches nothing that counts. Normal
-  /// forces on each node [N], of `strands` and of `all`.
-  PerKnot lengths(const Eigen::VectorXd& strands, const Eigen::VectorXd& all) const;
+  /// Of each free end, in the order along the rod [m]; unknown where its rope touches nothing that counts, or no rope
+  /// of several touches another.
+  PerKnot lengths(const StepReadings& readings) const;
   /// After an accepted step: whether strands touch.
   void follow(bool touch) { touched_ |= touch; }
 
@@ -31,9 +32,11 @@ class FreeEnds {
   struct Tail {
     int begin, end, step;
   };
+  bool ropes_touch(const StepReadings& readings) const;
   double length(const Tail& tail, const Eigen::VectorXd& normal_force) const;
 
   std::vector<Tail> tails_;
+  std::vector<NodeRange> ropes_;
   Eigen::VectorXd arclength_;  // of the nodes [m]
   bool touched_ = false;       // strands have
 };

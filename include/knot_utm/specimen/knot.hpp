@@ -123,6 +123,9 @@ void check_ends(const SpecimenOptions& specimen);
 /// F_p on each overhand of a loop [N]: that of the specimen, else default_preload of its material.
 double tying_load(const SpecimenOptions& specimen, const Material& material);
 
+/// What all weights on a knot from a file come to [N].
+double hung_weight(const SpecimenOptions& specimen, const Material& material);
+
 /// T1 of a capstan [N]; `specimen.tail_load: auto` is k_b/h^2, but at most k_s/100.
 double tail_load(const SpecimenOptions& specimen, const Material& material);
 

@@ -47,13 +47,14 @@ inline std::optional<double> weakest(const Material& material) {
 
 /// Pre-load F_p of `specimen.preload: auto` [N]: the material's own, else 4 k_b/h^2, with which a knot holds together
 /// once its tails are let go, but at most half of the breaking force. Of two materials the larger one of both, but at
-/// most half of what the weaker rope bears.
+/// most half of what the weaker rope bears, and what doubles the length of the softer one.
 inline double default_preload(const Material& material) {
   const double holds = 4.0 * material.bending_stiffness / (material.radius * material.radius);
   const double own = material.tying_preload.value_or(
       material.breaking_force ? std::min(holds, 0.5 * *material.breaking_force) : holds);
   if (!material.other) return own;
-  const double larger = std::max(own, default_preload(*material.other));
+  const double softer = std::min(material.stretching_stiffness, material.other->stretching_stiffness);
+  const double larger = std::min(std::max(own, default_preload(*material.other)), softer);
   return weakest(material) ? std::min(larger, 0.5 * *weakest(material)) : larger;
 }
 

@@ -45,6 +45,7 @@ struct RunFacts {
   bool one_knot_in_a_strand = false;  ///< one knot, and the specimen is no loop
   bool ends_with_hold = false;        ///< the crosshead stands at the end, so that a knot could be measured
   std::optional<double> knot_hole;    ///< hole_diameter at the end of the test, of one knot in a strand [m]
+  std::size_t free_ends = 0;          ///< of its ropes, that a knot's file describes
   double dead_load = 0.0;             ///< constant force on the specimen's other end [N]; 0: there is none
   double knot_distance = 0.0;         ///< knot distance at which the knots were to be tied [m]; 0: none were tied
   double pull_speed = 0.0;            ///< largest programmed speed of a pull [m/s]; 0: there is none
