@@ -32,7 +32,7 @@ def settings_of(words, option="--set"):
     for word in words:
         key, equals, text = word.partition("=")
         if not key or not equals:
-            raise WrongInput(f"{option}: {word} is no KEY=VALUE")
+            raise WrongInput(f"{option}: {word} is no KEY=VALUE, such as specimen.preload=20")
         try:
             found[key] = value_of(text)
         except yaml.YAMLError as error:

@@ -49,7 +49,7 @@ def _study(knots, material, specimens, method, settings):
     if not isinstance(specimens, int) or specimens < 2:
         raise WrongInput(f"specimens is {text_of(specimens)}, but must be at least 2: one start is no reading")
     points = [{KNOT: _found(knot), MATERIAL: material, **settings} for knot in knots]
-    return Study("rank", tool.find_method(method, os.getcwd()), points, specimens, (), "list", {}, None)
+    return Study("the ranking", tool.find_method(method, os.getcwd()), points, specimens, (), "list", {}, None)
 
 
 def _found(knot):
