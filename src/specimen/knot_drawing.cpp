@@ -55,8 +55,7 @@ class Drawer {
                end = run_out(strand.ends[1], points.back(), points[points.size() - 2]);
     Path path(spacing);
     path.add(begin);
-    path.add(points[0]);
-    std::vector<double> places{path.length()};
+    std::vector<double> places{(points[0] - begin).norm()};
     const std::size_t last = points.size() - 1;
     for (std::size_t i = 0; i < last; ++i) {
       // Beyond its ends the strand runs on straight.
