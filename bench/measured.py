@@ -8,6 +8,7 @@ import greased
 import hitches
 import inversions
 import predictions
+import strengths
 import surgeons
 from runs import read_yaml
 from table import ROOT, Report, Table
@@ -25,7 +26,7 @@ def report(runner):
     slipping = bend_orders.slipping(spent, facts["slipping"])
     holding = greased.found(spent, facts["greased"])
     rows += bend_orders.rows(loads, facts["orders"]) + [bend_orders.slipping_row(slipping, facts["slipping"])]
-    rows += [greased.row(holding, facts["greased"])]
+    rows += [greased.row(holding, facts["greased"])] + strengths.rows(spent, facts["strengths"])
     return Report("What people measured on knots",
                   "Each prediction is a mean over starts that differ a little, with its standard error, and nothing is fitted but what "
                   "the column says. The factor is predicted over measured, the middle of a range; of an order it is Spearman's rank "

@@ -21,6 +21,7 @@ import hitches  # noqa: E402
 import inversions  # noqa: E402
 import measured  # noqa: E402
 import predictions  # noqa: E402
+import strengths  # noqa: E402
 import runs  # noqa: E402
 import surgeons  # noqa: E402
 
@@ -267,6 +268,22 @@ class Greased(unittest.TestCase):
         some = {**self.holding(wrong=0), "zeppelin": 2}
         self.assertEqual(greased.right(some, FACTS["greased"]), 5)
         self.assertEqual(greased.right({**some, "zeppelin": None}, FACTS["greased"]), 5)
+
+
+class Strengths(unittest.TestCase):
+    KEPT = {"overhand_tied": [0.52, 0.52, 0.52], "bowline": [0.45, 0.47, 0.49]}
+
+    def failed(self, loop, kept=None):
+        rows = strengths.rows_of(kept or self.KEPT, [0.5, 0.5], loop, FACTS["strengths"])
+        return predictions.table_of(rows).failed()
+
+    def test_a_ratio_is_that_of_the_means_and_each_knot_is_held_against_its_range(self):
+        self.assertEqual(self.failed([0.2, 0.3]), [])
+        self.assertEqual(len(self.failed([0.5, 0.5])), 1)
+        self.assertEqual(len(self.failed([0.2, 0.3], {**self.KEPT, "bowline": [0.7, 0.7, 0.7]})), 1)
+
+    def test_a_start_that_did_not_part_is_no_value(self):
+        self.assertEqual(len(self.failed([0.2, None])), 1)
 
 
 class Facts(unittest.TestCase):
