@@ -1,0 +1,362 @@
+#include "four_contacts.hpp"
+#include "four_surfaces.hpp"
+#include "knot_utm/contact/edge_contact.hpp"
+#include "knot_utm/contact/surface_contact.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+FourVectors unit_vector(int component) {
+  FourVectors out = {};
+  (component == 0 ? out.x : component == 1 ? out.y : out.z) = constant<Lanes>(1.0);
+  return out;
+}
+
+/// The foot of a smooth strand, or none, on a roller: du = (b'.S + x.V_b)/G.
+struct OneFoot {
+  static constexpr bool kTwo = false;
+  Lanes inverse_g;
+
+  void find(const FourVectors& shift, const FourVectors&, const FourVectors& turn_b, const FourVectors&,
+            const FourVectors& db, const FourVectors& x, Lanes& a, Lanes& b) const {
+    a = Lanes{};
+    b = inverse_g * (dot(db, shift) + dot(x, turn_b));
+  }
+};
+
+/// The feet of two edges: H (dt, du) = (-a'.S - x.V_a, b'.S + x.V_b).
+struct TwoFeet {
+  static constexpr bool kTwo = true;
+  Lanes tt, tu, uu;
+
+  void find(const FourVectors& shift, const FourVectors& turn_a, const FourVectors& turn_b, const FourVectors& da,
+            const FourVectors& db, const FourVectors& x, Lanes& a, Lanes& b) const {
+    const Lanes of_a = -1.0 * (dot(da, shift) + dot(x, turn_a));
+    const Lanes of_b = dot(db, shift) + dot(x, turn_b);
+    a = tt * of_a + tu * of_b;
+    b = tu * of_a + uu * of_b;
+  }
+};
+
+/// How far friction has turned from its direction in the last trial: 0 where it hardly has, 1 where it points
+/// elsewhere.
+Lanes turned_from(const FourVectors& old, const FourVectors& z) {
+  constexpr double kHardly = 0.2, kElsewhere = 0.7;
+  const FourVectors apart = z - old;
+  const Lanes part = (square_root(dot(apart, apart)) - kHardly) / (kElsewhere - kHardly);
+  const Lanes none = {};
+  return select(dot(old, old) > 0.0, smaller(larger(part, none), constant<Lanes>(1.0)), none);
+}
+
+/// Four contacts at the point at which they are linearised; symbols as in SurfacePoint and ContactPoint.
+template <typename Law, typename Feet, typename Levers = EvenLevers>
+class FourSurfaces : private Levers {
+ public:
+  FourSurfaces(const FourPressures& pressures, const Law& law, const RollingResistance& rolling, double dt,
+               const ContactLinearisation& how, const std::array<const ContactPoint*, 4>& contacts,
+               const Points4& surfaces, const Feet& feet, const Levers& levers = {})
+      : Levers(levers),
+        pressures_(pressures),
+        feet_(feet),
+        a_(Section::of_a(surfaces)),
+        b_(Section::of_b(Four<const ContactPoint>(contacts), surfaces)),
+        bend_b_(four(surfaces, &SurfacePoint::bend_b)),
+        bend_turn_b_(four(surfaces, &SurfacePoint::bend_turn_b)),
+        spin_slope_b_(four(surfaces, &SurfacePoint::spin_slope_b)),
+        lever_(lever_of(surfaces)),
+        on_roller_(contacts[0]->on_roller()) {
+    const Four<const ContactPoint> of(contacts);
+    x_ = of(&ContactPoint::x);
+    n_ = of(&ContactPoint::n);
+    db_ = of(&ContactPoint::db);
+    axis_ = of(&ContactPoint::axis);
+    r_ = of(&ContactPoint::slip);
+    over_d_ = 1.0 / of(&ContactPoint::d);
+    da_ = four(surfaces, &SurfacePoint::along_a);
+    turned_ = of(&ContactPoint::turned);
+    remembered_ = remembered_by(contacts);
+    const FourVectors of_a = a_.rotation(), of_b = b_.rotation();
+    rotation_ = of_a + of_b;
+    sweeping_ = of_a + this->times_q(of_b);
+    carried_ = carried(*contacts[0]);
+    alpha_ = carried_ * dot(n_, rotation_);
+    away_ = dot(n_, r_);
+    const FourVectors tangential = r_ - away_ * n_;
+    friction_ = law.tangent(friction_input(contacts, pressures_.turning, tangential, dt), how.friction);
+    // Where the slip turns from one trial to the next, tangents may jump to and fro, and the secant stays on one side.
+    friction_.along = (1.0 - turned_from(of(&ContactPoint::z_old), friction_.z)) * friction_.along;
+    const Lanes weight = of(&ContactPoint::weight);
+    turning_ = weight * pressures_.turning;
+    stiffness_ = turning_ * friction_.stiffness;
+    pressing_ = weight * pressures_.slope * (n_ - friction_.by_pressure);
+    force_ = weight * pressures_.pressure * (n_ - friction_.coefficient * friction_.z);
+    m_ = cross(lever_ * x_, force_);
+    if (rolling.on()) resist(rolling, contacts, surfaces, how, weight);
+  }
+
+  void model(SurfaceModel* models) const {
+    const FourVectors m_a = m_ - couple_, m_b = this->times_q(m_) + couple_;
+    const Parted forces(force_), on_a(cross(a_.over, m_a), -1.0 * dot(a_.over, m_a)),
+        on_b(cross(b_.over, m_b), -1.0 * dot(on_roller_ ? axis_ : b_.over, on_roller_ ? couple_ : m_b));
+    for (std::size_t i = 0; i < 4; ++i) {
+      models[i].pressure = pressures_.pressure[static_cast<int>(i)];
+      models[i].slope = pressures_.slope[static_cast<int>(i)];
+      models[i].force = forces[i];
+      models[i].on_a = on_a[i];
+      models[i].on_b = on_b[i];
+      models[i].two_feet = Feet::kTwo;
+    }
+    Response by_rotation[3], by_rolling[3];
+    for (int i = 0; i < 3; ++i) by_rotation[i] = rotated(unit_vector(i));
+    const Response by_twirl = Levers::kEven ? Response() : twirled();
+    if (resists_)
+      for (int i = 0; i < 3; ++i) add_couple(by_rolling[i], rolled(radius_ * unit_vector(i)));
+    const auto turned = [&](const Section::Change& a, const Section::Change& b) {
+      return sections_change(by_rotation, by_twirl, by_rolling, a, b);
+    };
+    Response by_foot_a, by_foot;
+    if constexpr (Feet::kTwo) by_foot_a = moved(da_, a_.turn);
+    if (!on_roller_) {
+      by_foot = moved(-1.0 * db_, -1.0 * b_.turn);
+      by_foot += turned(Section::Change(), b_.change(bend_b_, bend_turn_b_, spin_slope_b_));
+    }
+    const auto add_feet = [&](Response response, const FourVectors& shift, const FourVectors& turn_a,
+                              const FourVectors& turn_b, int number) {
+      Lanes foot_a, foot;
+      feet_.find(shift, turn_a, turn_b, da_, db_, x_, foot_a, foot);
+      if constexpr (Feet::kTwo) response.add(foot_a, by_foot_a);
+      if (!on_roller_) response.add(foot, by_foot);
+      write(response, foot_a, foot, number, models);
+    };
+    const Lanes still = {};
+    const FourVectors none = {};
+    for (int i = 0; i < 3; ++i) {
+      const FourVectors unit = unit_vector(i);
+      add_feet(moved(unit - dot(axis_, unit) * axis_, unit), unit, none, none, SurfaceModel::kShift + i);
+      const Response turns_a = turned(a_.change(unit, unit, still), Section::Change());
+      if constexpr (Feet::kTwo)
+        add_feet(turns_a, none, unit, none, SurfaceModel::kTurnA + i);
+      else
+        write(turns_a, still, still, SurfaceModel::kTurnA + i, models);
+      if (on_roller_) continue;
+      add_feet(turned(Section::Change(), b_.change(unit, unit, still)), none, none, unit, SurfaceModel::kTurnB + i);
+    }
+    write(turned(a_.spun(), Section::Change()), still, still, SurfaceModel::kSpinA, models);
+    if (on_roller_) {
+      Response by_turn = slipped(-1.0 * cross(axis_, (1.0 - lever_) * x_));
+      if (resists_) add_couple(by_turn, rolled(-radius_ * axis_));
+      write(by_turn, still, still, SurfaceModel::kTurned, models);
+    } else
+      write(turned(Section::Change(), b_.spun()), still, still, SurfaceModel::kSpinB, models);
+  }
+
+ private:
+  /// How g, a^ x m, b^ x m, and a^.m and b^.m change.
+  struct Response {
+    FourVectors force = {}, on_a = {}, on_b = {};
+    Lanes torque_a = {}, torque_b = {};
+
+    void add(const Lanes& times, const Response& o) {
+      force += times * o.force;
+      on_a += times * o.on_a;
+      on_b += times * o.on_b;
+      torque_a += times * o.torque_a;
+      torque_b += times * o.torque_b;
+    }
+    void operator+=(const Response& o) { add(constant<Lanes>(1.0), o); }
+  };
+
+  /// To a force that changes by dg, and m by dm.
+  Response responds(const FourVectors& dg, const FourVectors& dm) const {
+    const FourVectors& on_b = this->times_q(dm);
+    return {dg, cross(a_.over, dm), cross(b_.over, on_b), dot(a_.over, dm), dot(b_.over, on_b)};
+  }
+
+  /// What resists rolling, C and its derivatives.
+  void resist(const RollingResistance& rolling, const std::array<const ContactPoint*, 4>& contacts,
+              const Points4& surfaces, const ContactLinearisation& how, const Lanes& weight) {
+    const FourRolling now(rolling, contacts, surfaces, n_, axis_, a_, b_, how.friction);
+    const auto whole = [&](const Lanes& coefficient) { return -coefficient * rolling.radius; };
+    const Lanes now_whole = whole(rolling_coefficient(rolling, pressures_.pressure));
+    resists_ = true;
+    radius_ = rolling.radius;
+    rho_ = now.rho;
+    rolled_ = now.remembered;
+    unit_ = now.mapping.unit;
+    couple_ = (now_whole * weight * pressures_.pressure) * now.mapping.z;
+    couple_pressing_ = (whole(rolling_slope(rolling, pressures_.pressure)) * weight * pressures_.slope) * now.mapping.z;
+    const Lanes spring = (whole(rolling_coefficient(rolling, pressures_.turning)) / rolling.presliding) * turning_;
+    couple_across_ = spring * now.mapping.across;
+    couple_along_ = spring * now.mapping.along;
+  }
+
+  /// dC as rho changes while the gap stays.
+  FourVectors rolled(const FourVectors& drho) const {
+    const FourVectors in_plane = drho - dot(n_, drho) * n_;
+    return couple_across_ * in_plane + (couple_along_ * dot(unit_, in_plane)) * unit_;
+  }
+
+  /// A couple that changes by dC.
+  void add_couple(Response& response, const FourVectors& dc) const {
+    response.on_a -= cross(a_.over, dc);
+    response.torque_a -= dot(a_.over, dc);
+    response.on_b += cross(b_.over, dc);
+    response.torque_b += dot(on_roller_ ? axis_ : b_.over, dc);
+  }
+
+  /// To a gap that changes by dx, and with it the slip by `slid_by` and all that turns with n; the sections stay.
+  Response moved(const FourVectors& dx, const FourVectors& slid_by) const {
+    const Lanes nearer = -1.0 * dot(n_, dx);
+    const FourVectors dn = over_d_ * (dx + nearer * n_);
+    // Slip: d(xi + alpha n x xi + u)
+    FourVectors dr = slid_by - cross(sweeping_, lever_ * dx) +
+                     (carried_ * dot(dn, rotation_)) * cross(n_, remembered_) + alpha_ * cross(dn, remembered_);
+    if (on_roller_) dr -= cross(axis_, turned_ * dx);
+    const FourVectors slid = dr - dot(n_, dr) * n_ - away_ * dn - dot(r_, dn) * n_;
+    const FourVectors dg = nearer * pressing_ + turning_ * dn - stiffness_ * friction_.slope_times(slid);
+    Response out = responds(dg, cross(lever_ * dx, force_) + cross(lever_ * x_, dg));
+    if (!resists_) return out;
+    // d(P rho) = P drho - (n.rho) dn - (rho.dn) n
+    const FourVectors drho = (carried_ * dot(dn, rotation_)) * cross(n_, rolled_) + alpha_ * cross(dn, rolled_);
+    add_couple(out,
+               nearer * couple_pressing_ + rolled(drho - dot(n_, rho_) * dn) - (couple_across_ * dot(rho_, dn)) * n_);
+    return out;
+  }
+
+  /// To slip that changes by dr while the gap stays.
+  Response slipped(const FourVectors& dr) const {
+    const FourVectors dg = -1.0 * stiffness_ * friction_.slope_times(dr - dot(n_, dr) * n_);
+    return responds(dg, cross(lever_ * x_, dg));
+  }
+
+  /// To sections that turn by so much more.
+  Response rotated(const FourVectors& phi) const {
+    Response out = slipped((carried_ * dot(n_, phi)) * cross(n_, remembered_) - cross(phi, lever_ * x_));
+    if (resists_) add_couple(out, rolled((carried_ * dot(n_, phi)) * cross(n_, rolled_)));
+    return out;
+  }
+
+  /// To a memory of friction that turns about n by so much more, and to nothing else.
+  Response twirled() const { return slipped(carried_ * cross(n_, remembered_)); }
+
+  /// To sections that change: they turn, and pass on their couples another way.
+  Response sections_change(const Response* by_rotation, const Response& by_twirl, const Response* by_rolling,
+                           const Section::Change& a, const Section::Change& b) const {
+    const FourVectors phi = a.rotation + this->times_q(b.rotation), m_a = m_ - couple_,
+                      m_b = this->times_q(m_) + couple_;
+    Response out;
+    out.on_a = cross(a.over, m_a);
+    out.on_b = cross(b.over, m_b);
+    out.torque_a = dot(a.over, m_a);
+    out.torque_b = dot(b.over, m_b);
+    if (resists_) {
+      const FourVectors rolls = a.rotation - b.rotation;
+      out.add(rolls.x, by_rolling[0]);
+      out.add(rolls.y, by_rolling[1]);
+      out.add(rolls.z, by_rolling[2]);
+    }
+    out.add(phi.x, by_rotation[0]);
+    out.add(phi.y, by_rotation[1]);
+    out.add(phi.z, by_rotation[2]);
+    // phi turns that memory with q phi_b, but it turns with phi_b.
+    if constexpr (!Levers::kEven) out.add(dot(n_, b.rotation - this->times_q(b.rotation)), by_twirl);
+    return out;
+  }
+
+  void write(const Response& response, const Lanes& foot_a, const Lanes& foot, int number, SurfaceModel* models) const {
+    const Parted forces(-1.0 * response.force), all_a(-1.0 * response.on_a, response.torque_a),
+        all_b(-1.0 * response.on_b, response.torque_b);
+    for (std::size_t i = 0; i < 4; ++i)
+      models[i].by[number] = {forces[i], all_a[i], all_b[i], foot_a[static_cast<int>(i)], foot[static_cast<int>(i)]};
+  }
+
+  FourPressures pressures_;
+  Feet feet_;
+  Section a_, b_;
+  FourVectors bend_b_, bend_turn_b_;
+  Lanes spin_slope_b_, lever_;
+  FourVectors x_, n_, da_, db_, axis_, r_, remembered_;
+  Lanes over_d_, turned_;
+  FourVectors rotation_;  // phi_a + phi_b
+  FourVectors sweeping_;  // phi_a + q phi_b
+  Lanes alpha_, away_;    // n.r
+  FrictionTangent<FourVectors> friction_;
+  Lanes turning_, stiffness_;
+  FourVectors pressing_, force_, m_;
+  // Of the resistance to rolling.
+  FourVectors rho_, rolled_, unit_, couple_ = {}, couple_pressing_;
+  Lanes couple_across_, couple_along_;
+  double radius_ = 0.0, carried_ = 0.0;
+  bool on_roller_, resists_ = false;
+};
+
+/// Calls `fill(law, four contacts, their surfaces)` for the next four active ones from `from` on; the last one fills up
+/// what is left.
+template <typename FrictionOf, typename Fill>
+std::size_t linearise_next(const FrictionOf& friction, const std::vector<ContactPoint>& contacts,
+                           const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models,
+                           Fill fill) {
+  Contacts4 four;
+  Points4 points;
+  models.count = 0;
+  for (; from < contacts.size() && models.count < 4; ++from) {
+    if (!contacts[from].active()) continue;
+    if (models.count > 0 && contacts[from].pair != four[0]->pair) break;
+    const auto i = static_cast<std::size_t>(models.count++);
+    models.contact[i] = from;
+    four[i] = &contacts[from];
+    points[i] = &surfaces[from];
+  }
+  if (models.count == 0) return from;
+  for (auto i = static_cast<std::size_t>(models.count); i < 4; ++i) {
+    four[i] = four[i - 1];
+    points[i] = points[i - 1];
+  }
+  friction(four[0]->pair).visit([&](const auto& law) { fill(law, four, points); });
+  return from;
+}
+
+}  // namespace
+
+std::size_t linearise(const ContactLaws& laws, const RollingLaws& rolling, double dt, const ContactLinearisation& how,
+                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
+                      std::size_t from, SurfaceModels& models) {
+  const auto friction = [&](int pair) -> const Friction& { return laws[pair].friction; };
+  return linearise_next(
+      friction, contacts, surfaces, from, models, [&](const auto& law, const Contacts4& four, const Points4& points) {
+        const Four<const ContactPoint> of(four);
+        const OneFoot foot{of(&ContactPoint::inverse_g)};
+        const FourPressures pressures(laws[four[0]->pair].normal, how, of);
+        const auto fill = [&](const auto& levers) {
+          FourSurfaces(pressures, law, rolling[four[0]->pair], dt, how, four, points, foot, levers).model(models.model);
+        };
+        is_even(points) ? fill(EvenLevers()) : fill(UnevenLevers(points));
+      });
+}
+
+std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingLaws& rolling, double dt,
+                      const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
+                      const std::vector<SurfacePoint>& surfaces, const std::vector<EdgeFeet>& feet, std::size_t from,
+                      SurfaceModels& models) {
+  const auto friction_of = [&](int) -> const Friction& { return friction; };
+  return linearise_next(friction_of, contacts, surfaces, from, models,
+                        [&](const auto& law, const Contacts4& four, const Points4& points) {
+                          FourPressures pressures;
+                          TwoFeet both;
+                          for (std::size_t i = 0; i < 4; ++i) {
+                            const int lane = static_cast<int>(i);
+                            const EdgePressure p = pressure_of(normal, how, *four[i]);
+                            pressures.slope[lane] = p.slope;
+                            pressures.pressure[lane] = p.pressure;
+                            pressures.turning[lane] = p.turning;
+                            const EdgeFeet& feet_of = feet[static_cast<std::size_t>(four[i] - contacts.data())];
+                            both.tt[lane] = feet_of.inverse_tt;
+                            both.tu[lane] = feet_of.inverse_tu;
+                            both.uu[lane] = feet_of.inverse_uu;
+                          }
+                          FourSurfaces(pressures, law, rolling[0], dt, how, four, points, both).model(models.model);
+                        });
+}
+
+}  // namespace knot_utm
