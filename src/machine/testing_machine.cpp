@@ -4,17 +4,15 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "knot_utm/machine/accuracy.hpp"
-#include "knot_utm/machine/break_watch.hpp"
-#include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/free_ends.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/knot_readings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/machine/rod_break.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/tying.hpp"
@@ -58,8 +56,7 @@ struct TestingMachine::Impl {
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
-  std::optional<RopeStrengths> strengths;     // of a rod that can part
-  std::optional<BreakWatch> breaks;           // where the rod can part
+  std::optional<RodBreak> breaks;             // of a rod that can part
   bool refused = false;                       // by it, the step that was tried last, though it was solved
   std::unique_ptr<Tying> tying;               // where it can be tied
   std::optional<KnotWatch> watch;             // where it is knotted
@@ -133,7 +130,7 @@ struct TestingMachine::Impl {
       watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points, centreline.windings());
     }
-    if (can_part(material)) watch_for_break(kNearBreak * options.longest);
+    if (can_part(material)) breaks.emplace(material, *stepper, kNearBreak * options.longest);
     if (breaks || !frame.rigid())
       stepper->refuse_by([this](const Points& end, double dt) {
         std::string why = refuse(end, dt);
@@ -238,25 +235,11 @@ struct TestingMachine::Impl {
   /// A step that could not be made leaves contacts that no accepted step has, of a recoil too.
   bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
-  void watch_for_break(double shortest) {
-    strengths.emplace(material, stepper->rod());
-    breaks.emplace(shortest, exposure());
-  }
-  Exposure exposure() const {
-    return strengths->most_exposed(stepper->rod(), stepper->state().position, StretchedBefore(stepper->state()),
-                                   pressing());
-  }
-  /// Of the step that is judged, where the rod's law of breaking asks for it.
-  Pressing pressing() const { return strengths->crush() ? stepper->readings().pressing() : Pressing(); }
-
   /// Why a step that was solved is none that the rod and the machine make. Empty: it is.
   std::string refuse(const Points& end, double dt) const {
     if (parted()) return "";
-    if (breaks) {
-      const Exposure to =
-          strengths->most_exposed(stepper->rod(), end, StretchedBefore(stepper->state(), dt), pressing());
-      if (std::string why = breaks->refuse(to, dt); !why.empty()) return why;
-    }
+    if (breaks)
+      if (std::string why = breaks->refuse(*stepper, end, dt); !why.empty()) return why;
     const double least = kLeastPassed * material.bending_stiffness / (material.radius * material.radius);
     const bool passed =
         frame.passed_balance(grip_tried - grip, grip_tried, travel_tried, grips.tried_force_upper(*stepper),
@@ -267,49 +250,24 @@ struct TestingMachine::Impl {
   /// After an accepted step: does the rod part? The next step ends where at this pace it will.
   void judge_break(double dt) {
     if (!breaks || parted()) return;
-    const Exposure now = exposure();
-    if (!breaks->judge(now, dt)) return control.at_most(breaks->next());
-    message = not_by_tension(now, grips.force_upper(*stepper), grips.force_lower(*stepper));
-    if (message.empty()) return part(now);
+    const std::optional<Exposure> reached = breaks->judge(*stepper, dt);
+    if (!reached) return control.at_most(breaks->next());
+    message = not_by_tension(*reached, grips.force_upper(*stepper), grips.force_lower(*stepper));
+    if (message.empty()) return part(*reached);
     status = BenchStatus::kFailed;
     control.halt();
   }
 
   void part(const Exposure& reached) {
     const int edge = reached.edge;
-    const Points& position = stepper->state().position;
-    break_place = lies_in_knot(stepper->rod(), position, edge)                              ? BreakPlace::kKnot
-                  : grips.hold(grip, middle(edge), stepper->rod().material_at(edge).radius) ? BreakPlace::kGrip
-                                                                                            : BreakPlace::kStrand;
-    std::ostringstream text;
-    text << "the rod parted " << break_arclength(edge) << " m along its length" << which_rope(edge) << " ("
-         << break_place_name(break_place)
-         << (reached.limit == BreakLimit::kForce ? ") at a tension of "
-             : strengths->crush()                ? ") where stretch, bend and crushing came to a strain of "
-                                                 : ") at a strain of its outermost fibre of ")
-         << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
+    break_place = place_of_break(*stepper, grips, grip, edge);
     status = BenchStatus::kBroken;
-    message = text.str();
+    message = breaks->describe(*stepper, reached, break_place);
     stepper->part(edge);
     const RodMaterial& rope = stepper->rod().material_at(edge);
     recoil_end = time + kRecoilTransits * transit_time(rope, grips.end_to_end(grip));
     control.at_most(transit_time(rope, stepper->rod().rest_length[edge]));
     control.halt();
-  }
-
-  Vec3 middle(int edge) const {
-    const Points& position = stepper->state().position;
-    return 0.5 * (position.col(edge) + position.col(edge + 1));
-  }
-
-  double break_arclength(int edge) const { return stepper->rod().place(edge, 0.5); }
-
-  /// Ropes that follow each other count from 1, as their knot's file lists them.
-  std::string which_rope(int edge) const {
-    const std::vector<int>& cuts = stepper->rod().cuts;
-    if (cuts.empty()) return "";
-    const auto before = std::count_if(cuts.begin(), cuts.end(), [&](int cut) { return cut < edge; });
-    return ", in rope " + std::to_string(before + 1);
   }
 
   /// Whether the specimen cannot be tied or mounted.
@@ -370,7 +328,7 @@ struct TestingMachine::Impl {
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
     if (watch) s.knot_type = watch->type();
-    if (parted()) s.break_arclength = break_arclength(stepper->parted_edge());
+    if (parted()) s.break_arclength = break_arclength(*stepper, stepper->parted_edge());
     s.break_place = break_place;
     s.status = status;
     s.message = message;
