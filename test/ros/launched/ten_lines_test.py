@@ -123,8 +123,8 @@ class TenLinesTest(unittest.TestCase):
         said = second.run(start, 'the call')
         for part in ('accepted: True', 'out/tighten-2'):
             self.assertIn(part, said)
-        written = os.path.join(self.folder, 'out/tighten-2')
-        wait_for('the second test', lambda: 'result.yaml' in os.listdir(written))
+        written = os.path.join(self.folder, 'out/tighten-2')  # the recorder makes it after the call was answered
+        wait_for('the second test', lambda: os.path.exists(os.path.join(written, 'result.yaml')))
         with open(os.path.join(written, 'method.yaml'), encoding='utf-8') as file:
             self.assertRegex(file.read(), r'preload: 70\n')
         self.assertNotIn('the nodes have ended', first.said())
