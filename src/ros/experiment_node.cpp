@@ -72,8 +72,8 @@ void ExperimentNode::spin(bool autostart) {
 
 void ExperimentNode::try_to_start() {
   StartTest start;
-  // Until the physics is there too the machine refuses.
-  if (commands_.getNumPublishers() > 0 && start_.call(start) && start.response.accepted == 0)
+  // The machine offers it once the physics is there, and refuses while a test runs.
+  if (commands_.getNumPublishers() > 0 && start_.exists() && start_.call(start) && start.response.accepted == 0)
     ros::WallDuration(kLook).sleep();
 }
 

@@ -69,7 +69,6 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
   if (options_.record) {
     recorder_ = subscribe_gated(node_, names::kRecorderStatus, names::kRecorderNode, 10, &UtmNode::on_recorder, this);
   }
-  start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
   stop_ = node_.advertiseService(names::kStopTest, &UtmNode::on_stop, this);
   balance_ = node_.advertiseService(names::kBalance, &UtmNode::on_balance, this);
   pause_ = node_.advertiseService(names::kPause, &UtmNode::on_pause, this);
@@ -82,7 +81,6 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
                  std::to_string(getpid()) + "-" + std::to_string(steady_clock::now().time_since_epoch().count()));
   publish_method(launched_.method);
   publish_status();
-  actions_.start();
 }
 
 UtmNode::~UtmNode() = default;
@@ -150,7 +148,13 @@ double UtmNode::wait_time() const {
   return std::clamp(until_due, 0.0, 0.02);
 }
 
-void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) { has_specimen_ = specimen->nodes > 0; }
+void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
+  has_specimen_ = specimen->nodes > 0;
+  if (!has_specimen_ || start_) return;
+  // Not before: who waits for the service or the action, as ROS has it, may begin a test at once.
+  start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
+  actions_.start();
+}
 
 void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
   if (subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) physics_lost();
