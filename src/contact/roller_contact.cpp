@@ -18,6 +18,17 @@ std::size_t memory_index(Eigen::Index nodes, std::size_t roller, int segment, in
 
 }  // namespace
 
+BesideRoller beside(const Roller& roller, const Vec3& place) {
+  const Vec3 away = place - roller.centre;
+  const Vec3 along = roller.axis * roller.axis.dot(away);
+  if (roller.ring == 0.0) return {away - along, roller.axis};
+  const Vec3 across = away - along;
+  const double rho = across.norm();
+  if (rho == 0.0) return {away - roller.ring * roller.axis.unitOrthogonal(), Vec3::Zero()};  // nearest to all sections
+  const Vec3 outwards = across / rho;
+  return {away - roller.ring * outwards, std::sqrt(roller.ring / rho) * roller.axis.cross(outwards)};
+}
+
 RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction,
                              double farthest)
     : laws_(normal, friction),
@@ -55,16 +66,11 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
   surfaces_.clear();
   dt_ = dt;
   for (const auto& [roller, segment] : near_)
-    if (distance(rollers[roller], position.col(segment)) <= limit(rollers[roller], segment))
+    if (beside(rollers[roller], position.col(segment)).x.norm() <= limit(rollers[roller], segment))
       add_contacts(rollers, roller, segment, position, start);
   if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(laws_, dt, contacts_);
   if (turns_) set_couples(rolling_, contacts_, surfaces_);
-}
-
-double RollerContact::distance(const Roller& roller, const Vec3& x) {
-  const Vec3 away = x - roller.centre;
-  return (away - roller.axis * roller.axis.dot(away)).norm();
 }
 
 bool RollerContact::reaches_into_cut(int segment) const {
@@ -81,7 +87,7 @@ void RollerContact::find_near_segments(const std::vector<Roller>& rollers, const
     for (int segment = 1; segment + 1 < static_cast<int>(start.cols()); ++segment) {
       if (reaches_into_cut(segment)) continue;
       if (segment < rollers[roller].first_node || segment > rollers[roller].last_node) continue;
-      if (distance(rollers[roller], start.col(segment)) <= limit(rollers[roller], segment) + farthest_)
+      if (beside(rollers[roller], start.col(segment)).x.norm() <= limit(rollers[roller], segment) + farthest_)
         near_.push_back({roller, segment});
     }
 }
@@ -93,8 +99,8 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     const PointWeights w(kIntegrationPoints[point], PointWeights::kWhole);
     const std::size_t memory = memory_index(position.cols(), number, segment, point);
     ContactPoint contact;
-    contact.x = combine(w.value, position, segment) - roller.centre;
-    contact.x -= roller.axis * roller.axis.dot(contact.x);
+    const BesideRoller there = beside(roller, combine(w.value, position, segment));
+    contact.x = there.x;
     contact.d = contact.x.norm();
     contact.overlap = roller.radius + radius(segment) - contact.d;
     contact.pair = pair_of(segment);
@@ -104,7 +110,7 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     contact.a0 = segment - 1;
     contact.point = point;
     contact.roller = static_cast<int>(number);
-    contact.axis = roller.axis;
+    contact.axis = there.axis;
     contact.n = contact.x / contact.d;
     contact.weight = 0.5 * voronoi_[segment];
     const bool rubs = laws_[contact.pair].friction.on();
@@ -178,7 +184,7 @@ double RollerContact::torque_on(int roller) const {
   return sum;
 }
 
-ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, const Points&) const {
+ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, const Points& start) const {
   ContactMotion out;
   const Vec3 carried = carried_along(contact);
   out.slip = contact.slip - contact.memory.slip + carried;
@@ -188,8 +194,8 @@ ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, 
     out.slip -= surface_shift(contact, surface);
   }
   out.rolling -= carried;
-  Vec3 x = contact.x - out.slip;
-  x -= contact.axis * contact.axis.dot(x);
+  const Vec3 place = combine(contact.c, start, contact.a0 + 1);
+  const Vec3 x = beside(start_[static_cast<std::size_t>(contact.roller)], place).x;
   out.overlap_before = contact.overlap + contact.d - x.norm();
   return out;
 }

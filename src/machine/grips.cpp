@@ -82,10 +82,8 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
 bool Grips::hold(double displacement, const Vec3& point, double radius) const {
   Boundary boundary;
   set(displacement, 0.0, boundary);
-  for (const Roller& roller : boundary.rollers) {
-    const Vec3 away = point - roller.centre;
-    if ((away - roller.axis * roller.axis.dot(away)).norm() < roller.radius + 2.0 * radius) return true;
-  }
+  for (const Roller& roller : boundary.rollers)
+    if (beside(roller, point).x.norm() < roller.radius + 2.0 * radius) return true;
   return std::any_of(boundary.fixed_nodes.begin(), boundary.fixed_nodes.end(),
                      [&](const FixedNode& node) { return (node.position - point).norm() < 2.0 * radius; });
 }

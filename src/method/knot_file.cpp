@@ -87,7 +87,7 @@ class KnotReader {
   KnotDrawing::Post post(const std::string& key, const YAML::Node& node) const {
     Reader reader(node, file_, key, "a knot");
     const YAML::Node through = reader.take("through"), along = reader.take("along"), radius = reader.take("radius"),
-                     grip = reader.take("grip");
+                     ring = reader.take("ring"), grip = reader.take("grip");
     reader.finish();
     KnotDrawing::Post out;
     out.through = point(key + ".through", through);
@@ -95,6 +95,7 @@ class KnotReader {
     if (out.along.norm() < kLeastStep) refuse(key + ".along", along, "a direction");
     out.along.normalize();
     out.radius = number(key + ".radius", radius, 0.5, kFarthest);
+    if (ring.IsDefined()) out.ring = number(key + ".ring", ring, out.radius + 1.0, kFarthest);  // a strand fits through
     const std::string of = grip.IsDefined() && grip.IsScalar() ? grip.Scalar() : "lower";
     out.upper = of == "upper";
     if ((grip.IsDefined() && !grip.IsScalar()) || (!out.upper && of != "lower"))

@@ -57,13 +57,8 @@ class DrawnKnot final : public Knot {
     Supports out;
     const double h = thickest(material);
     const Vec3 origin(0.0, 0.0, height_of_origin(*specimen.drawing, size_of(specimen, material, 1.0)));
-    for (const KnotDrawing::Post& drawn : specimen.drawing->posts) {
-      Roller post;
-      post.centre = h * drawn.through + origin;
-      post.axis = drawn.along;
-      post.radius = drawn.radius * h;
-      (drawn.upper ? out.pins : out.posts).push_back(post);
-    }
+    for (const KnotDrawing::Post& post : specimen.drawing->posts)
+      (post.upper ? out.pins : out.posts).push_back(roller_of(post, h, origin));
     return out;
   }
 

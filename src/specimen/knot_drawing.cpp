@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/contact/sampled_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
@@ -100,15 +101,16 @@ class Drawer {
 void check_posts(const KnotDrawing& drawing, const DrawnSize& size, const Centreline& rod) {
   const double h = size.radius;
   const Vec3 origin(0.0, 0.0, height_of_origin(drawing, size));
-  for (const KnotDrawing::Post& post : drawing.posts) {
-    const Points away = rod.points.colwise() - (h * post.through + origin);
-    const Eigen::RowVectorXd along = post.along.transpose() * away;
-    const double nearest = std::sqrt((away.colwise().squaredNorm() - along.cwiseAbs2()).minCoeff());
-    const double least = (post.radius + 1.0) * h;
+  for (const KnotDrawing::Post& drawn : drawing.posts) {
+    const Roller post = roller_of(drawn, h, origin);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < rod.points.cols(); ++i)
+      nearest = std::min(nearest, beside(post, rod.points.col(i)).x.norm());
+    const double least = post.radius + h;
     if (nearest < 0.99 * least)
       throw InvalidInput::sentence("specimen.knot", drawing.name,
                                    "specimen.knot " + shown(drawing.name) + ": a strand comes as near as " +
-                                       text(nearest / h) + " radii to the axis of a post, but must stay " +
+                                       text(nearest / h) + " radii to the middle of a post, but must stay " +
                                        text(least / h) + " radii away from it");
   }
 }
@@ -185,6 +187,15 @@ double height_of_origin(const KnotDrawing& drawing, const DrawnSize& size) {
   if (drawing.lower.empty()) return -drawing.bottom() * size.radius;
   if (drawing.upper.empty()) return size.end_to_end - drawing.top() * size.radius;
   return 0.5 * (size.end_to_end - (drawing.top() + drawing.bottom()) * size.radius);
+}
+
+Roller roller_of(const KnotDrawing::Post& post, double radius, const Vec3& origin) {
+  Roller out;
+  out.centre = radius * post.through + origin;
+  out.axis = post.along;
+  out.radius = radius * post.radius;
+  out.ring = radius * post.ring;
+  return out;
 }
 
 Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {

@@ -21,6 +21,7 @@ constexpr double kAwayFromEnd = 22.0;  // of its name
 constexpr double kMarginOfView = 30.0;
 constexpr double kPostsEnd = 40.0;  // of a post beyond the knot
 constexpr double kEndOn = 0.3;      // sine of the angle below which a post is a circle
+constexpr int kPiecesOfRing = 48;
 constexpr std::array kRopeColours{"#1f5fa8", "#d9622b", "#2f8f4e", "#8a4fa3", "#a98600"};
 constexpr const char* kPostColour = "#b9bcc2";
 
@@ -52,7 +53,7 @@ class SeenKnot {
  public:
   SeenKnot(const PicturedKnot& knot, const PictureView& view) : knot_(knot), view_(view) {
     for (Eigen::Index i = 0; i < knot.centreline.points.cols(); ++i) take_in(place(knot.centreline.points.col(i)));
-    for (const Roller& post : knot.posts) add_post(post);
+    for (const Roller& post : knot.posts) post.ring > 0.0 ? add_ring(post) : add_post(post);
     const std::vector<Piece> ropes = pieces_between(knot.centreline.points.cols(), knot.centreline.cuts);
     for (std::size_t k = 0; k < ropes.size(); ++k) add_rope(ropes[k], k);
     std::stable_sort(drawn_.begin(), drawn_.end(), [](const Drawn& a, const Drawn& b) { return a.near < b.near; });
@@ -134,6 +135,30 @@ class SeenKnot {
     names_.push_back(out.str());
   }
 
+  /// Piece by piece, since parts of it lie before the ropes and others behind them.
+  void add_ring(const Roller& ring) {
+    const double thickness = kUnits * ring.radius / knot_.radius;
+    const Vec3 side = ring.axis.unitOrthogonal(), other = ring.axis.cross(side);
+    const auto at = [&](double part) -> Vec3 {
+      const double angle = 2.0 * M_PI * part / kPiecesOfRing;
+      return ring.centre + ring.ring * (std::cos(angle) * side + std::sin(angle) * other);
+    };
+    for (int i = 0; i < kPiecesOfRing; ++i) {
+      const Place from = place(at(i)), to = place(at(i + 1));
+      drawn_.push_back({at(i + 0.5).dot(view_.near), post_line(from, to, thickness, "round")});
+      take_in(from - Place::Constant(thickness));
+      take_in(from + Place::Constant(thickness));
+    }
+  }
+
+  static std::string post_line(const Place& from, const Place& to, double thickness, const char* ends) {
+    std::ostringstream out;
+    out << "<line x1=\"" << from.x() << "\" y1=\"" << from.y() << "\" x2=\"" << to.x() << "\" y2=\"" << to.y()
+        << "\" stroke=\"" << kPostColour << "\" stroke-width=\"" << 2.0 * thickness << "\" stroke-linecap=\"" << ends
+        << "\"/>\n";
+    return out.str();
+  }
+
   void add_post(const Roller& post) {
     const double across = std::sqrt(std::max(0.0, 1.0 - std::pow(post.axis.dot(view_.near), 2)));
     const double thickness = kUnits * post.radius / knot_.radius;
@@ -149,8 +174,7 @@ class SeenKnot {
       const double beyond = kPostsEnd * knot_.radius / kUnits;
       const Place from = place(post.centre + (along.minCoeff() - beyond) * post.axis),
                   to = place(post.centre + (along.maxCoeff() + beyond) * post.axis);
-      out << "<line x1=\"" << from.x() << "\" y1=\"" << from.y() << "\" x2=\"" << to.x() << "\" y2=\"" << to.y()
-          << "\" stroke=\"" << kPostColour << "\" stroke-width=\"" << 2.0 * thickness << "\"/>\n";
+      out << post_line(from, to, thickness, "butt");
       for (const Place& end : {from, to}) {
         take_in(end - Place::Constant(thickness));
         take_in(end + Place::Constant(thickness));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "contact/nodal_forces.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
@@ -102,6 +104,89 @@ TEST_P(RollerContactJacobian, IsTheDerivativeOfForcesAndTorque) {
   const double diagonal = numeric(end.size(), end.size());
   EXPECT_NEAR(border.diagonal, diagonal, 1e-5 * std::abs(diagonal));
   EXPECT_NEAR(border.torque, contact.torque_on(0), 1e-9 * std::abs(border.torque));
+}
+
+/// A ring whose section is the roller of a wound rod, and which the rod passes through.
+Wound through_a_ring() {
+  Wound out;
+  out.roller.ring = 0.025;
+  out.roller.centre[0] -= out.roller.ring;
+  out.roller.axis = Vec3::UnitZ();
+  return out;
+}
+
+TEST(Ring, IsACylinderForARodInAPlaneThroughItsAxis) {
+  const Wound cylinder, ring = through_a_ring();
+  const MemoryFriction friction{0.3, 1e-5};
+  Points end = cylinder.position;
+  end.row(0).array() += 1e-4;
+  end.row(2).array() += 1e-6;
+  const RollerContact on_cylinder = cylinder.touch(friction, end), on_ring = ring.touch(friction, end);
+  ASSERT_GT(on_cylinder.force_on(0).norm(), 1.0);
+  // Both are the same sums but for the place of the nearest section, which is found to rounding.
+  EXPECT_LT((on_ring.force_on(0) - on_cylinder.force_on(0)).norm(), 1e-9 * on_cylinder.force_on(0).norm());
+  const Vec3 about_ring = on_ring.moment_on(ring.roller, 0, end),
+             about_cylinder = on_cylinder.moment_on(cylinder.roller, 0, end);
+  const Vec3 between = Vec3(ring.roller.ring, 0.0, 0.0).cross(on_ring.force_on(0));
+  EXPECT_LT((about_ring - about_cylinder - between).norm(), 1e-9 * about_ring.norm());
+}
+
+TEST(Ring, GapChangesAsThePlaceMoves) {
+  const Roller ring = through_a_ring().roller;
+  const auto gap = [&](const Eigen::VectorXd& place) -> Eigen::VectorXd { return beside(ring, place).x; };
+  for (const Vec3& away : {Vec3(0.004, 0.007, 0.01), Vec3(-0.03, 0.012, -0.02), Vec3(0.0, 1e-4, 0.015)}) {
+    const Vec3 place = ring.centre + away, b = beside(ring, place).axis;
+    // Central differences: the curvature of the gap over a step of 1e-4 of the distance from the ring's axis.
+    const Eigen::MatrixXd numeric = finite_difference(gap, place, 1e-4 * away.head<2>().norm());
+    EXPECT_LT((numeric - (Mat3::Identity() - b * b.transpose())).norm(), 1e-7 * numeric.norm());
+    EXPECT_NEAR(b.dot(beside(ring, place).x), 0.0, 1e-15);
+  }
+  const BesideRoller middle = beside(ring, ring.centre);
+  EXPECT_NEAR(middle.x.norm(), ring.ring, 1e-15) << "as far from all sections";
+}
+
+TEST(Ring, JacobianIsTheDerivativeOfForces) {
+  const Wound scene = through_a_ring();
+  for (const double slip : {1e-6, 1e-4}) {
+    const MemoryFriction friction{0.3, 1e-5};
+    Points end = scene.position;
+    end.row(0).array() += slip;
+    for (int i = 0; i < 21; ++i) end(1, i) += 2.0 * slip + 1e-4 * (i - 10);  // out of the plane through its axis
+    end.row(2).array() += 1e-6;
+    RollerContact contact = scene.touch(friction, end);
+    for (ContactPoint& point : contact.contacts()) point.prediction = point.pressure;
+    std::vector<RollerModel> models;
+    contact.linearise({}, 0.01, models);
+    Eigen::MatrixXd analytic = Eigen::MatrixXd::Zero(end.size(), end.size());
+    for (std::size_t n = 0; n < contact.contacts().size(); ++n) {
+      const ContactPoint& point = contact.contacts()[n];
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+          analytic.block<3, 3>(3 * (point.a0 + k), 3 * (point.a0 + l)) += point.c[k] * point.c[l] * still_of(models[n]);
+    }
+    const auto forces = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+      return nodal_forces(scene.touch(friction, unflat(x)).contacts(), end.cols());
+    };
+    const Eigen::MatrixXd numeric = -finite_difference(forces, flat(end), 1e-7 * scene.rod.material.radius);
+    ASSERT_GT(numeric.norm(), 0.0);
+    EXPECT_LT((analytic - numeric).norm(), 2e-6 * numeric.norm()) << slip;  // as on a cylinder, above
+  }
+}
+
+TEST(Ring, MotionKnowsTheOverlapBefore) {
+  const Wound scene = through_a_ring();
+  Points end = scene.position;
+  end.row(1).array() += 3e-3;  // along the ring
+  const MemoryFriction friction{0.3, 1e-5};
+  const RollerContact before = scene.touch(friction, scene.position), now = scene.touch(friction, end);
+  ASSERT_FALSE(now.contacts().empty());
+  for (const ContactPoint& point : now.contacts()) {
+    const auto same = std::find_if(before.contacts().begin(), before.contacts().end(), [&](const ContactPoint& other) {
+      return other.a0 == point.a0 && other.point == point.point;
+    });
+    ASSERT_NE(same, before.contacts().end());
+    EXPECT_NEAR(now.motion(point, end, scene.position).overlap_before, same->overlap, 1e-12 * scene.roller.radius);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Slips, RollerContactJacobian, testing::Values(1e-6, 1e-4),

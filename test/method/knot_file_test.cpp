@@ -125,6 +125,8 @@ TEST_F(KnotFile, MayStandOnPostsOfEitherGripAndBearWeights) {
   EXPECT_THAT(complaint("lower: [lower]\nupper: [upper]\n", post), HasSubstr("lower: the lower grip must hold"));
   EXPECT_THAT(complaint("upper: [upper]\n", "posts: [{through: [0, 0, 30], along: [0, 1, 0], radius: 5, grip: up}]\n"),
               HasSubstr("posts.0.grip is \"up\", but must be lower, whose post stands still, or upper"));
+  EXPECT_THAT(complaint("lower: [lower]\n", "posts: [{through: [9, 0, 0], along: [0, 0, 1], radius: 2, ring: 2.9}]\n"),
+              HasSubstr("posts.0.ring is 2.9, but must be a number from 3 to"));
   EXPECT_THAT(complaint("tie:", "weights: {tail: 1}\ntie:"),
               HasSubstr("weights: no end and no landmark is called tail"));
   EXPECT_THAT(complaint("tie:", "weights: {lower: 1}\ntie:"), HasSubstr("weights: lower is held by a grip"));
@@ -245,9 +247,11 @@ const Shipped kShipped[] = {
     {"dropper_loop", 1, 0, 0},
     {"figure_eight", 1, 0, 0},
     {"figure_eight_bend", 2, 2, 0},
+    {"figure_eight_stopper", 1, 1, 1},
     {"flat_overhand", 2, 2, 0},
     {"granny", 2, 2, 0},
     {"grief", 2, 2, 0},
+    {"overhand_stopper", 1, 1, 1},
     {"overhand_tied", 1, 0, 0},
     {"prusik", 2, 1, 0},
     {"reef", 2, 2, 0},

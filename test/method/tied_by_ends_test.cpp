@@ -9,6 +9,7 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
@@ -286,6 +287,63 @@ TEST(TiedByEnds, APinThatMovesPullsAsAPostThatStandsStill) {
   EXPECT_NEAR(moves.last.force_lower, load, apart);
   EXPECT_NEAR(moves.last.end_to_end, still.last.end_to_end, 1e-12);
   EXPECT_NEAR(moves.last.extension, still.last.extension, 1e-12);
+}
+
+/// A strand that lies half around a post, in the plane across its axis.
+Method around(const KnotDrawing::Post& post) {
+  Method method = knot_method("bowline");
+  KnotDrawing drawing = *method.specimen.drawing;
+  drawing.strands.front().points = {{-6.6, 0.0, 14.0}, {-6.6, 0.0, 11.0}, {-6.6, 0.0, 0.0}, {-4.7, 0.0, -4.7},
+                                    {0.0, 0.0, -6.6},  {4.7, 0.0, -4.7},  {6.6, 0.0, 0.0},  {6.6, 0.0, 9.0}};
+  drawing.posts = {post};
+  drawing.landmarks.clear();
+  drawing.read.clear();
+  method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
+  return method;
+}
+
+TEST(Ring, BearsAStrandInAPlaneThroughItsAxisAsAPost) {
+  KnotDrawing::Post post, ring;
+  post.radius = ring.radius = 5.0;
+  ring.ring = 20.0;
+  ring.through = Vec3(-ring.ring, 0.0, 0.0);
+  ring.along = Vec3::UnitZ();
+  Bench on_post(around(post)), on_ring(around(ring));
+  for (Bench* bench : {&on_post, &on_ring}) bench->run_past(Phase::kTie);
+  const double load = on_post.last.force_upper;
+  ASSERT_GT(on_post.last.force_lower, 1.2 * *on_post.method.specimen.preload) << "it bears both of its ends";
+  // Both take the same steps, which differ by rounding; Newton's method leaves as much as its tolerance allows.
+  EXPECT_NEAR(on_ring.last.force_upper, load, 1e-6 * load);
+  EXPECT_NEAR(on_ring.last.force_lower, on_post.last.force_lower, 1e-6 * load);
+}
+
+TEST(Ring, IsPartOfASavedState) { expect_the_same_bits_from_a_saved_state(knot_method("overhand_stopper"), 20); }
+
+/// The tail of an overhand slides out of its knot in nylon, before a hole that holds a figure-eight knot.
+TEST(Stopper, OfAFigureEightHoldsMoreThanThatOfAnOverhand) {
+  const auto load = [](const std::string& knot) {
+    Bench bench(load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knot.yaml",
+                            {"specimen.knot=" + knot, "physics.accuracy=draft", "program.pull.until.extension=0.04"}));
+    bench.run_past(Phase::kPull);
+    const Sample& last = bench.last;
+    EXPECT_EQ(last.status, BenchStatus::kRunning) << last.message;
+    EXPECT_NEAR(last.force_lower, last.force_upper, 0.05 * last.force_upper) << "the ring bears all of it";
+    return last.force_upper;
+  };
+  EXPECT_GT(load("figure_eight_stopper"), 5.0 * load("overhand_stopper"));
+}
+
+TEST(Stopper, LeavesAHoleThatIsWiderThanItsKnot) {
+  Method method = knot_method("overhand_stopper");
+  KnotDrawing drawing = *method.specimen.drawing;
+  drawing.posts.front().ring = 6.0;
+  method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
+  for (ProgramStep& step : method.program)
+    if (PullStep* pull = step.as<PullStep>()) pull->until.extension = 0.15;
+  Bench bench(method);
+  bench.run_past(Phase::kPull);
+  EXPECT_LT(bench.machine.state().position.row(2).minCoeff(), 0.0);
+  EXPECT_LT(std::abs(bench.last.force_upper), 1e-3 * *method.specimen.preload);
 }
 
 TEST(TiedByEnds, AWeightHangsOnAnEndFromItsReleaseOn) {

@@ -60,7 +60,7 @@ struct ContactPoint {
   double prediction = -1.0;   ///< predicted pressure, from the last linear solve [N/m]; < 0: none
   Vec3 db = Vec3::Zero();     ///< b' [m]
   double inverse_g = 0.0;     ///< 1/G [1/m^2]; 0 against a roller
-  Vec3 axis = Vec3::Zero();   ///< of the roller, unit; zero between strands
+  Vec3 axis = Vec3::Zero();   ///< b of the roller (BesideRoller); zero between strands
   double turned = 0.0;        ///< of the roller in this step, times 1 - lambda (RollerContact) [rad]
   FrictionMemory memory;      ///< of the last accepted step: xi_n [m], and what the law keeps beside it
   Vec3 slip = Vec3::Zero();   ///< r = xi_n + slip of this step, before projection on the tangent plane [m]

@@ -11,11 +11,13 @@ namespace knot_utm {
 
 struct RodProperties;
 
-/// A cylinder of unlimited length, on which the rod may lie.
+/// A cylinder of unlimited length, on which the rod may lie, or a ring, through which it may pass: the round edge of a
+/// hole.
 struct Roller {
-  Vec3 centre = Vec3::Zero();  ///< a point of its axis [m]
-  Vec3 axis = Vec3::UnitY();   ///< unit
-  double radius = 0.0;         ///< [m]
+  Vec3 centre = Vec3::Zero();  ///< a point of its axis, or the middle of the ring [m]
+  Vec3 axis = Vec3::UnitY();   ///< unit; that of a ring goes through the hole
+  double radius = 0.0;         ///< of its section [m]
+  double ring = 0.0;           ///< R, of the circle in the middle of a ring's section; 0: a cylinder [m]
   /// Nodes between which the rod may touch it; the rod beyond them lies beside it.
   int first_node = 0, last_node = std::numeric_limits<int>::max();
   double turn = 0.0;  ///< rotation about its axis, right-handed, at the end of the step, where it is not free [rad]
@@ -23,8 +25,23 @@ struct Roller {
       0.0;  ///< polar moment of inertia of one that is free to turn, so that only the rod turns it; 0: not free [kg m2]
 
   bool free() const { return inertia > 0.0; }
-  void state(Archive& archive) { archive(centre, axis, radius, first_node, last_node, turn, inertia); }
+  void state(Archive& archive) {
+    archive(centre, axis, radius, first_node, last_node, turn, inertia);
+    if (archive.optional_section("RING", ring > 0.0))
+      archive(ring);
+    else
+      ring = 0.0;
+  }
 };
+
+/// Where a place stands beside a roller.
+struct BesideRoller {
+  Vec3 x;     ///< from the middle of the nearest section [m]
+  Vec3 axis;  ///< b: as the place moves by ds, x changes by ds - b (b.ds)
+};
+/// Beside a cylinder b is its axis. Beside a ring it is (R/rho)^1/2 t, with t the tangent of the circle at its nearest
+/// section, and rho the distance of the place from the ring's axis: the nearest section moves by t (t.ds) R/rho.
+BesideRoller beside(const Roller& roller, const Vec3& place);
 
 /// How far a roller has turned since the rod's first step [rad], and how fast it turns [rad/s].
 struct RollerTurn {
@@ -39,8 +56,9 @@ inline Vec3 surface_increment(const ContactPoint& contact, double lever) {
 /// psi s, the motion of the roller's surface in this step [m].
 inline Vec3 carried_along(const ContactPoint& contact) { return contact.turned * contact.axis.cross(contact.x); }
 
-/// Contact of the rod's smooth centreline with rollers that move and turn: the normal law of the rod with
-/// D = r + h - d, d the distance from the axis, and a friction of their own.
+/// Contact of the rod's smooth centreline with rollers that move and turn, and with rings, which do not turn: the
+/// normal law of the rod with D = r + h - d, d the distance from the middle of the nearest section, and a friction of
+/// their own.
 ///
 /// The surface of a roller that turns by psi in a step moves with it. With a its axis, x the gap from the axis to the
 /// centreline, and lambda as SurfacePoint has it (0 where friction acts on the centreline), friction acts at (1 -
@@ -127,10 +145,8 @@ class RollerContact {
     int segment;
   };
 
-  /// The distance of a place from a roller's axis [m].
-  static double distance(const Roller& roller, const Vec3& x);
   bool reaches_into_cut(int segment) const;
-  /// Distance of a segment's node from the axis beyond which no part of the segment touches [m].
+  /// Distance of a segment's node from the nearest section beyond which no part of the segment touches [m].
   double limit(const Roller& roller, int segment) const;
   void find_near_segments(const std::vector<Roller>& rollers, const Points& start);
   void add_contacts(const std::vector<Roller>& rollers, std::size_t number, int segment, const Points& position,

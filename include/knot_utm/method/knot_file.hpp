@@ -21,6 +21,7 @@ struct KnotDrawing;
 ///     upper: [upper]
 ///     posts:                                 # fixed cylinders; the first is the lower grip where that holds no end
 ///       - {through: [0, 0, 0], along: [0, 1, 0], radius: 6}   # grip: upper moves with that grip, which holds no end
+///       - {through: [0, 0, 0], along: [0, 0, 1], radius: 2, ring: 5}   # the round edge of a hole
 ///     tie:                                   # ends that are pulled together, in order, to which part of F_p: free
 ///       - {lower_tail: 1, upper_tail: 1}     # ones, and those of the upper grip; the lower grip stands still
 ///       - {upper: 1, upper_tail: 0.5}        # one that is pulled again has this part from then on

@@ -10,6 +10,8 @@
 
 namespace knot_utm {
 
+struct Roller;
+
 /// A knot as its file describes it (method/knot_file.hpp). All lengths are in radii h of the rod, of the thickest
 /// one where ropes differ; the load axis is z.
 /// Each strand is a rope. Its ends have names, by which grips hold and pull them.
@@ -18,11 +20,12 @@ struct KnotDrawing {
     std::array<std::string, 2> ends;  ///< the first and the last one
     std::vector<Vec3> points;         ///< that the strand is drawn through [h]
   };
-  /// A cylinder that is fixed to the machine's base, or to the upper grip and moves with it.
+  /// A cylinder or a ring (Roller) that is fixed to the machine's base, or to the upper grip and moves with it.
   struct Post {
-    Vec3 through = Vec3::Zero();  ///< a point of its axis [h]
+    Vec3 through = Vec3::Zero();  ///< a point of its axis, or the middle of the ring [h]
     Vec3 along = Vec3::UnitY();   ///< direction of its axis, unit
-    double radius = 0.0;          ///< [h]
+    double radius = 0.0;          ///< of its section [h]
+    double ring = 0.0;            ///< of the circle in the middle of a ring's section; 0: a cylinder [h]
     bool upper = false;           ///< of the upper grip
   };
   struct Pull {
@@ -58,7 +61,7 @@ struct KnotDrawing {
   bool has_free_ends() const;
   const Post* post_of(bool upper) const;  ///< the one that stands for a grip; null where that holds an end
   Vec3 held_below() const;                ///< the outermost point of the first strand that the lower grip holds [h]
-  double bottom() const;  ///< the lowest z of all points, or of the axis of the post that is the lower grip [h]
+  double bottom() const;  ///< the lowest z of all points, or of the middle of the post that is the lower grip [h]
   double top() const;     ///< the highest z, likewise [h]
 };
 
@@ -80,6 +83,9 @@ struct DrawnSize {
 ///
 /// Source of the curve: Yuksel, Schaefer, Keyser 2011, "Parameterization and applications of Catmull-Rom curves".
 Centreline draw(const KnotDrawing& drawing, const DrawnSize& size);
+
+/// A post of a drawing whose origin stands at `origin` [m].
+Roller roller_of(const KnotDrawing::Post& post, double radius, const Vec3& origin);
 
 /// The least L between the grips of such a drawing [m]; the only one where posts stand for both.
 double least_end_to_end(const KnotDrawing& drawing, double radius);

@@ -103,10 +103,21 @@ def rollers(run, shape):
 
 
 def posts_of(drawing, grip, place, radius):
-    """Those of a grip that are seen from their end. The first one is the grip, at a place along the load axis; radius of the rod."""
+    """Those of a grip that are seen from their end, and the sections of rings whose holes are seen from the side. The first one is
+    the grip, at a place along the load axis; radius of the rod."""
     posts = [post for post in drawing.get("posts") or [] if post.get("grip", "lower") == grip]
-    return [(place + radius * (post["through"][2] - posts[0]["through"][2]), radius * post["through"][0], radius * post["radius"])
-            for post in posts if abs(post["along"][1]) > FROM_ITS_END * np.linalg.norm(post["along"])]
+    seen = []
+    for post in posts:
+        x, y, z = np.array(post["along"]) / np.linalg.norm(post["along"])
+        if "ring" not in post and abs(y) > FROM_ITS_END:
+            shifts = [(0.0, 0.0)]
+        elif "ring" in post and abs(y) < 1.0 - FROM_ITS_END:
+            shifts = [(side * post["ring"] * x, -side * post["ring"] * z) for side in (1.0, -1.0)]
+        else:
+            continue
+        seen += [(float(place + radius * (post["through"][2] - posts[0]["through"][2] + up)),
+                  float(radius * (post["through"][0] + across)), radius * post["radius"]) for up, across in shifts]
+    return seen
 
 
 def draw_rollers(axes, run, shape):

@@ -191,6 +191,11 @@ class APicture(unittest.TestCase):
         self.assertEqual(rod_pictures.posts_of(drawing, "upper", 90.0, 2.0), [(90.0, 2.0, 8.0), (96.0, 4.0, 10.0)])
         self.assertEqual(rod_pictures.posts_of(drawing, "lower", 0.0, 2.0), [(0.0, 0.0, 6.0)])
 
+    def test_a_ring_is_two_sections_on_either_side_of_its_hole(self):
+        drawing = {"upper": ["upper"], "posts": [{"through": [1, 0, 5], "along": [0, 0, 2], "radius": 1, "ring": 3},
+                                                 {"through": [0, 0, 9], "along": [0, 1, 0], "radius": 1, "ring": 3}]}
+        self.assertEqual(rod_pictures.posts_of(drawing, "lower", 0.0, 2.0), [(0.0, -4.0, 2.0), (0.0, 8.0, 2.0)])
+
 class ACompliantFrame(unittest.TestCase):
     def test_is_drawn_as_far_as_its_crosshead_went(self):
         s = np.array([0.0, 1.0, 2.0, 9.0])
