@@ -34,9 +34,12 @@ def _told(table):
             return "-"
         return form % mean + (" ± " + form % error if error == error else "")
 
+    def slip_load(row):
+        return ("at least " if row["still_rose"] > 0 else "") + cell(row, "slip_load", "%.3g")
+
     lines = [["knot", "broke", "slip load [N]", "break load [N]", "efficiency", "tail slip [h]"]]
     for _, row in table.iterrows():
-        lines.append([row["knot"], f"{row['broke']} of {row['specimens'] - row['failed']}", cell(row, "slip_load", "%.3g"),
+        lines.append([row["knot"], f"{row['broke']} of {row['specimens'] - row['failed']}", slip_load(row),
                       cell(row, "break_load", "%.4g"), cell(row, "efficiency", "%.2f"), cell(row, "tail_slip", "%.2g")])
     widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
     return "\n".join("  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip() for line in lines)

@@ -13,7 +13,8 @@ from knot_utm.yaml_text import text_of, value_of
 
 METHOD = "knot"
 KNOT, MATERIAL = "specimen.knot", "material"
-COLUMNS = {"knot": "-", "specimens": "-", "failed": "-", "broke": "-", "slip_load": "N", "slip_load_error": "N", "break_load": "N",
+STILL_RISES = 0.98  # of the pull's extension: a largest load beyond it was none that the knot slipped at
+COLUMNS = {"knot": "-", "specimens": "-", "failed": "-", "broke": "-", "still_rose": "-", "slip_load": "N", "slip_load_error": "N", "break_load": "N",
            "break_load_error": "N", "efficiency": "of the strength without a knot", "efficiency_error": "of the strength without a knot",
            "tail_slip": "h", "tail_slip_error": "h"}
 
@@ -26,6 +27,7 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method=METHOD, setti
     tied ones do (specimens.scatter of the method). `out`: the folder of the runs, unless given out/rank; what is there is not run
     again. `settings`: {key: value} of the method besides. Raises WrongInput where the method, a knot or a setting is refused.
 
+    still_rose         specimens that did not break and bore most at the end of the pull: those may hold more
     slip_load          largest load of the specimens that did not break, within the pull; not a number where all broke
     break_load         that of those that broke; efficiency is their knot_efficiency, where the material's law of breaking predicts it
     tail_slip          the most that ran into the knot from a free end, in radii of the rod
@@ -34,8 +36,10 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method=METHOD, setti
     out = os.path.abspath(out or os.path.join("out", "rank"))
     sweep = Sweep(_study(knots, material, specimens, method, settings or {}), out)
     table = sweep.all(jobs or len(os.sched_getaffinity(0)))
-    _, radius = rod_of(value_of(tool.resolved(sweep.study.method, sweep.study.points[0])))
-    ranked = pd.DataFrame([_row(knot, table[table[KNOT] == _found(knot)], radius) for knot in knots], columns=list(COLUMNS))
+    pulled = value_of(tool.resolved(sweep.study.method, sweep.study.points[0]))
+    _, radius = rod_of(pulled)
+    ranked = pd.DataFrame([_row(knot, table[table[KNOT] == _found(knot)], radius, _extension_of(pulled)) for knot in knots],
+                          columns=list(COLUMNS))
     best = ranked[["slip_load", "break_load"]].max(axis=1)
     ranked = ranked.loc[best.sort_values(ascending=False).index].reset_index(drop=True)
     ranked.attrs["units"] = COLUMNS
@@ -57,10 +61,17 @@ def _found(knot):
     return os.path.abspath(knot) if os.path.isfile(knot) else knot
 
 
-def _row(knot, runs, radius):
+def _extension_of(method):
+    """That of the last pull [m]; without end where it has none."""
+    pulls = [step["pull"] for step in method["program"] if "pull" in step]
+    return float(pulls[-1]["until"].get("extension", np.inf)) if pulls else np.inf
+
+
+def _row(knot, runs, radius, extension):
     done = runs[runs["exit_code"] == 0]
     broke = done["ended_by"] == "break"
-    row = {"knot": knot, "specimens": len(runs), "failed": len(runs) - len(done), "broke": int(broke.sum())}
+    row = {"knot": knot, "specimens": len(runs), "failed": len(runs) - len(done), "broke": int(broke.sum()),
+           "still_rose": int((pd.to_numeric(done["peak_extension"][~broke], errors="coerce") > STILL_RISES * extension).sum())}
     slips = [max(_list(tails), default=np.nan) / radius for tails in done["tail_slip"]]
     for name, values in (("slip_load", done["peak_force"][~broke]), ("break_load", done["peak_force"][broke]),
                          ("efficiency", done["knot_efficiency"][broke]), ("tail_slip", pd.Series(slips, dtype=float))):

@@ -17,6 +17,11 @@ double energy(const Pull& pull) {
 
 double energy_to_peak(const Pull& pull) { return pull.empty() ? 0.0 : WayToPeak(pull).work(); }
 
+std::optional<double> peak_extension(const Pull& pull) {
+  if (pull.empty()) return std::nullopt;
+  return pull[peak_of(pull)].extension;
+}
+
 std::optional<double> steady_force(const Pull& pull) {
   if (pull.empty()) return std::nullopt;
   const double begin = pull.front().extension, end = pull.back().extension;

@@ -61,7 +61,10 @@ Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std:
 
 void read_pull(const Pull& pull, Results& results) {
   if (!results.break_extension) results.steady_force = steady_force(pull);
-  if (!results.never_in_tension) results.energy_to_peak = energy_to_peak(pull);
+  if (!results.never_in_tension) {
+    results.peak_extension = peak_extension(pull);
+    results.energy_to_peak = energy_to_peak(pull);
+  }
   if (results.break_extension) results.energy_to_break = energy(pull);
   results.chord_stiffness = chord_stiffness(pull);
   results.secant_stiffness = secant_stiffness(pull);
@@ -456,8 +459,8 @@ void read_whole_pull(const Course& course, Results& results) {
 void forget_rest_of_pull(Results& results) {
   CurveReadings& curve = results.curve;
   for (std::optional<double>* reading :
-       {&curve.peak_force, &curve.largest_drop, &curve.largest_drop_at, &results.energy_to_peak,
-        &results.chord_stiffness, &results.secant_stiffness, &results.tangent_stiffness})
+       {&curve.peak_force, &curve.largest_drop, &curve.largest_drop_at, &results.peak_extension,
+        &results.energy_to_peak, &results.chord_stiffness, &results.secant_stiffness, &results.tangent_stiffness})
     reading->reset();
 }
 

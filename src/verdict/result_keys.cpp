@@ -262,6 +262,7 @@ constexpr ResultKey kKeys[] = {
      why_no_peak_error},
 
     // Without what the balance has set to zero.
+    {"peak_extension", "m", kCurve, "Extension at the largest load", read<&R::peak_extension>, why_no_whole_pull},
     {"true_plateau_force", "N", kBeside, "Plateau force, the true one", read<&R::true_plateau_force>, why_no_plateau},
     {"true_breakaway_force", "N", kBeside, "Breakaway force, the true one", read<&R::true_breakaway_force>,
      why_no_plateau},

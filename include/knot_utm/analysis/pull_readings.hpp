@@ -13,6 +13,8 @@ namespace knot_utm {
 double energy(const Pull& pull);          ///< integral of F over s from the origin to the last point
 double energy_to_peak(const Pull& pull);  ///< the same integral, from the origin to s_p
 
+std::optional<double> peak_extension(const Pull& pull);  ///< s_p [m]
+
 /// Mean of F over the second half of the extension. Empty where F is not steady there, that is where its means over the
 /// third and the fourth quarter differ by more than 2 %, and where the pull covers no extension.
 std::optional<double> steady_force(const Pull& pull);

@@ -39,6 +39,11 @@ class Rank(Sweeps):
         self.assertAlmostEqual(table["slip_load"][0], np.mean(loads))
         self.assertAlmostEqual(table["slip_load_error"][0], np.std(loads, ddof=1) / np.sqrt(2))
 
+    def test_a_load_that_still_rises_is_none_that_the_knot_slipped_at(self):
+        self.assertEqual(list(self.rank("reef")["still_rose"]), [2])
+        grief = knot_utm.rank(["grief"], "dyneema_2mm", specimens=2, out=self.path("slips"), settings=QUICK)
+        self.assertEqual(list(grief["still_rose"]), [0])
+
     def test_wrong_words_are_refused_and_nothing_is_written(self):
         for knots, specimens, why in ((["reef", "reef"], 2, "must be a list of different knots"), ([], 2, "different knots"),
                                       (["reef"], 1, "at least 2: one start is no reading"), (["reeff"], 2, "did you mean reef?")):
@@ -52,7 +57,7 @@ class Rank(Sweeps):
                                "--out", self.path("command"), *settings], env=self.environment, cwd=self.folder, text=True,
                               capture_output=True)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r"knot +broke +slip load \[N\].*\n(reef|grief) +0 of 2 +\S+ ± \S+ +- +- +\S+ ± \S+\n")
+        self.assertRegex(done.stdout, r"knot +broke +slip load \[N\].*\n(reef|grief) +0 of 2 +(at least )?\S+ ± \S+ +- +- +\S+ ± \S+\n")
         with open(self.path("command", "rank.csv"), encoding="utf-8") as file:
             self.assertEqual(file.readline().strip().split(","), list(ranking.COLUMNS))
         for word in ("no", "specimen.preload=["):
