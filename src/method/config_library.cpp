@@ -68,8 +68,7 @@ fs::path ConfigLibrary::find(const std::string& kind, const std::string& name, c
   if (others.empty()) throw InvalidInput::unknown_name(key, name, allowed(kind), names(kind));
   std::vector<std::string> all = others;
   for (const std::string& file_name : names(kind)) all.push_back(file_name);
-  throw InvalidInput::unknown_name(key, name,
-                                   "one of the knots that tensile_test --list knots shows, or the file of one", all);
+  throw InvalidInput::unknown_name(key, name, kAllowedKnot, all);
 }
 
 void ConfigLibrary::add(const fs::path& folder) {

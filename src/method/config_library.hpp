@@ -9,6 +9,9 @@
 
 namespace knot_utm {
 
+/// What specimen.knot may be, for a message.
+constexpr const char* kAllowedKnot = "one of the knots that tensile_test --list knots shows, or the file of one";
+
 /// The folders in which files of materials, load cells and knots are looked for, in order. A kind is the name of a
 /// subfolder, "materials", "load_cells" or "knots".
 class ConfigLibrary {

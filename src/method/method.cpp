@@ -168,8 +168,11 @@ void set_creep(FrictionLaw law, double speed, FrictionOptions& friction) {
 }
 
 /// The drawing of a knot that a file describes; of another knot none.
-std::shared_ptr<const KnotDrawing> read_drawing(const YAML::Node& knot, const ConfigLibrary& library) {
-  if (!knot.IsDefined() || !knot.IsScalar()) return nullptr;
+std::shared_ptr<const KnotDrawing> read_drawing(const YAML::Node& knot, const std::string& method,
+                                                const ConfigLibrary& library) {
+  if (!knot.IsDefined()) return nullptr;
+  if (!knot.IsScalar() || knot.Scalar().empty())
+    throw InvalidInput(method, "specimen.knot", as_given(knot), kAllowedKnot);
   const std::string& given = knot.Scalar();
   const std::vector<std::string> coded = knot_names(nullptr);
   if (std::find(coded.begin(), coded.end(), given) != coded.end()) return nullptr;
@@ -192,7 +195,7 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
         std::make_shared<const Material>(read_material("other_material", other, root, file, library));
   Reader specimen = top.in("specimen");
   YAML::Node knot = specimen.take("knot");
-  method.specimen.drawing = read_drawing(knot, library);
+  method.specimen.drawing = read_drawing(knot, file, library);
   if (method.specimen.drawing) knot = method.specimen.drawing->name;  // a path may be given in many ways
   fields::knot(specimen, method.specimen);
   const fields::Defaults defaults = fields::defaults(method.specimen, method.material, known);

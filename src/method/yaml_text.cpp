@@ -1,11 +1,14 @@
 #include "yaml_text.hpp"
 
+#include <unicode/ustring.h>
 #include <yaml-cpp/depthguard.h>
 
+#include <cstdint>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 
@@ -28,6 +31,22 @@ bool has_tab_in_indentation(const std::string& text, int line) {
 bool ends_too_early(const YAML::ParserException& fault) {
   namespace Said = YAML::ErrorMsg;
   return fault.msg == Said::END_OF_SEQ_FLOW || fault.msg == Said::END_OF_MAP_FLOW || fault.msg == Said::EOF_IN_SCALAR;
+}
+
+/// The first line, from 1 on, that is no UTF-8; 0: all are, or a byte order mark says that it is another encoding of
+/// Unicode, which yaml-cpp reads.
+int line_of_other_encoding(const std::string& text) {
+  if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 || text.find('\0') != std::string::npos)
+    return 0;
+  std::istringstream lines(text);
+  int number = 1;
+  for (std::string line; std::getline(lines, line); ++number) {
+    UErrorCode error = U_ZERO_ERROR;
+    std::int32_t length = 0;
+    u_strFromUTF8(nullptr, 0, &length, line.data(), static_cast<std::int32_t>(line.size()), &error);
+    if (error == U_INVALID_CHAR_FOUND) return number;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -56,11 +75,21 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   if (text.size() > kLongestText) {
     const std::string most = std::to_string(kLongestText) + " characters";
     throw InvalidInput::sentence("file", file,
-                                 "the file is longer than " + most + ", and no method, material or load cell is")
+                                 "the file is longer than " + most + ", and no method, knot, material or load cell is")
         .in_file(file);
   }
+  if (const int line = line_of_other_encoding(text); line > 0)
+    throw InvalidInput::sentence("file", file,
+                                 "line " + std::to_string(line) + ": a letter is not in UTF-8; save the file as UTF-8")
+        .in_file(file);
   try {
-    return YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1)
+      throw InvalidInput::sentence("file", file,
+                                   "the file holds " + std::to_string(documents.size()) +
+                                       " YAML documents, but must be one: take away its lines \"---\"")
+          .in_file(file);
+    return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::ParserException& parser) {
     const std::string place =
         "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);

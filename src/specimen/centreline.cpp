@@ -47,23 +47,27 @@ int Centreline::nearest_node(double arclength) const {
 }
 
 void check_no_overlap(const Centreline& centreline, double radius, const char* key, const std::string& value,
-                      const std::vector<double>& radii) {
+                      const std::vector<double>& radii, const Vec3* origin) {
   const Points& points = centreline.points;
   const auto refuse = [&](const std::string& why) {
     throw InvalidInput::sentence(key, value, std::string(key) + " " + shown(value) + ": " + why);
   };
+  const auto length = [&](double metres) { return origin ? text(metres / radius) + " radii" : text(metres) + " m"; };
   // Strands touch along the smooth centreline, outwards of which a bent polyline cuts its corners. Those of a tight
   // knot that a run left press on each other a little.
   constexpr double kMayOverlap = 0.07;  // by choice: overlap of a shape that may begin [h]
+  constexpr double kCutCorners = 0.02;  // by choice: that of ropes as they are drawn, with coarse edges, too [h]
   const double exclusion = 1.5 * M_PI * radius;
   const NearestPlaces nearest = nearest_places(points, exclusion, centreline.closed, centreline.cuts, radii);
   const double touching = 2.0 * radius - nearest.thinner;
-  if (nearest.distance < touching &&
-      (centreline.closed || !centreline.cuts.empty() ||
-       nearest_places(sampled_centreline(points), exclusion).distance < (2.0 - kMayOverlap) * radius))
-    refuse("strands overlap at " + text(nearest.first) + " m and " + text(nearest.second) +
-           " m along the rod, where they are " + text(nearest.distance) + " m apart, but must be at least " +
-           (nearest.thinner > 0.0 ? "both radii" : "a diameter") + " apart, " + text(touching) + " m");
+  const bool as_drawn = centreline.closed || !centreline.cuts.empty();
+  if (nearest.distance < touching - (centreline.cuts.empty() ? 0.0 : kCutCorners * radius) &&
+      (as_drawn || nearest_places(sampled_centreline(points), exclusion).distance < (2.0 - kMayOverlap) * radius))
+    refuse("strands overlap at " +
+           (origin ? place_text((nearest.middle - *origin) / radius)
+                   : text(nearest.first) + " m and " + text(nearest.second) + " m along the rod") +
+           ", where they are " + length(nearest.distance) + " apart, but must be at least " +
+           (nearest.thinner > 0.0 ? "both radii" : "a diameter") + " apart, " + length(touching));
   TunnellingSearch search(points.cols());
   for (const int cut : centreline.cuts) search.part(cut);
   if (const std::optional<Tunnelling> passage = search.find(points, points)) {
@@ -72,8 +76,11 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
       const auto i = static_cast<std::size_t>(edge);
       return text(at[i] + fraction * (at[i + 1] - at[i]));
     };
-    refuse("the rod runs through itself at " + place(passage->edge_a, passage->on_a) + " m and " +
-           place(passage->edge_b, passage->on_b) + " m along it");
+    const Vec3 there =
+        points.col(passage->edge_a) + passage->on_a * (points.col(passage->edge_a + 1) - points.col(passage->edge_a));
+    refuse("the rod runs through itself at " + (origin ? place_text((there - *origin) / radius)
+                                                       : place(passage->edge_a, passage->on_a) + " m and " +
+                                                             place(passage->edge_b, passage->on_b) + " m along it"));
   }
 }
 

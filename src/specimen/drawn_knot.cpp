@@ -65,7 +65,7 @@ class DrawnKnot final : public Knot {
  private:
   static DrawnSize size_of(const SpecimenOptions& specimen, const Material& material, double refinement) {
     const double h = thickest(material), others = material.other ? material.other->radius : material.radius;
-    return {h, specimen.end_to_end, specimen.tail, specimen.edge_length / refinement, material.radius / h, others / h};
+    return {h, specimen.end_to_end, specimen.tail, specimen.edge_length, material.radius / h, others / h, refinement};
   }
 };
 

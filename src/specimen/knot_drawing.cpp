@@ -49,7 +49,7 @@ class Drawer {
   };
   /// `part`: its radius and edge length over those of the thickest one.
   Drawn strand(const KnotDrawing::Strand& strand, double part) const {
-    const double spacing = drawing_spacing(part * size_.radius, part * size_.edge_length);
+    const double spacing = drawing_spacing(part * size_.radius, part * size_.edge_length / size_.refinement);
     std::vector<Vec3> points;
     for (const Vec3& point : strand.points) points.push_back(placed(point));
     const Vec3 begin = run_out(strand.ends[0], points[0], points[1]),
@@ -66,7 +66,7 @@ class Drawer {
       places.push_back(path.length());
     }
     path.add(end);
-    const EdgeGrading even{part * size_.edge_length, {}};
+    const EdgeGrading even{part * size_.edge_length / size_.refinement, {}};
     const Resampled rod(path, smoothed(path, size_.radius, spacing), even);
     for (double& place : places) place = rod(place);
     return {rod.points, std::move(places)};
@@ -101,17 +101,19 @@ class Drawer {
 void check_posts(const KnotDrawing& drawing, const DrawnSize& size, const Centreline& rod) {
   const double h = size.radius;
   const Vec3 origin(0.0, 0.0, height_of_origin(drawing, size));
-  for (const KnotDrawing::Post& drawn : drawing.posts) {
-    const Roller post = roller_of(drawn, h, origin);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (Eigen::Index i = 0; i < rod.points.cols(); ++i)
-      nearest = std::min(nearest, beside(post, rod.points.col(i)).x.norm());
+  for (std::size_t k = 0; k < drawing.posts.size(); ++k) {
+    const Roller post = roller_of(drawing.posts[k], h, origin);
+    const auto distance = [&](Eigen::Index i) { return beside(post, rod.points.col(i)).x.norm(); };
+    Eigen::Index nearest = 0;
+    for (Eigen::Index i = 1; i < rod.points.cols(); ++i)
+      if (distance(i) < distance(nearest)) nearest = i;
     const double least = post.radius + h;
-    if (nearest < 0.99 * least)
-      throw InvalidInput::sentence("specimen.knot", drawing.name,
-                                   "specimen.knot " + shown(drawing.name) + ": a strand comes as near as " +
-                                       text(nearest / h) + " radii to the middle of a post, but must stay " +
-                                       text(least / h) + " radii away from it");
+    if (distance(nearest) < 0.99 * least)
+      throw InvalidInput::sentence(
+          "specimen.knot", drawing.name,
+          "specimen.knot " + shown(drawing.name) + ": at " + place_text((rod.points.col(nearest) - origin) / h) +
+              " a strand comes as near as " + text(distance(nearest) / h) + " radii to the middle of posts." +
+              std::to_string(k) + ", but must stay " + text(least / h) + " radii away from it");
   }
 }
 
@@ -181,6 +183,18 @@ double least_end_to_end(const KnotDrawing& drawing, double radius) {
   const double lower = drawing.lower.empty() ? 0.0 : kStraightToGrip,
                upper = drawing.upper.empty() ? 0.0 : kStraightToGrip;
   return (drawing.top() - drawing.bottom() + lower + upper) * radius;
+}
+
+double slack_between_grips(const KnotDrawing& drawing) {
+  double most = 0.0;
+  for (const KnotDrawing::Strand& strand : drawing.strands) {
+    const KnotDrawing::End first = drawing.held(strand.ends[0]), last = drawing.held(strand.ends[1]);
+    if (first == KnotDrawing::End::kFree || last == KnotDrawing::End::kFree || first == last) continue;
+    double way = 0.0;
+    for (std::size_t i = 1; i < strand.points.size(); ++i) way += (strand.points[i] - strand.points[i - 1]).norm();
+    most = std::max(most, way - (strand.points.back() - strand.points.front()).norm());
+  }
+  return most;
 }
 
 double height_of_origin(const KnotDrawing& drawing, const DrawnSize& size) {
@@ -263,7 +277,8 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
     radii.assign(strands.size(), size.others * size.radius);
     radii.front() = size.first * size.radius;
   }
-  check_no_overlap(out, size.radius, "specimen.knot", drawing.name, radii);
+  const Vec3 origin(0.0, 0.0, height_of_origin(drawing, size));
+  check_no_overlap(out, size.radius, "specimen.knot", drawing.name, radii, &origin);
   check_posts(drawing, size, out);
   return out;
 }

@@ -1,5 +1,7 @@
 #include "shape_checks.hpp"
 
+#include <array>
+#include <cstdio>
 #include <sstream>
 
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -19,6 +21,13 @@ std::string text(double value) {
   out.precision(kDigits);
   out << value;
   return out.str();
+}
+
+std::string place_text(const Vec3& place) {
+  std::array<char, 96> out{};
+  const Vec3 at = place.array() + 0.0;  // no minus before a zero
+  std::snprintf(out.data(), out.size(), "(%.1f, %.1f, %.1f)", at.x(), at.y(), at.z());
+  return out.data();
 }
 
 void check_edge_length(double edge_length, double radius) {

@@ -2,12 +2,15 @@
 
 #include <string>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
 
 /// A length for a message, with four digits.
 std::string text(double value);
+/// A place for a message, "(1.2, 0.0, -3.0)".
+std::string place_text(const Vec3& place);
 
 /// Throw InvalidInput where a rod of this radius [m] cannot be drawn, or cannot be drawn with edges of this length [m].
 void check_radius(double radius);

@@ -16,6 +16,7 @@
 #include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 
 namespace knot_utm {
 namespace {
@@ -58,6 +59,26 @@ std::string between_nodes(const Method& method) {
   return "machine.grips is nodes: no rod passes two held nodes, so the side of the loop without knots bears the load "
          "as "
          "soon as it is straight; machine.grips: rollers pulls at both sides alike";
+}
+
+constexpr double kTakenUp = 0.5;  // of the slack, by choice: a loop such as a butterfly keeps the rest of it
+
+/// Warns of a knot that is drawn so wide that its pull does not tighten it.
+std::string drawn_wide(const Method& method) {
+  const KnotDrawing* drawing = method.specimen.drawing.get();
+  if (!drawing) return "";
+  const double h = thickest(method.material), slack = slack_between_grips(*drawing) * h;
+  double pulled = 0.0;
+  for (const ProgramStep& step : method.program)
+    if (const PullStep* pull = step.as<PullStep>()) {
+      if (!pull->until.extension) return "";
+      pulled = std::max(pulled, *pull->until.extension);
+    }
+  if (pulled == 0.0 || pulled >= kTakenUp * slack) return "";
+  return "the pull takes up " + short_number(pulled / h) + " radii of a rope that is drawn with " +
+         short_number(slack / h) +
+         " radii of slack, so its knot is not tight by then; until.extension: " + short_number(slack) +
+         " would take it up";
 }
 
 /// Warns of a loop with knots of opposite handedness: of shipped nylon three of four specimens slid, and one jumped
@@ -225,7 +246,7 @@ std::vector<std::string> foreseen_warnings(const Method& method) {
   std::vector<std::string> all;
   if (method.specimen.to_be_tied) all = tying_warnings(method.specimen, method.material, method.physics);
   for (const std::string& found : {longer_than_usual(method), near_the_rollers(method), between_nodes(method),
-                                   scatters(method), too_rough(method)})
+                                   drawn_wide(method), scatters(method), too_rough(method)})
     if (!found.empty()) all.push_back(found);
   add_never_reached(method, all);
   ask_about(method.material, "material.", all);

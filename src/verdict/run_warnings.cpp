@@ -178,13 +178,14 @@ class Warnings {
   }
 
   /// Elastic energy of stretchy strands or of a compliant frame that was released suddenly, although no knot jumped
-  /// open.
+  /// open. Where strands slide over sharp bends, each node that passes one lets go a little.
   void of_snaps() {
     const double speed = facts_.pull_speed;
     if (!results_.curve.jump_force && !results_.snap_extension && speed > 0.0 && results_.fastest_node > kSnaps * speed)
-      say("something let go at once before the knots locked: a node moved at " + short_number(results_.fastest_node) +
-          " m/s, " + short_number(results_.fastest_node / speed) +
-          " times as fast as the pull; how far the load falls then depends on inertia and on the frame");
+      say("something let go at once: a node moved at " + short_number(results_.fastest_node) + " m/s, " +
+          short_number(results_.fastest_node / speed) +
+          " times as fast as the pull; how far the load falls then depends on inertia and on the frame, and, where it "
+          "does so again with each edge that slides, on specimen.edge_length");
   }
 
   /// Knots that move as they are released are tied at another distance than was asked for.

@@ -373,6 +373,10 @@ TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
   EXPECT_THAT(complaint(write("broken.yaml", "specimen:\n  knot: [\nmaterial: x")),
               AllOf(HasSubstr("broken.yaml: line "), HasSubstr("a list begins with \"[\" and has no \"]\""),
                     Not(HasSubstr("\n"))));
+  EXPECT_THAT(complaint(write("two.yaml", "specimen: {knot: straight}\n---\nmaterial: nylon\n")),
+              HasSubstr("two.yaml: the file holds 2 YAML documents, but must be one"));
+  EXPECT_THAT(complaint(write("latin.yaml", "specimen: {knot: straight}\n# n\xE9ud\n")),
+              HasSubstr("latin.yaml: line 2: a letter is not in UTF-8; save the file as UTF-8"));
   EXPECT_THAT(complaint(write("tab.yaml", "specimen:\n\tknot: overhand\n")),
               HasSubstr("tab.yaml: line 2, column 6: the line is indented by a tab; use blanks"));
   EXPECT_THAT(complaint(write("list_with_tab.yaml", "specimen: [\n\tknot")), HasSubstr("a list begins with \"[\""));
@@ -405,7 +409,7 @@ TEST(BadInput, WhatHasNoEndIsRefused) {
   };
   const std::string rest = "\nmaterial: nylon\nprogram: [{hold: {duration: 1}}]\n";
   const std::string itself = complaint_of("specimen: &a {knot: *a}" + rest);
-  EXPECT_THAT(itself, AllOf(HasSubstr("endless.yaml: specimen.knot is {knot: {knot:"), HasSubstr("fisherman")));
+  EXPECT_THAT(itself, AllOf(HasSubstr("endless.yaml: specimen.knot is {knot: {knot:"), HasSubstr("--list knots")));
   std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 15; ++i) {
     const std::string name = "a" + std::to_string(i), list = "*a" + std::to_string(i - 1);

@@ -292,12 +292,14 @@ TEST(ShippedKnots, AreThoseOfTheListAndWhatItSays) {
 
 TEST(ShippedKnots, FitBetweenTheGripsAtTheirDefaults) {
   for (const Shipped& shipped : kShipped)
-    for (const char* material : {"nylon", "pink_vps", "dyneema_2mm"}) {
-      const Method method =
-          load_method(kBend, {std::string("specimen.knot=") + shipped.name, std::string("material=") + material});
-      EXPECT_NO_THROW(specimen_centreline(method.specimen, method.material, method.machine, method.physics))
-          << shipped.name;
-    }
+    for (const char* accuracy : {"draft", "normal"})
+      for (const char* material : {"nylon", "pink_vps", "dyneema_2mm"}) {
+        const Method method =
+            load_method(kBend, {std::string("specimen.knot=") + shipped.name, std::string("material=") + material,
+                                std::string("physics.accuracy=") + accuracy});
+        EXPECT_NO_THROW(specimen_centreline(method.specimen, method.material, method.machine, method.physics))
+            << shipped.name << ' ' << accuracy;
+      }
 }
 
 /// The knots of one rope with both ends held are told by their Alexander polynomials at -1.

@@ -104,7 +104,7 @@ TEST_F(Draw, RefusesInOneLineAndWritesNothing) {
     EXPECT_EQ(count(answer.text, "\n"), 1u) << answer.text;
     EXPECT_THAT(answer.text, HasSubstr(why));
   };
-  refused("'" + file + "'", "strands overlap at ");
+  refused("'" + file + "'", "strands overlap at (0.0, 0.2, 0.0), where they are 0.5 radii apart, but must be at least");
   refused("reff", "reef");
   refused("/nowhere/knot.yaml", "/nowhere/knot.yaml");
   refused("reef tighten", "--draw");

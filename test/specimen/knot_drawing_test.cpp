@@ -121,6 +121,23 @@ TEST(KnotDrawing, IsRefusedWhereStrandsOverlap) {
   }
 }
 
+TEST(KnotDrawing, HasFinerEdgesByItsRefinement) {
+  const KnotDrawing knot = hooks();
+  for (const double refinement : {0.5, 1.0, 3.0}) {
+    DrawnSize size = kSize;
+    size.refinement = refinement;
+    EXPECT_NEAR((draw(knot, size).points.col(1) - draw(knot, size).points.col(0)).norm(),
+                kSize.edge_length / refinement, 3e-4);
+  }
+}
+
+TEST(KnotDrawing, HasTheSlackOfItsStrandsBetweenTheGrips) {
+  KnotDrawing knot = hooks();
+  EXPECT_EQ(slack_between_grips(knot), 0.0) << "each strand has a free end";
+  knot.strands = {{{"lower", "upper"}, {{0, 0, -8}, {0, 0, -4}, {3, 0, 0}, {0, 0, 4}, {0, 0, 8}}}};
+  EXPECT_DOUBLE_EQ(slack_between_grips(knot), 2.0) << "twice the side of a triangle of 3, 4 and 5";
+}
+
 TEST(KnotDrawing, RopesOfTwoRadiiMayComeAsNearAsBothAreThick) {
   DrawnSize one = kSize, thin = kSize, first_thin = kSize;
   thin.others = first_thin.first = 0.5;
@@ -141,7 +158,7 @@ TEST(KnotDrawing, RopesOfTwoRadiiMayComeAsNearAsBothAreThick) {
       draw(side_by_side(1.45), size);
       FAIL();
     } catch (const InvalidInput& refused) {
-      EXPECT_THAT(refused.what(), HasSubstr("must be at least both radii apart, 0.0045 m"));
+      EXPECT_THAT(refused.what(), HasSubstr("must be at least both radii apart, 1.5 radii"));
     }
   }
 }

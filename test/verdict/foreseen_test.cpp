@@ -62,6 +62,14 @@ TEST(Foreseen, ALoopBetweenHeldNodes) {
   EXPECT_THAT(warnings_of("straight", {"machine.grips=nodes"}), IsEmpty());
 }
 
+TEST(Foreseen, AKnotThatIsDrawnTooWideForItsPull) {
+  EXPECT_THAT(warnings_of("knot", {"specimen.knot=surgeon_1"}),
+              ElementsAre(AllOf(HasSubstr("the pull takes up 80 radii of a rope that is drawn with 1210 radii"),
+                                HasSubstr("until.extension: 3.8"))));
+  EXPECT_THAT(warnings_of("knot", {"specimen.knot=surgeon_1", "program.3.pull.until.extension=3.5"}), IsEmpty());
+  EXPECT_THAT(warnings_of("knot", {"specimen.knot=butterfly_loop"}), IsEmpty());
+}
+
 /// Three of four specimens of nylon slid, and one jumped open.
 TEST(Foreseen, KnotsOfOppositeHandedness) {
   EXPECT_THAT(warnings_of("tighten", {"specimen.handedness=opposite"}),

@@ -98,8 +98,9 @@ Centreline from_points(const Points& points, bool closed, double radius, double 
 /// Throws InvalidInput for `key` where strands of a rod of the given radius overlap, or where it runs through itself.
 /// Strands overlap where two places that are further apart along the rod than 3 pi/2 radii are nearer to each other
 /// than a diameter. Places nearer along the rod cannot touch unless the rod is bent more sharply than its own radius.
-/// The message names both places. `radii`: of the ropes where they differ, `radius` being that of the thickest one.
+/// The message names both places along the rod, or, for a drawing with the given origin [m], one in its radii. `radii`:
+/// of the ropes where they differ, `radius` being that of the thickest one.
 void check_no_overlap(const Centreline& centreline, double radius, const char* key, const std::string& value,
-                      const std::vector<double>& radii = {});
+                      const std::vector<double>& radii = {}, const Vec3* origin = nullptr);
 
 }  // namespace knot_utm

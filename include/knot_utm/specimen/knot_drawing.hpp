@@ -70,9 +70,10 @@ struct DrawnSize {
   double radius = 0.0;       ///< h, of the thickest strand [m]
   double end_to_end = 0.0;   ///< L, from the lower grip to the upper one [m]
   double tail = 0.0;         ///< straight length of each free end beyond its last point [m]
-  double edge_length = 0.0;  ///< of the thickest strand [m]
+  double edge_length = 0.0;  ///< of the thickest strand, before refinement [m]
   double first = 1.0;        ///< radius and edge length of the first strand over those
   double others = 1.0;       ///< and of all others
+  double refinement = 1.0;   ///< edges are shorter by this factor [-]
 };
 
 /// A drawing as a rod. Each strand is a centripetal Catmull-Rom curve through its points. A held end runs on straight
@@ -89,6 +90,10 @@ Roller roller_of(const KnotDrawing::Post& post, double radius, const Vec3& origi
 
 /// The least L between the grips of such a drawing [m]; the only one where posts stand for both.
 double least_end_to_end(const KnotDrawing& drawing, double radius);
+
+/// By how much the points of a strand that both grips hold lead a longer way than straight on, the most of all strands
+/// [h]: so far the grips can move before a loop that was drawn wide is tight.
+double slack_between_grips(const KnotDrawing& drawing);
 
 /// z of the drawing's origin above the lower grip [m].
 double height_of_origin(const KnotDrawing& drawing, const DrawnSize& size);
