@@ -159,6 +159,29 @@ class BuildFolder(unittest.TestCase):
                 self.assertIn(f"forget_moved {folder} \"$root\"", text("scripts", name), name)
 
 
+class Output(unittest.TestCase):
+    def test_of_a_script_has_nothing_of_what_was_installed_and_built(self):
+        """A table may be sent into a file."""
+        prepared = {name: found[1] for name in SCRIPTS
+                    if (found := re.search(r"^prepare .*\nrun_module ([\w.]+)", text("scripts", name), re.MULTILINE))}
+        self.assertLessEqual({"fit", "knot", "movie", "rank", "refine", "sweep"}, set(prepared))
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(os.path.join(ROOT, "scripts"), os.path.join(folder, "scripts"))
+            for file, content in (("scripts/setup", "echo installed\n"), ("scripts/build", "#!/bin/bash\necho built $*\n")):
+                with open(os.path.join(folder, file), "w", encoding="utf-8") as out:
+                    out.write(content)
+            for module in prepared.values():
+                file = os.path.join(folder, "python/knot_utm", module.replace(".", "/") + ".py")
+                os.makedirs(os.path.dirname(file), exist_ok=True)
+                with open(file, "w", encoding="utf-8") as out:
+                    out.write("print('the table')\n")
+            for name in prepared:
+                said = run(os.path.join(folder, "scripts", name), "word",
+                           env={key: value for key, value in os.environ.items() if key != "KNOT_UTM_SKIP_BUILD"})
+                self.assertEqual((said.returncode, said.stdout), (0, "the table\n"), name)
+                self.assertTrue(said.stderr.startswith("installed\n"), name)
+
+
 class Commands(unittest.TestCase):
     def test_are_there_on_a_minimal_machine(self):
         words = "|".join(re.escape(word) for word in ABSENT)
