@@ -38,8 +38,16 @@ def load(path):
             return yaml.load(file, _Loader)
     except OSError as error:
         raise WrongInput(f"{path}: {error.strerror.lower()}") from error
-    except (yaml.YAMLError, UnicodeDecodeError, WrongInput) as error:
+    except UnicodeDecodeError as error:
+        raise WrongInput(f"{path}: {no_text(error)}") from error
+    except (yaml.YAMLError, WrongInput) as error:
         raise WrongInput(f"{path}: {' '.join(str(error).split())}") from error
+
+
+def no_text(error):
+    """What the UnicodeDecodeError of a whole file's reading says."""
+    line = error.object.count(b"\n", 0, error.start) + 1
+    return f"line {line}: the byte 0x{error.object[error.start]:02x} is no text in UTF-8"
 
 
 def text_of(value):

@@ -19,7 +19,7 @@ from knot_utm.report.colours import colour_scales, UNITS
 from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_not
 from knot_utm.report.curve_figures import small_loads
 from knot_utm.report.curves import few_points
-from knot_utm.report.method_facts import knot_of
+from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.rod_pictures import draw_bar, draw_rollers, tubes_of, view
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import pieces, series_of
@@ -185,7 +185,7 @@ class OneTest:
         self.begin = float(self.tested["time"][0])
         self.extension = run.units.length.scale * self.tested["extension"]
         self.load = run.units.force.scale * self.tested["load"]
-        self.title = f"{knot_of(run.method, run.folder)}, {run.method['material'].get('name', 'own material')}"
+        self.title = knot_and_materials(run.method, run.folder)
         some = np.unique(np.linspace(0, len(self.shapes) - 1, VIEWS).astype(int))
         views = np.array([view(run, self.shapes[i], run.thickest()) for i in some])
         self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())
