@@ -273,7 +273,7 @@ class Failures(unittest.TestCase):
         return done.stderr
 
     def test_a_folder_without_a_result(self):
-        self.assertIn("none of result.yaml, comparison.yaml, statistics.yaml, fit.yaml is there", self.one_line(script(folders.path), 1))
+        self.assertIn("none of result.yaml, comparison.yaml, statistics.yaml, fit.yaml is there", self.one_line(script(folders.path), 2))
         self.assertFalse(os.path.exists(os.path.join(folders.path, "report.html")))
 
     def test_no_folder(self):
