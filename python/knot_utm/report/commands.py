@@ -6,6 +6,7 @@ import importlib
 import os
 import stat
 import sys
+import tempfile
 
 from knot_utm.errors import WrongInput
 
@@ -50,9 +51,13 @@ def files_of(folder):
 
 
 def why_not(file, inputs, overwrite):
-    """A sentence on why the file must not be written; None where it may be. A link to an input is the input."""
+    """A sentence on why the file must not or cannot be written; None where it may be. A link to an input is the input."""
     if not os.path.lexists(file):
-        return None
+        try:
+            with tempfile.TemporaryFile(dir=os.path.dirname(file) or "."):
+                return None
+        except OSError as error:
+            return f"cannot write {file}: {error.strerror.lower()}"
     if os.path.exists(file):
         if any(os.path.exists(one) and os.path.samefile(file, one) for one in inputs):
             return f"{file} is an input, and would be written over: give another name"
