@@ -52,7 +52,10 @@ def no_text(error):
 
 def text_of(value):
     """A value in one line, which reads back as the same value."""
-    text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
+    try:
+        text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
+    except yaml.representer.RepresenterError as error:
+        raise WrongInput(f"{' '.join(repr(value).split())} ({type(value).__name__}) cannot be the value of a key: give numbers, words, lists and dicts of Python") from error
     return text.removesuffix("\n").removesuffix("...").rstrip("\n")
 
 

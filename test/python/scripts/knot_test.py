@@ -98,7 +98,7 @@ class Import(unittest.TestCase):
         self.refused("a.txt: row 5 and row 63: there it comes nearer to itself than 1/313 of its size", "a.txt", rows(trefoil() * [1.0, 1.0, 0.0]))
         self.refused("a.csv: row 2 and row 4: there it comes nearer to itself", "a.csv", "x,y,z\n0,0,0\n0,0,1\n0.001,0,0\n0.5,0.5,0.5\n")
         flat = "VECT 1 200 0 -200 0\n" + rows(trefoil(200) * [1.0, 1.0, 0.0])
-        self.refused("a.vect: point 9 and point 125: there", "a.vect", flat)
+        self.refused("a.vect: point 10 and point 126: there", "a.vect", flat)
         many = np.random.default_rng(1).random((20000, 3))
         self.refused("there it comes nearer to itself", "a.txt", rows(many))
 

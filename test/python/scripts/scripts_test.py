@@ -70,6 +70,12 @@ class Help(unittest.TestCase):
             self.assertEqual(said.returncode, 2, f"{name}: {said.stdout}{said.stderr}")
             self.assertTrue(said.stderr.strip(), name)
 
+    def test_wrong_words_are_refused_in_a_line_that_says_where_all_are_told(self):
+        for name in ("fit", "knot", "rank", "refine", "sweep"):
+            for words in ((), ("--nonsense", "x")):
+                said = run(os.path.join(ROOT, "scripts", name), *words, env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1"})
+                self.assertRegex(said.stderr, rf"^{name}: .* \(\S*scripts/{name} --help\)\n$")
+
 
 class Setup(unittest.TestCase):
     # Instead of what would change the machine.
