@@ -50,6 +50,13 @@ def files_of(folder):
     return [os.path.join(folder, name) for name in os.listdir(folder)] if os.path.isdir(folder) else []
 
 
+def why_no_test(folder):
+    """A sentence on why a folder holds no test; None where it holds one."""
+    if not os.path.isdir(folder):
+        return f"{folder}: no such folder"
+    return None if os.path.exists(os.path.join(folder, "method.yaml")) else f"{folder}: no test is there (method.yaml)"
+
+
 def why_not(file, inputs, overwrite):
     """A sentence on why the file must not or cannot be written; None where it may be. A link to an input is the input."""
     if not os.path.lexists(file):

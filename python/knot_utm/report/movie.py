@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from knot_utm.report.colours import colour_scales, UNITS
-from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_not
+from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
 from knot_utm.report.curve_figures import small_loads
 from knot_utm.report.curves import few_points
 from knot_utm.report.method_facts import knot_and_materials
@@ -42,8 +42,8 @@ def asked():
     if len(found.runs) > 2:
         parser.error(f"{found.runs[2]}: two runs have room side by side")
     for folder in found.runs:
-        if not os.path.isdir(folder):
-            parser.error(f"{folder}: no such folder")
+        if why := why_no_test(folder):
+            parser.error(why)
     if not found.out.endswith(".mp4"):
         parser.error(f"--out {found.out}: the name of the file must end with .mp4")
     if why := why_not(found.out, [file for folder in found.runs for file in files_of(folder)], found.overwrite):
