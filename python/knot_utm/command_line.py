@@ -62,10 +62,17 @@ def exit_code_of(program, work, goes_on=""):
         return say(program, wrong, 2)
     except KeyboardInterrupt:
         return say(program, "it was interrupted", 1)
-    except (Interrupted, OSError) as error:
-        return say(program, f"{error}; the same command goes on: {goes_on}" if goes_on else error, 1)
+    except OSError as error:
+        why = f"{error.filename}: {error.strerror.lower()}" if error.filename else str(error)
+        return say(program, _and_how(why, goes_on if tool.is_of_a_full_disk(why) else ""), 1)
+    except Interrupted as error:
+        return say(program, _and_how(error, goes_on), 1)
     except RuntimeError as error:
         return say(program, error, 1)
+
+
+def _and_how(why, goes_on):
+    return f"{why}; the same command goes on: {goes_on}" if goes_on else why
 
 
 def say(program, why, code):
