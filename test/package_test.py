@@ -120,7 +120,7 @@ class Package(unittest.TestCase):
         for command in ("sweep", "fit", "refine"):
             said = self.python("-m", f"knot_utm.{command}_command", path=self.packages)
             self.assertEqual(said.returncode, 2, said.stderr)
-            self.assertIn(f"usage: python3 -m knot_utm.{command}_command", said.stderr)
+            self.assertIn(f"(usage: python3 -m knot_utm.{command}_command", said.stderr)
 
     @unittest.skipUnless(HAS_MESSAGES, "built without messages of ROS")
     def test_messages_of_ros_are_in_the_same_package(self):

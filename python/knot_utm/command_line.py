@@ -1,17 +1,30 @@
-"""What the command lines of a sweep, a fit, a ranking and a refinement have in common; the scripts have their words."""
-import argparse
+"""What the command lines of a sweep, a fit, a ranking, a refinement and the import of a knot have in common; the scripts have
+their words."""
 import os
 import sys
 
 import yaml
 
+from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.report.commands import OneLineParser, refuse
 from knot_utm.yaml_text import value_of
+
+
+class WordsParser(OneLineParser):
+    """Refuses words in a line, which says where all of them are told."""
+
+    def __init__(self, prog):
+        super().__init__(prog=prog, add_help=False, allow_abbrev=False)
+
+    def error(self, message):
+        told = f"{self.prog} --help" if tool.IN_SOURCES else " ".join(self.format_usage().split())
+        refuse(os.path.basename(self.prog), f"{message} ({told})")
 
 
 def parser_of(program, *read):
     """Of a command that reads files, writes a folder, and makes many runs at a time."""
-    parser = argparse.ArgumentParser(prog=program, add_help=False, allow_abbrev=False)
+    parser = WordsParser(prog=program)
     for name in read:
         parser.add_argument(name)
     parser.add_argument("--out")
@@ -49,10 +62,17 @@ def exit_code_of(program, work, goes_on=""):
         return say(program, wrong, 2)
     except KeyboardInterrupt:
         return say(program, "it was interrupted", 1)
-    except (Interrupted, OSError) as error:
-        return say(program, f"{error}; the same command goes on: {goes_on}" if goes_on else error, 1)
+    except OSError as error:
+        why = f"{error.filename}: {error.strerror.lower()}" if error.filename else str(error)
+        return say(program, _and_how(why, goes_on if tool.is_of_a_full_disk(why) else ""), 1)
+    except Interrupted as error:
+        return say(program, _and_how(error, goes_on), 1)
     except RuntimeError as error:
         return say(program, error, 1)
+
+
+def _and_how(why, goes_on):
+    return f"{why}; the same command goes on: {goes_on}" if goes_on else why
 
 
 def say(program, why, code):

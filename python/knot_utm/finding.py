@@ -2,8 +2,10 @@
 import itertools
 import os
 import tempfile
+from collections.abc import Iterable
 
 from knot_utm import method_keys, tool
+from knot_utm.arguments import folder_of, jobs_of, make_folder, method_of, path_of, settings_map, shown
 from knot_utm.errors import WrongInput
 from knot_utm.fitting.found import WRITTEN, Fitted, short, write_report
 from knot_utm.fitting.keys import method_key, offset_key, parse_free
@@ -25,22 +27,37 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     names; `reading`: options of `compare` with which raw data are read, such as ["--units", "load=lbf"]; `overwrite`: whether
     another fit in the folder is replaced. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it
     was cut short."""
-    name = os.path.splitext(os.path.basename(os.fspath(measured)))[0]
-    out = os.path.abspath(out or os.path.join("out", name + "_fit"))
-    method = tool.find_method(os.fspath(method), os.getcwd())
-    _require_room(out, [os.fspath(measured), *(os.fspath(file) for file, _ in also), method], overwrite)
-    asked = [(os.fspath(measured), dict(settings or {}))]
-    asked += [(os.fspath(file), {**(settings or {}), **more}) for file, more in also]
+    measured, settings = path_of("measured", measured, "the file of a curve"), settings_map(settings)
+    also = [(path_of("also", file, "files of curves"), settings_map(more)) for file, more in _pairs(also)]
+    free = _words(free)
+    out = folder_of(out, os.path.join("out", os.path.splitext(os.path.basename(measured))[0] + "_fit"))
+    method, jobs = tool.find_method(method_of(method), os.getcwd()), jobs_of(jobs)
+    _require_room(out, [measured, *(file for file, _ in also), method], overwrite)
+    asked = [(measured, settings)] + [(file, {**settings, **more}) for file, more in also]
     free = [parse_free(word) for word in free]
     _require_free([name for name, _ in free], asked)
     with tempfile.TemporaryDirectory(prefix="knot_utm_fit.", ignore_cleanup_errors=True) as folder:
-        runs = Runs(method, folder, jobs or len(os.sched_getaffinity(0)))
+        runs = Runs(method, folder, jobs)
         fitted = Fitted(_searched(runs, method, asked, free, reading))
     values = {key: one.value for key, one in fitted.found.items() if not key.startswith("record.")}
     fitted.write(out, [tool.resolved(method, {**given, **values}) for _, given in asked])
     if report:
         write_report(out, command or "knot_utm.fit in Python")
     return fitted
+
+
+def _words(free):
+    words = list(free) if isinstance(free, Iterable) and not isinstance(free, str) else [None]
+    if not all(isinstance(word, str) for word in words):
+        raise WrongInput(f"free is {shown(free)}, but must be a list of words such as 'material.radius=0.001:0.002'")
+    return words
+
+
+def _pairs(also):
+    pairs = list(also) if isinstance(also, Iterable) else [also]
+    if isinstance(also, str) or not all(isinstance(pair, (tuple, list)) and len(pair) == 2 for pair in pairs):
+        raise WrongInput(f"also is {shown(also)}, but must be a list of (file, settings)")
+    return pairs
 
 
 def _searched(runs, method, asked, free, reading):
@@ -117,9 +134,7 @@ def _require_room(out, inputs, overwrite):
             raise WrongInput(f"{file} is an input, and would be written over: choose another folder")
         if not overwrite:
             raise WrongInput(f"{file} exists already: choose another folder, or --overwrite")
-    try:
-        os.makedirs(os.path.dirname(out), exist_ok=True)
-        if os.path.exists(out) and not os.path.isdir(out):
-            raise FileExistsError(0, "file exists", out)
-    except (FileExistsError, NotADirectoryError, PermissionError) as error:
-        raise WrongInput(f"cannot make the folder {error.filename}: {error.strerror.lower()}") from error
+    was_there = os.path.isdir(out)
+    make_folder(out)
+    if not was_there:
+        os.rmdir(out)  # nothing is written before it is known that it can be fitted

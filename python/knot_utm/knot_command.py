@@ -1,34 +1,34 @@
 """Makes the file of a knot from a curve of another program (scripts/knot)."""
-import argparse
 import json
 import os
 import subprocess
 import tempfile
 
 from knot_utm import tool
+from knot_utm.command_line import WordsParser
 from knot_utm.errors import WrongInput
 from knot_utm.knot_drawing import knot_text, strands_of
 from knot_utm.knot_shapes import curves_of
-from knot_utm.report.commands import in_one_line, OneLineParser, refuse, why_not
+from knot_utm.report.commands import in_one_line, refuse, why_not
 
 SMALLER = 0.94  # radius of the rope of the next attempt
 ATTEMPTS = 12
 
 
 def asked():
-    parser = OneLineParser(prog="knot", add_help=False, allow_abbrev=False)
+    parser = WordsParser(prog=tool.program("knot"))
     parser.add_argument("command", choices=["import"])
     parser.add_argument("shape")
     parser.add_argument("--out", required=True)
     parser.add_argument("--lower", nargs="+", default=[])
     parser.add_argument("--upper", nargs="+", default=[])
     parser.add_argument("--title")
-    parser.add_argument("--overwrite", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--overwrite", action="store_true")
     found = parser.parse_args()
     if not found.out.endswith(".yaml"):
-        parser.error(f"--out {found.out}: the name of the file must end with .yaml")
+        refuse("knot", f"--out {found.out}: the name of the file must end with .yaml")
     if why := why_not(found.out, [found.shape], found.overwrite):
-        parser.error(f"--out: {why}")
+        refuse("knot", f"--out: {why}")
     return found
 
 

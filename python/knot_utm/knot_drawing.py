@@ -1,6 +1,7 @@
 """Curves in space as the file of a knot: scaled until strands nearly touch, turned along the load axis, their held ends led to the
 grips, and drawn through few points. All this moves no strand through another one."""
 import numpy as np
+from scipy.spatial import cKDTree
 
 from knot_utm.errors import WrongInput
 
@@ -13,6 +14,9 @@ TURN = 3.0             # radius of the bend by which a held end turns to its gri
 STRAIGHT = 3.0         # of a held strand, twice, behind it [radii]
 DEVIATION = 0.1        # of the drawn curve [radii]
 FARTHEST = 199.0       # coordinate of a knot's file [radii]
+LARGEST = 2.0 * np.sqrt(3.0) * FARTHEST  # distance of two places of a knot's file [radii]
+LONGEST = 5000.0       # rope of a file, three times as long as that of any shipped knot [radii]
+BLOCK = 64             # segments that are compared with all others at a time
 
 
 def strands_of(curves, smaller=1.0):
@@ -21,32 +25,96 @@ def strands_of(curves, smaller=1.0):
     closed = any(one.closed for one in curves)
     if closed and len(curves) > 1:
         raise WrongInput(f"it holds {len(curves)} curves, but a rope has ends: a closed curve must be the only one")
-    lines = [dense(np.vstack([one.points, one.points[:1]]) if closed else one.points) for one in curves]
-    radius, middle = smaller * radius_of(lines, closed), np.vstack(lines).mean(axis=0)
+    size = np.ptp(np.vstack([one.points for one in curves]), axis=0).max()
+    lines = [dense((np.vstack([one.points, one.points[:1]]) if closed else one.points) / size) for one in curves]
+    if near := crossing(lines, closed):
+        raise WrongInput(f"{places_of(curves, near)}: there it comes nearer to itself than 1/{LARGEST / APART:.0f} of its size, as "
+                         "where it crosses itself or turns back, but strands must lie apart")
+    radius, near = tightest(lines, closed)
+    length = sum(map(length_of, lines)) / radius
+    if length > LONGEST:
+        raise WrongInput(f"{places_of(curves, near)}: there its strands come so near to each other, or bend so sharply, that the rope is "
+                         f"{length:.0f} radii long, but it must be at most {LONGEST:.0f}")
+    radius, middle = smaller * radius, np.vstack(lines).mean(axis=0)
     lines = [resampled((line - middle) / radius, DENSE) for line in lines]
     return opened(lines[0]) if closed else upright(lines)
 
 
+def places_of(curves, near):
+    """What places are called in the file of the curves. `near`: (number of the curve, share of its length) of each."""
+    found = []
+    for number, share in near:
+        one = curves[number]
+        along = way_along(np.vstack([one.points, one.points[:1]]) if one.closed else one.points)
+        found.append(one.places[int(np.argmin(np.abs(along - share * along[-1]))) % len(one.places)])
+    return " and ".join(dict.fromkeys(found))
+
+
+def crossing(lines, closed):
+    """Two places, far from each other along the curves, whose segments are nearer to each other than strands can be in a knot's
+    file; None where there are none. `lines`: dense, of the size 1."""
+    least, begin, step = APART / LARGEST, np.vstack([line[:-1] for line in lines]), np.vstack([np.diff(line, axis=0) for line in lines])
+    number = np.concatenate([np.full(len(line) - 1, k) for k, line in enumerate(lines)])
+    share = np.concatenate([(np.arange(len(line) - 1) + 0.5) / (len(line) - 1) for line in lines])
+    lengths = np.array([length_of(line) for line in lines])[number]
+    spacing = np.linalg.norm(step, axis=1).max()
+    tree = cKDTree(begin + 0.5 * step)
+    for first in range(0, len(begin), BLOCK):
+        found = tree.query_ball_point(tree.data[first:first + BLOCK], spacing + least)
+        one = np.repeat(np.arange(first, first + len(found)), [len(others) for others in found])
+        other = np.concatenate([np.array(others, dtype=int) for others in found])
+        way = np.abs(share[one] - share[other])
+        way = lengths[one] * (np.minimum(way, 1.0 - way) if closed else way)
+        far = (number[one] != number[other]) | (way > max(4.0 * spacing, ALONG / LARGEST))
+        one, other = one[far], other[far]
+        near = np.flatnonzero(segments_apart(begin[one], step[one], begin[other], step[other]) < least)
+        if len(near):
+            return [(number[i], share[i]) for i in (one[near[0]], other[near[0]])]
+    return None
+
+
+def segments_apart(p, u, q, v):
+    """Distances of the segments from p to p + u and from q to q + v."""
+    def dot(a, b):
+        return np.einsum("ij,ij->i", a, b)
+
+    w, uu, vv, uv = p - q, dot(u, u), dot(v, v), dot(u, v)
+    area = uu * vv - uv * uv
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = np.where(area > 1e-12 * uu * vv, np.clip((uv * dot(v, w) - dot(u, w) * vv) / area, 0.0, 1.0), 0.0)
+    t = np.clip((uv * s + dot(v, w)) / vv, 0.0, 1.0)
+    s = np.clip((uv * t - dot(u, w)) / uu, 0.0, 1.0)
+    return np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=1)
+
+
 def dense(line, count=1500):
-    length = np.linalg.norm(np.diff(line, axis=0), axis=1).sum()
-    return resampled(line, length / max(count, 2 * len(line)))
+    return resampled(line, length_of(line) / max(count, 2 * len(line)))
+
+
+def way_along(line):
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+
+
+def length_of(line):
+    return way_along(line)[-1]
 
 
 def resampled(line, spacing):
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    along = way_along(line)
     at = np.linspace(0.0, along[-1], max(4, int(np.ceil(along[-1] / spacing)) + 1))
     return np.column_stack([np.interp(at, along, line[:, k]) for k in range(3)])
 
 
-def radius_of(lines, closed):
+def tightest(lines, closed):
     """The largest radius of a rope whose strands stay APART: places that are nearer than that are no more than ALONG apart on
-    the same strand, so that bends count, too."""
+    the same strand, so that bends count, too. And the two places that allow no larger one: (number of the line, share of its
+    length) of each."""
     lines = [line[::max(1, len(line) * len(lines) // 1200)] for line in lines]
     distance = np.concatenate([np.concatenate([apart(one, other) for other in lines], axis=1) for one in lines])
     along = np.full(distance.shape, np.inf)
     begin = 0
     for line in lines:
-        place = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+        place = way_along(line)
         way = np.abs(place[:, None] - place)
         along[begin:begin + len(line), begin:begin + len(line)] = np.minimum(way, place[-1] - way) if closed else way
         begin += len(line)
@@ -54,7 +122,9 @@ def radius_of(lines, closed):
     for radius in np.geomspace(1e-4 * size, 0.2 * size, 400):
         far = along > ALONG * radius
         if far.any() and distance[far].min() < APART * radius:
-            return radius / 1.02  # the one before
+            nearest = np.unravel_index(np.argmin(np.where(far, distance, np.inf)), distance.shape)
+            shares = [(number, i / (len(line) - 1)) for number, line in enumerate(lines) for i in range(len(line))]
+            return radius / 1.02, [shares[i] for i in nearest]  # the one before
     raise WrongInput("no strand comes near another one: there is no knot")
 
 
@@ -125,7 +195,7 @@ def drawn_through(line):
     count = max(4, len(line) // 12)
     while count < len(line):
         points = line[np.rint(np.linspace(0, len(line) - 1, count)).astype(int)]
-        if apart(line, through(points)).min(axis=1).max() < DEVIATION:
+        if cKDTree(through(points)).query(line)[0].max() < DEVIATION:
             return points
         count = int(1.15 * count) + 1
     return line

@@ -1,5 +1,7 @@
 """Curves in space as other programs write them: VECT of Geomview, CSV, and KnotPlot's text."""
+import os
 import re
+import stat
 from collections import namedtuple
 
 import numpy as np
@@ -7,20 +9,17 @@ import numpy as np
 from knot_utm.errors import WrongInput
 
 MOST = 20000       # points of a file
+MOST_BYTES = 16_000_000  # some hundreds for each
 MOST_CURVES = 8    # each is a rope, and time grows with their square
 FARTHEST = 1e100   # coordinate: squares of distances must be numbers
 
-# `points`: N x 3; a `closed` one goes on from the last to the first.
-Curve = namedtuple("Curve", "points closed")
+# `points`: N x 3; a `closed` one goes on from the last to the first. `places`: what each point is called in its file.
+Curve = namedtuple("Curve", "points closed places")
 
 
 def curves_of(file):
     """All curves of a file. Raises WrongInput."""
-    try:
-        with open(file, encoding="utf-8") as opened:
-            text = opened.read()
-    except (OSError, UnicodeDecodeError) as error:
-        raise WrongInput(f"{file}: cannot be read: {getattr(error, 'strerror', None) or 'it is no text'}") from error
+    text = text_in(file)
     read = vect if text.lstrip().startswith("VECT") else csv if "," in text else rows_of_knotplot
     curves = read(file, text)
     if len(curves) > MOST_CURVES:
@@ -35,6 +34,21 @@ def curves_of(file):
     return curves
 
 
+def text_in(file):
+    try:
+        found = os.stat(file)
+        if not stat.S_ISREG(found.st_mode):
+            raise WrongInput(f"{file}: it is a folder, a device or a pipe, but must be a file of text")
+        if found.st_size > MOST_BYTES:
+            raise WrongInput(f"{file}: it has {found.st_size:,} bytes, but may have at most {MOST_BYTES:,}")
+        with open(file, encoding="utf-8") as opened:
+            return opened.read(MOST_BYTES)
+    except UnicodeDecodeError as error:
+        raise WrongInput(f"{file}: cannot be read: it is no text in UTF-8") from error
+    except OSError as error:
+        raise WrongInput(f"{file}: cannot be read: {error.strerror}") from error
+
+
 def vect(file, text):
     """Geomview: numbers of polylines, points and colours; of points and of colours of each polyline; points; colours. A polyline
     with a negative number of points is closed."""
@@ -43,13 +57,14 @@ def vect(file, text):
     lines = whole(file, numbers[0]) if numbers else 0
     counts = [whole(file, number) for number in numbers[3:3 + lines]]
     begin = 3 + 2 * lines
-    curves = []
+    curves, read = [], 0
     for count in counts:
         end = begin + 3 * abs(count)
         if end > len(numbers):
             raise WrongInput(f"{file}: it names more points than it has")
-        curves.append(curve(np.reshape(numbers[begin:end], (-1, 3)), count < 0))
-        begin = end
+        places = [f"point {read + i + 1}" for i in range(abs(count))]
+        curves.append(curve(np.reshape(numbers[begin:end], (-1, 3)), count < 0, places))
+        begin, read = end, read + abs(count)
     return curves
 
 
@@ -66,8 +81,8 @@ def csv(file, text):
         if len(cells) < len(names):
             raise WrongInput(f"{file}: row {number} is \"{line}\", but must be {','.join(names)}")
         row = {name: to_number(file, f"row {number}", cell) for name, cell in zip(names, cells) if name in ("x", "y", "z", "rope")}
-        found.setdefault(row.get("rope", 1.0), []).append([row["x"], row["y"], row["z"]])
-    return [curve(np.array(points), False) for points in found.values()]
+        found.setdefault(row.get("rope", 1.0), []).append(([row["x"], row["y"], row["z"]], f"row {number}"))
+    return [curve_of_rows(rows, False) for rows in found.values()]
 
 
 def rows_of_knotplot(file, text):
@@ -82,17 +97,23 @@ def rows_of_knotplot(file, text):
             continue
         if len(cells) != 3:
             raise WrongInput(f"{file}: row {number} is \"{line.strip()}\", but must be three numbers x y z")
-        block.append([to_number(file, f"row {number}", cell) for cell in cells])
-    return [curve(np.array(points), True) for points in blocks]
+        block.append(([to_number(file, f"row {number}", cell) for cell in cells], f"row {number}"))
+    return [curve_of_rows(rows, True) for rows in blocks]
 
 
-def curve(points, closed):
+def curve_of_rows(rows, closed):
+    points, places = zip(*rows)
+    return curve(np.array(points), closed, list(places))
+
+
+def curve(points, closed, places):
     """Without points that are where the one before is; one that ends where it begins is closed."""
     size = np.ptp(points, axis=0).max() if len(points) else 0.0
     differs = np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9 * size
-    points = points[np.concatenate([[True], differs])] if len(points) else points
+    kept = np.concatenate([[True], differs]) if len(points) else []
+    points, places = points[kept] if len(points) else points, [place for place, is_kept in zip(places, kept) if is_kept]
     returns = len(points) > 3 and np.linalg.norm(points[0] - points[-1]) <= 1e-9 * size
-    return Curve(points[:-1] if returns else points, closed or returns)
+    return Curve(points[:-1], True, places[:-1]) if returns else Curve(points, closed, places)
 
 
 def is_number(word):

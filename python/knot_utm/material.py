@@ -8,6 +8,7 @@ import yaml
 from scipy import integrate, optimize
 
 from knot_utm.report.commands import OneLineParser, refuse, why_not
+from knot_utm.yaml_text import no_text
 
 GRAVITY = 9.81  # [m/s2]
 LEAST_ANGLE = math.radians(0.05)  # of the end of a cantilever: less is not seen
@@ -470,7 +471,9 @@ def main():
         here, uncertain = with_errors(values, errors)
         with open(asked.out, "w", encoding="utf-8") as file:
             file.write(material(given, here, uncertain))
-    except (Wrong, OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+    except UnicodeDecodeError as error:
+        refuse("material", f"{asked.measurements}: {no_text(error)}")
+    except (Wrong, OSError, yaml.YAMLError) as error:
         refuse("material", f"{asked.measurements}: {' '.join(str(error).split())}")
     print(f"{asked.out}: {in_words(here)}")
     if "rate" in here:

@@ -1,22 +1,27 @@
 """Knots in one rope, pulled alike, and what each of them bears: one table, the strongest first."""
 import os
+import re
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import pandas as pd
 
 from knot_utm import tool
+from knot_utm.arguments import folder_of, jobs_of, method_of, settings_map, shown, whole
 from knot_utm.errors import WrongInput
 from knot_utm.groups import rod_of
 from knot_utm.study import Study
 from knot_utm.sweeping import Sweep
-from knot_utm.yaml_text import text_of, value_of
+from knot_utm.yaml_text import described, text_of, value_of
 
 METHOD = "knot"
 KNOT, MATERIAL = "specimen.knot", "material"
+# What says these keys, so that no setting may: an argument, and how the command line calls it.
+SAID_BY = {KNOT: ("knots", "KNOT"), MATERIAL: ("material", "--material"), tool.COUNT: ("specimens", "--specimens")}
 STILL_RISES = 0.98  # of the pull's extension: a largest load beyond it was none that the knot slipped at
 COLUMNS = {"knot": "-", "specimens": "-", "failed": "-", "broke": "-", "still_rose": "-", "slip_load": "N", "slip_load_error": "N", "break_load": "N",
            "break_load_error": "N", "efficiency": "of the strength without a knot", "efficiency_error": "of the strength without a knot",
-           "tail_slip": "h", "tail_slip_error": "h"}
+           "tail_slip": "h", "tail_slip_error": "h", "material": "-", "method": "-", "settings": "-"}
 
 
 def rank(knots, material, specimens=3, out=None, jobs=None, method=METHOD, settings=None):
@@ -24,21 +29,23 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method=METHOD, setti
     `.attrs["units"]`.
 
     `knots`: names of config/knots/, or paths of files. `material`: a name, or a map. `specimens`: of each knot, which differ as
-    tied ones do (specimens.scatter of the method). `out`: the folder of the runs, unless given out/rank; what is there is not run
-    again. `settings`: {key: value} of the method besides. Raises WrongInput where the method, a knot or a setting is refused.
+    tied ones do (specimens.scatter of the method). `out`: the folder of the runs, unless given out/rank/ and the name of the
+    material; what is there is not run again. `settings`: {key: value} of the method besides, which every row names, too. Raises
+    WrongInput where an argument, the method, a knot or a setting is refused.
 
     still_rose         specimens that did not break and bore most at the end of the pull: those may hold more
-    slip_load          largest load of the specimens that did not break, within the pull; not a number where all broke
+    slip_load          largest load, within the pull, of the specimens that did not break, whether or not they slipped; not a number
+                       where all broke
     break_load         that of those that broke; efficiency is their knot_efficiency, where the material's law of breaking predicts it
     tail_slip          the most that ran into the knot from a free end, in radii of the rod
     ..._error          standard errors of these means; not a number of fewer than two specimens
     """
-    out = os.path.abspath(out or os.path.join("out", "rank"))
-    sweep = Sweep(_study(knots, material, specimens, method, settings or {}), out)
-    table = sweep.all(jobs or len(os.sched_getaffinity(0)))
+    knots, about = _knots(knots), about_of(material, method, settings)
+    sweep = Sweep(_study(knots, material, specimens, method, settings_map(settings)), folder_of(out, usual_folder(material)))
+    table = sweep.all(jobs_of(jobs))
     pulled = value_of(tool.resolved(sweep.study.method, sweep.study.points[0]))
     _, radius = rod_of(pulled)
-    ranked = pd.DataFrame([_row(knot, table[table[KNOT] == _found(knot)], radius, _extension_of(pulled)) for knot in knots],
+    ranked = pd.DataFrame([about | _row(knot, table[table[KNOT] == _found(knot)], radius, _extension_of(pulled)) for knot in knots],
                           columns=list(COLUMNS))
     best = ranked[["slip_load", "break_load"]].max(axis=1)
     ranked = ranked.loc[best.sort_values(ascending=False).index].reset_index(drop=True)
@@ -46,18 +53,47 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method=METHOD, setti
     return ranked
 
 
+def usual_folder(material):
+    """One for each material: knots in another rope are another ranking."""
+    return os.path.join("out", "rank", re.sub(r"[^\w.-]+", "_", os.path.splitext(os.path.basename(_name(material)))[0]).lstrip("."))
+
+
+def about_of(material, method, settings):
+    """{column: text} of what is the same for all knots of a ranking."""
+    return {"material": _name(material), "method": method_of(method), "settings": described(settings_map(settings))}
+
+
+def _name(material):
+    """What a person calls it."""
+    if isinstance(material, Mapping):
+        return str(material.get("name", "own material"))
+    if not isinstance(material, (str, os.PathLike)) or not str(material):
+        raise WrongInput(f"material is {shown(material)}, but must be the name of a material, its file, or a dict of its values")
+    return str(material)
+
+
+def _knots(knots):
+    """A list of names and paths."""
+    listed = [] if isinstance(knots, (str, Mapping)) or not isinstance(knots, Iterable) else list(knots)
+    if not listed or not all(isinstance(knot, (str, os.PathLike)) and str(knot) for knot in listed) or len(set(map(str, listed))) < len(listed):
+        raise WrongInput(f"knots is {shown(knots)}, but must be a list of different knots: names or files")
+    return list(map(str, listed))
+
+
 def _study(knots, material, specimens, method, settings):
     """The study that these runs are."""
-    if len(set(knots)) < len(knots) or not knots:
-        raise WrongInput(f"knots is {text_of(list(knots))}, but must be a list of different knots")
-    if not isinstance(specimens, int) or specimens < 2:
-        raise WrongInput(f"specimens is {text_of(specimens)}, but must be at least 2: one start is no reading")
-    points = [{KNOT: _found(knot), MATERIAL: material, **settings} for knot in knots]
-    return Study("the ranking", tool.find_method(method, os.getcwd()), points, specimens, (), "list", {}, None)
+    whole("specimens", specimens, 2, ": one start is no reading")
+    for key in settings:
+        for said, (argument, option) in SAID_BY.items():
+            if said == key or said.startswith(key + "."):
+                raise WrongInput(f"{key} cannot be a setting of a ranking: {said} is told by {option} (in Python by {argument})")
+    points = [{KNOT: _found(knot), MATERIAL: dict(material) if isinstance(material, Mapping) else _found(str(material)), **settings}
+              for knot in knots]
+    return Study("the ranking", tool.find_method(method_of(method), os.getcwd()), points, int(specimens), (), "list", {}, None)
 
 
 def _found(knot):
-    """A knot's file as seen from here, where there is one; a method would look for it from its own folder."""
+    """The file of a knot or a material as seen from here, where there is one; a method would look for it from its own folder."""
     return os.path.abspath(knot) if os.path.isfile(knot) else knot
 
 

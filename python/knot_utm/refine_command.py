@@ -1,5 +1,4 @@
 """More runs of a study where its result changes from one word to another; scripts/refine has the words of its command line."""
-import argparse
 import os
 import sys
 
@@ -8,7 +7,7 @@ import yaml
 from scipy.stats import qmc
 
 from knot_utm import axes, pattern_plots, tool
-from knot_utm.command_line import exit_code_of
+from knot_utm.command_line import exit_code_of, WordsParser
 from knot_utm.errors import WrongInput
 from knot_utm.sweeping import Sweep
 from knot_utm.trends import Neighbours
@@ -67,7 +66,7 @@ def _as_study(sweep, numbers, chosen):
 
 
 def main(words):
-    parser = argparse.ArgumentParser(prog=PROGRAM, add_help=False)
+    parser = WordsParser(prog=PROGRAM)
     parser.add_argument("study")
     parser.add_argument("--out", required=True)
     parser.add_argument("--runs", type=int, required=True)

@@ -9,6 +9,7 @@ import tempfile
 import pandas as pd
 import yaml
 
+from knot_utm.arguments import make_folder
 from knot_utm.errors import WrongInput
 from knot_utm.groups import rod_of
 from knot_utm.yaml_text import load
@@ -46,10 +47,7 @@ class SweepFolder:
 
     @contextlib.contextmanager
     def _locked(self, kind):
-        try:
-            os.makedirs(self.runs, exist_ok=True)
-        except (FileExistsError, NotADirectoryError, PermissionError) as error:
-            raise WrongInput(f"cannot make the folder {error.filename}: {error.strerror.lower()}") from error
+        make_folder(self.runs)
         with open(os.path.join(self.path, ".lock"), "w", encoding="utf-8") as lock:
             try:
                 fcntl.flock(lock, kind | fcntl.LOCK_NB)

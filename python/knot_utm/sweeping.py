@@ -3,6 +3,7 @@ import os
 
 from knot_utm import mixed, tool
 from knot_utm.address import Addresses
+from knot_utm.arguments import folder_of, jobs_of, path_of
 from knot_utm.errors import WrongInput
 from knot_utm.plots import require_plottable, write_plots
 from knot_utm.study import Study, load_study
@@ -20,7 +21,7 @@ def sweep(study, out=None, jobs=None, plots=(), readings=None):
     time, unless given as many as there are cores. `plots`: keys of result.yaml, of each of which a picture is made. `readings`:
     "plateau" ends each test once its sliding force is known. Raises WrongInput where the study or one of its runs would be
     refused, before anything is written; Interrupted where it was cut short: the same call goes on."""
-    return Sweep(study, out, plots, readings).all(jobs or len(os.sched_getaffinity(0)))
+    return Sweep(study, out, plots, readings).all(jobs_of(jobs))
 
 
 class Sweep:
@@ -28,10 +29,10 @@ class Sweep:
 
     def __init__(self, study, out=None, plots=(), readings=None):
         require_plottable(plots)
-        self.study = study if isinstance(study, Study) else load_study(os.fspath(study))
+        self.study = study if isinstance(study, Study) else load_study(path_of("study", study, "the file of a study"))
         self.plots = plots
         self.readings = readings  # the word of tensile_test's --readings; None: all
-        self.folder = SweepFolder(os.path.abspath(out or os.path.join("out", self.study.name)))
+        self.folder = SweepFolder(folder_of(out, os.path.join("out", self.study.name)))
         addresses = Addresses(self.study.method)
         self.names = [addresses.of(settings) for settings in self.study.settings]
         self.runs = dict(zip(self.names, self.study.settings))

@@ -38,13 +38,24 @@ def load(path):
             return yaml.load(file, _Loader)
     except OSError as error:
         raise WrongInput(f"{path}: {error.strerror.lower()}") from error
-    except (yaml.YAMLError, UnicodeDecodeError, WrongInput) as error:
+    except UnicodeDecodeError as error:
+        raise WrongInput(f"{path}: {no_text(error)}") from error
+    except (yaml.YAMLError, WrongInput) as error:
         raise WrongInput(f"{path}: {' '.join(str(error).split())}") from error
+
+
+def no_text(error):
+    """What the UnicodeDecodeError of a whole file's reading says."""
+    line = error.object.count(b"\n", 0, error.start) + 1
+    return f"line {line}: the byte 0x{error.object[error.start]:02x} is no text in UTF-8"
 
 
 def text_of(value):
     """A value in one line, which reads back as the same value."""
-    text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
+    try:
+        text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
+    except yaml.representer.RepresenterError as error:
+        raise WrongInput(f"{' '.join(repr(value).split())} ({type(value).__name__}) cannot be the value of a key: give numbers, words, lists and dicts of Python") from error
     return text.removesuffix("\n").removesuffix("...").rstrip("\n")
 
 

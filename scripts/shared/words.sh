@@ -30,12 +30,12 @@ run_module() {
 }
 
 # Installs what is missing, with the packages of one kind (scripts/setup), and builds the targets named: prepare KIND [TARGET...].
-# Nothing where KNOT_UTM_SKIP_BUILD is set.
+# Nothing where KNOT_UTM_SKIP_BUILD is set. What both say goes to stderr: the output of the script is its own.
 prepare() {
   if [ -n "${KNOT_UTM_SKIP_BUILD:-}" ]; then return; fi
   declare -g "knot_utm_$1=1"
-  . "$root/scripts/setup"
-  if [ $# -gt 1 ]; then "$root/scripts/build" "${@:2}" || exit 1; fi
+  . "$root/scripts/setup" >&2
+  if [ $# -gt 1 ]; then "$root/scripts/build" "${@:2}" >&2 || exit 1; fi
 }
 
 # The files that changed against the last commit, one a line; where none did, those that the last commit changed.

@@ -10,7 +10,7 @@ import os
 import shlex
 import sys
 
-from knot_utm.report.commands import CannotReport, in_one_line, OneLineParser
+from knot_utm.report.commands import in_one_line, OneLineParser
 
 # The function that makes a page, by the file that tells what a folder holds. The first is the newest where it holds two:
 # `compare` takes no folder of a run, and tests take away what older tests and comparisons left.
@@ -28,16 +28,16 @@ def main():
     arguments = parser.parse_args()
     if not os.path.isdir(arguments.folder):
         parser.error(f"{arguments.folder}: no such folder")
+    maker = next((PAGES[name] for name in PAGES if os.path.exists(os.path.join(arguments.folder, name))), None)
+    if maker is None:
+        parser.error(f"{arguments.folder}: none of {', '.join(PAGES)} is there")
     command = arguments.command or "scripts/report " + shlex.quote(arguments.folder)
     with in_one_line("report"):
-        make(arguments.folder, command, arguments.version)
+        make(maker, arguments.folder, command, arguments.version)
     gc.freeze()  # nor does Python look for garbage as it ends
 
 
-def make(folder, command, version):
-    maker = next((PAGES[name] for name in PAGES if os.path.exists(os.path.join(folder, name))), None)
-    if maker is None:
-        raise CannotReport(f"{folder}: none of {', '.join(PAGES)} is there")
+def make(maker, folder, command, version):
     module, function = maker.split(".")
     html = getattr(importlib.import_module(f"knot_utm.report.{module}"), function)(folder, command, version)
     from knot_utm.report import page, typefaces

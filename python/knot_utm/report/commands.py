@@ -6,6 +6,7 @@ import importlib
 import os
 import stat
 import sys
+import tempfile
 
 from knot_utm.errors import WrongInput
 
@@ -49,10 +50,21 @@ def files_of(folder):
     return [os.path.join(folder, name) for name in os.listdir(folder)] if os.path.isdir(folder) else []
 
 
+def why_no_test(folder):
+    """A sentence on why a folder holds no test; None where it holds one."""
+    if not os.path.isdir(folder):
+        return f"{folder}: no such folder"
+    return None if os.path.exists(os.path.join(folder, "method.yaml")) else f"{folder}: no test is there (method.yaml)"
+
+
 def why_not(file, inputs, overwrite):
-    """A sentence on why the file must not be written; None where it may be. A link to an input is the input."""
+    """A sentence on why the file must not or cannot be written; None where it may be. A link to an input is the input."""
     if not os.path.lexists(file):
-        return None
+        try:
+            with tempfile.TemporaryFile(dir=os.path.dirname(file) or "."):
+                return None
+        except OSError as error:
+            return f"cannot write {file}: {error.strerror.lower()}"
     if os.path.exists(file):
         if any(os.path.exists(one) and os.path.samefile(file, one) for one in inputs):
             return f"{file} is an input, and would be written over: give another name"

@@ -7,7 +7,7 @@ import numpy as np
 from knot_utm.report.commands import CannotReport
 from knot_utm.report.curve_figures import small_loads
 from knot_utm.report.curves import few_points
-from knot_utm.report.method_facts import knot_of
+from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.page import files_of, render
 from knot_utm.report.quantities import all_in_units, is_number, number, percent, quantity_of, shown, Units, units_of
 from knot_utm.report.run import numbers, printable, read_columns, read_yaml, texts_of
@@ -180,6 +180,6 @@ def side_facts(run, units):
     """What a curve is from, and what its run warns of."""
     if run is None:
         return "This curve is a file of its own: no run of knot_utm stands beside it.", []
-    words = (f"This curve was simulated: {knot_of(run.method, run.folder)}, {run.method['material'].get('name', 'own material')}, "
+    words = (f"This curve was simulated: {knot_and_materials(run.method, run.folder)}, "
              f"knot_utm {run.result.get('version')}, ended by {run.result.get('ended_by')}.")
     return words, all_in_units(run.result.get("warnings") or [], units)

@@ -19,7 +19,7 @@ import xml.etree.ElementTree as xml
 import numpy as np
 
 from knot_utm.report.colours import colour_scales, names_known, node_values, UNITS
-from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_not
+from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
 from knot_utm.report.rod_pictures import UNKNOWN
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import lengths, pieces, series_of
@@ -45,8 +45,8 @@ def asked():
     found = parser.parse_args()
     if found.vtk is not None and (found.color or found.time is not None):
         parser.error("--color and --time belong to --gltf: the files of --vtk hold all values at all times")
-    if not os.path.isdir(found.folder):
-        parser.error(f"{found.folder}: no such folder")
+    if why := why_no_test(found.folder):
+        parser.error(why)
     if found.gltf is not None and not found.gltf.endswith(".glb"):
         parser.error(f"--gltf {found.gltf}: the name of the file must end with .glb")
     if found.gltf is not None and (why := why_not(found.gltf, files_of(found.folder), found.overwrite)):

@@ -88,6 +88,16 @@ def knot_of(method, folder=""):
     return TITLES.get(name) or str(drawing_of(method, folder).get("title") or name)
 
 
+def knot_and_materials(method, folder=""):
+    return f"{knot_of(method, folder)}, {materials_of(method)}"
+
+
+def materials_of(method):
+    """The name of its material; of two ropes those of both."""
+    names = [str(method[of].get("name", "own material")) for of in ("material", "other_material") if of in method]
+    return " and ".join(dict.fromkeys(names))
+
+
 def drawing_of(method, folder=""):
     """What the file of its knot says; {} where the program draws it, or the file is gone."""
     name = str(method["specimen"]["knot"])

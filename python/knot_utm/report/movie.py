@@ -16,10 +16,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from knot_utm.report.colours import colour_scales, UNITS
-from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_not
+from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
 from knot_utm.report.curve_figures import small_loads
 from knot_utm.report.curves import few_points
-from knot_utm.report.method_facts import knot_of
+from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.rod_pictures import draw_bar, draw_rollers, tubes_of, view
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import pieces, series_of
@@ -42,8 +42,8 @@ def asked():
     if len(found.runs) > 2:
         parser.error(f"{found.runs[2]}: two runs have room side by side")
     for folder in found.runs:
-        if not os.path.isdir(folder):
-            parser.error(f"{folder}: no such folder")
+        if why := why_no_test(folder):
+            parser.error(why)
     if not found.out.endswith(".mp4"):
         parser.error(f"--out {found.out}: the name of the file must end with .mp4")
     if why := why_not(found.out, [file for folder in found.runs for file in files_of(folder)], found.overwrite):
@@ -185,7 +185,7 @@ class OneTest:
         self.begin = float(self.tested["time"][0])
         self.extension = run.units.length.scale * self.tested["extension"]
         self.load = run.units.force.scale * self.tested["load"]
-        self.title = f"{knot_of(run.method, run.folder)}, {run.method['material'].get('name', 'own material')}"
+        self.title = knot_and_materials(run.method, run.folder)
         some = np.unique(np.linspace(0, len(self.shapes) - 1, VIEWS).astype(int))
         views = np.array([view(run, self.shapes[i], run.thickest()) for i in some])
         self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())

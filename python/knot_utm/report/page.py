@@ -12,7 +12,7 @@ from knot_utm.report.commands import CannotReport
 from knot_utm.report.curve_figures import course, force_extension
 from knot_utm.report.curves import error_band
 from knot_utm.report.marks import end_of, largest_load, marks_of, time_of_break
-from knot_utm.report.method_facts import knot_of, method_facts, particulars, program
+from knot_utm.report.method_facts import knot_and_materials, method_facts, particulars, program
 from knot_utm.report.quantities import all_in_units, error_shown, in_units, number, quantity_of, shown, with_unit
 from knot_utm.report.results_table import results_table, short_label
 from knot_utm.report.rod_pictures import pictures
@@ -61,16 +61,16 @@ def report_on_run(folder, command, version):
     checks = certificate(run.result, run.has_knot())
     asked = specification_checks(run.method, run.result, run.units)
     words, good = verdict(checks)
-    results, unmeasured = results_table(run, words_of_largest(largest))
+    results, unmeasured, untold = results_table(run, words_of_largest(largest))
     told = {key: in_units(run.result[key], run.units) for key in ("reason",) if run.result.get(key)}
     return render("run.html.j2", {
         **figures_of(run, marks), "marks": marks, "largest": largest, "run": run,
         "result": {**run.result, **told, "warnings": all_in_units(run.result.get("warnings") or [], run.units)},
-        "title": f"{knot_of(run.method, run.folder)}, {run.method['material'].get('name', 'own material')}",
+        "title": knot_and_materials(run.method, run.folder),
         "head": [*head_of(run.report), *particulars(run.report, run.method, run.value("gauge_length"), run.units)],
         "report": run.report, "logo": logo_of(run), "headlines": headlines(run, largest),
         "facts": method_facts(run.method, run.units, run.folder), "program": program(run.method, run.units),
-        "gave_up": run.result.get("ended_by") == "solver", "results": results, "unmeasured": unmeasured,
+        "gave_up": run.result.get("ended_by") == "solver", "results": results, "unmeasured": unmeasured, "untold": untold,
         "checks": checks, "verdict": words, "good": good,
         "asked": asked, "asked_verdict": specification_verdict(run.result, asked),
         "band": words_of_band(run), "floor": run.load_cell_floor(),

@@ -11,6 +11,7 @@ from matplotlib.colors import to_rgb
 
 from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, refuse, why_not
 from knot_utm.report.curve_figures import phases_of
+from knot_utm.report.method_facts import materials_of
 from knot_utm.report.rod_pictures import draw_rollers, Tubes
 from knot_utm.report.run import read_yaml, Run
 from knot_utm.report.shapes import final_shape, pieces, ropes, series_of
@@ -26,7 +27,7 @@ def facts_of_run(folder, command):
     """The texts of a picture of a run, by name."""
     result, method = (read_yaml(os.path.join(folder, name)) for name in ("result.yaml", "method.yaml"))
     readings = {key: "none" if result.get(key) is None else f"{result[key]:.6g} {unit}" for key, unit in READINGS.items()}
-    described = f"{method['specimen']['knot']}, {method['material'].get('name', 'own material')}"
+    described = f"{method['specimen']['knot']}, {materials_of(method)}"
     return {**readings, "version": str(result["version"]), "method": described, "command": command}
 
 

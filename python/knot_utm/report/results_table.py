@@ -63,7 +63,7 @@ def short_label(result, key, largest):
 
 
 def results_table(run, peak):
-    """Groups of rows, those with a label first, and the keys of which this test has no value."""
+    """Groups of rows, those with a label first; the keys of which this test has no value; and those with one that needs no words."""
     result, units = run.result, run.units
     labels, words = labels_of(result, peak), {key: "not predicted" for key in run.not_predicted()}
     placed = {*GROUPS[HEAD], *GROUPS[CERTIFICATE]}  # the page says them elsewhere
@@ -76,4 +76,6 @@ def results_table(run, peak):
     folded = {name for key in result for name in (key + "_error", "true_" + key) if has_value(result, key)}
     rest = [key for key in result if key not in placed and key not in folded]
     groups.append(Group("Further", [Row(result, key, units, None) for key in rest if has_value(result, key)]))
-    return [group for group in groups if group.rows], [key for key in rest if not has_value(result, key)]
+    none = [key for key in rest if not has_value(result, key)]
+    untold = [key for key in none if isinstance(result[key], str) and NOTHING.get(key) != result[key]]
+    return [group for group in groups if group.rows], [key for key in none if key not in untold], untold

@@ -10,6 +10,7 @@ import yaml
 from knot_utm import tool
 from knot_utm.report.commands import CannotReport
 from knot_utm.report.quantities import is_number, units_of, with_unit
+from knot_utm.yaml_text import no_text
 
 
 def phases(trait):
@@ -151,8 +152,10 @@ def read_text(file, errors="strict"):
     try:
         with open(file, encoding="utf-8", errors=errors, newline="") as text:
             return text.read()
-    except (OSError, UnicodeDecodeError) as why:
-        raise CannotReport(f"{file}: cannot be read: {getattr(why, 'strerror', None) or why}") from why
+    except UnicodeDecodeError as why:
+        raise CannotReport(f"{file}: {no_text(why)}") from why
+    except OSError as why:
+        raise CannotReport(f"{file}: cannot be read: {why.strerror or why}") from why
 
 
 def printable(text):

@@ -180,6 +180,7 @@ class Refused(unittest.TestCase):
         with open(out("full/a"), "w", encoding="utf-8"):
             pass
         for arguments, words in (([broken], "--vtk"), ([out("none"), "--vtk", out("x")], "none: no such folder"),
+                                 ([out("full"), "--vtk", out("x")], "full: no test is there"),
                                  ([broken, "--gltf", out("x.obj")], "must end with .glb"),
                                  ([broken, "--gltf", out("full/a.glb")], "exists already"),
                                  ([broken, "--gltf", out("link.glb"), "--overwrite"], "is an input"),

@@ -68,7 +68,7 @@ class Movie(unittest.TestCase):
         for arguments, code, words in (((without,), 1, "--shapes keeps them"), ((nylon, "--color", "twist"), 1, "--color twist"),
                                        ((), 2, "RUN"), ((nylon, "--out", "x.avi"), 2, ".mp4"), ((nylon, nylon, nylon), 2, "two"),
                                        ((nylon, "--rate", "0"), 2, "--rate 0"), ((nylon, "--seconds", "0"), 2, "--seconds"),
-                                       (("nowhere",), 2, "no such folder")):
+                                       (("nowhere",), 2, "no such folder"), ((folders.path,), 2, "no test is there")):
             if words == "--shapes keeps them" and os.path.exists(os.path.join(without, "test.bag")):
                 continue  # built with ROS: it has shapes
             done = movie(*arguments)

@@ -14,9 +14,11 @@ import numpy as np
 import yaml
 from matplotlib.figure import Figure
 
+from knot_utm import yaml_text
+from knot_utm.errors import WrongInput
 from knot_utm.report import certificate, curve_figures, page, quantities, turnable
 from knot_utm.report.commands import CannotReport
-from knot_utm.report.run import Run
+from knot_utm.report.run import read_yaml, Run
 from knot_utm.report.shapes import series_of
 
 
@@ -44,6 +46,28 @@ class PageOfARun(unittest.TestCase):
         cells = re.findall(r"<td[^>]*>([^<]*)</td>", html)
         self.assertFalse({"–", "None", "null", "nan", "not known"} & {cell.strip() for cell in cells})
         self.assertRegex(html, r"This test has no value of .*break_extension")
+
+    def test_says_of_nothing_that_has_a_text_that_it_has_no_value(self):
+        why = yaml.safe_load(read(straight, "result.yaml"))["no_plateau_because"]
+        self.assertTrue(why)
+        html = html_of(straight)
+        self.assertNotIn("no_plateau_because", re.search(r"This test has no value of .*", html)[0])
+        self.assertIn("no_plateau_because", keys_on(html))
+
+    def test_names_the_ropes_of_both_materials(self):
+        folder = folders.copy(straight)
+        method = yaml.safe_load(read(folder, "method.yaml"))
+        method["other_material"] = {**method["material"], "name": "another rope"}
+        write(yaml.safe_dump(method), folder, "method.yaml")
+        first = method["material"]["name"]
+        self.assertIn(f", {first}</h1>", html_of(straight))
+        self.assertIn(f", {first} and another rope</h1>", html_of(folder))
+
+    def test_speaks_of_the_band_alone_where_only_the_error_of_the_peak_is_known(self):
+        html = html_of(folders.with_report(fisherman, peak_force_error=1.5, plateau_force_error=None, lock_extension_error=None,
+                                           locked_stiffness_error=None))
+        self.assertIn("No band of numerical error is drawn: it is made of the errors of the plateau, the lock and the stiffness", html)
+        self.assertNotIn("No convergence study", html)
 
     def test_the_line_of_rigid_sliding_is_that_of_the_grips(self):
         for grips, slope in (("rollers", -2.0), ("nodes", -1.0)):
@@ -249,7 +273,7 @@ class Failures(unittest.TestCase):
         return done.stderr
 
     def test_a_folder_without_a_result(self):
-        self.assertIn("none of result.yaml, comparison.yaml, statistics.yaml, fit.yaml is there", self.one_line(script(folders.path), 1))
+        self.assertIn("none of result.yaml, comparison.yaml, statistics.yaml, fit.yaml is there", self.one_line(script(folders.path), 2))
         self.assertFalse(os.path.exists(os.path.join(folders.path, "report.html")))
 
     def test_no_folder(self):
@@ -268,6 +292,15 @@ class Failures(unittest.TestCase):
                 write(text, folder, name)
             with self.assertRaisesRegex(CannotReport, name):
                 html_of(folder)
+
+    def test_a_file_that_is_no_text(self):
+        folder = folders.copy(straight)
+        file = os.path.join(folder, "knot.yaml")
+        with open(file, "wb") as out:
+            out.write(b"source: mine\ntitle: caf\xe9\n")
+        for reader, refusal in ((read_yaml, CannotReport), (yaml_text.load, WrongInput)):
+            with self.assertRaisesRegex(refusal, "knot.yaml: line 2: the byte 0xe9 is no text in UTF-8$"):
+                reader(file)
 
     def test_a_package_that_is_not_there_is_named(self):
         for module, package in (("matplotlib", "python3-matplotlib"), ("weasyprint", "weasyprint"),

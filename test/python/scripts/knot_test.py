@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from knot_utm.knot_drawing import drawn_through, radius_of, through
+from knot_utm.knot_drawing import drawn_through, segments_apart, through, tightest
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../scripts/knot")
 
@@ -94,12 +94,41 @@ class Import(unittest.TestCase):
         self.refused("it holds 9 curves, but a knot may have at most 8 ropes", "a.csv", "x,y,z,rope\n" + nine)
         self.refused("no strand comes near another one", "a.csv", rows(np.arange(30.0)[:, None] * [0.0, 0.0, 1.0], ","))
 
+    def test_a_curve_that_crosses_itself_is_refused_by_its_rows(self):
+        self.refused("a.txt: row 5 and row 63: there it comes nearer to itself than 1/313 of its size", "a.txt", rows(trefoil() * [1.0, 1.0, 0.0]))
+        self.refused("a.csv: row 2 and row 4: there it comes nearer to itself", "a.csv", "x,y,z\n0,0,0\n0,0,1\n0.001,0,0\n0.5,0.5,0.5\n")
+        flat = "VECT 1 200 0 -200 0\n" + rows(trefoil(200) * [1.0, 1.0, 0.0])
+        self.refused("a.vect: point 10 and point 126: there", "a.vect", flat)
+        many = np.random.default_rng(1).random((20000, 3))
+        self.refused("there it comes nearer to itself", "a.txt", rows(many))
+
+    def test_what_is_no_file_of_that_size_is_refused(self):
+        self.refused("a.txt: it has 17,000,000 bytes, but may have at most 16,000,000", "a.txt", "1 2 3 4\n" * 2125000)
+        for shape in ("/dev/zero", "."):
+            done = subprocess.run([SCRIPT, "import", shape, "--out", "knot.yaml"], check=False, text=True, cwd=self.folder.name,
+                                  env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1"}, stdin=subprocess.DEVNULL, capture_output=True)
+            self.assertEqual((done.returncode, done.stderr),
+                             (2, f"knot: {shape}: it is a folder, a device or a pipe, but must be a file of text\n"))
+
+    def test_a_folder_that_cannot_be_written_to_is_refused(self):
+        for out in ("/proc/knot.yaml", "/dev/null/knot.yaml", "not_there/knot.yaml"):
+            self.refused(f"--out: cannot write {out}: no", "a.txt", rows(trefoil()), "--out", out)
+
 
 class Shape(unittest.TestCase):
+    def test_the_distance_of_two_segments_is_the_least_of_their_points(self):
+        p, u, q, v = np.random.default_rng(2).normal(size=(4, 50, 3))
+        at = np.linspace(0.0, 1.0, 201)
+        points = [start[:, None] + at[:, None] * way[:, None] for start, way in ((p, u), (q, v))]
+        sampled = np.array([np.linalg.norm(one[:, None] - other, axis=2).min() for one, other in zip(*points)])
+        found = segments_apart(p, u, q, v)
+        spacing = (np.linalg.norm(u, axis=1) + np.linalg.norm(v, axis=1)) / 400.0  # half of the samples'
+        self.assertTrue((found <= sampled + 1e-12).all() and (sampled <= found + spacing).all())
+
     def test_the_radius_is_that_of_strands_that_nearly_touch(self):
         far = np.linspace(-50.0, 50.0, 400)
         crossed = [np.column_stack([far, 0 * far, 0 * far]), np.column_stack([0 * far, far, 0 * far + 4.4])]
-        self.assertAlmostEqual(radius_of(crossed, False), 2.0, delta=0.1)
+        self.assertAlmostEqual(tightest(crossed, False)[0], 2.0, delta=0.1)
 
     def test_few_points_draw_the_same_curve(self):
         t = np.linspace(0.0, 4.0 * np.pi, 400)

@@ -70,6 +70,12 @@ class Help(unittest.TestCase):
             self.assertEqual(said.returncode, 2, f"{name}: {said.stdout}{said.stderr}")
             self.assertTrue(said.stderr.strip(), name)
 
+    def test_wrong_words_are_refused_in_a_line_that_says_where_all_are_told(self):
+        for name in ("fit", "knot", "rank", "refine", "sweep"):
+            for words in ((), ("--nonsense", "x")):
+                said = run(os.path.join(ROOT, "scripts", name), *words, env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1"})
+                self.assertRegex(said.stderr, rf"^{name}: .* \(\S*scripts/{name} --help\)\n$")
+
 
 class Setup(unittest.TestCase):
     # Instead of what would change the machine.
@@ -157,6 +163,29 @@ class BuildFolder(unittest.TestCase):
         for name in SCRIPTS:
             for folder in re.findall(r'cmake -S "\$root" -B ("[^"]*")', text("scripts", name)):
                 self.assertIn(f"forget_moved {folder} \"$root\"", text("scripts", name), name)
+
+
+class Output(unittest.TestCase):
+    def test_of_a_script_has_nothing_of_what_was_installed_and_built(self):
+        """A table may be sent into a file."""
+        prepared = {name: found[1] for name in SCRIPTS
+                    if (found := re.search(r"^prepare .*\nrun_module ([\w.]+)", text("scripts", name), re.MULTILINE))}
+        self.assertLessEqual({"fit", "knot", "movie", "rank", "refine", "sweep"}, set(prepared))
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(os.path.join(ROOT, "scripts"), os.path.join(folder, "scripts"))
+            for file, content in (("scripts/setup", "echo installed\n"), ("scripts/build", "#!/bin/bash\necho built $*\n")):
+                with open(os.path.join(folder, file), "w", encoding="utf-8") as out:
+                    out.write(content)
+            for module in prepared.values():
+                file = os.path.join(folder, "python/knot_utm", module.replace(".", "/") + ".py")
+                os.makedirs(os.path.dirname(file), exist_ok=True)
+                with open(file, "w", encoding="utf-8") as out:
+                    out.write("print('the table')\n")
+            for name in prepared:
+                said = run(os.path.join(folder, "scripts", name), "word",
+                           env={key: value for key, value in os.environ.items() if key != "KNOT_UTM_SKIP_BUILD"})
+                self.assertEqual((said.returncode, said.stdout), (0, "the table\n"), name)
+                self.assertTrue(said.stderr.startswith("installed\n"), name)
 
 
 class Commands(unittest.TestCase):

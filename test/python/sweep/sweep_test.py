@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 """scripts/sweep on small studies: what its table holds, what it does when it is cut short, and what it refuses. Skipped, with
 exit code 77, where a module is not installed."""
+import contextlib
 import csv
+import errno
+import io
 import json
 import os
 import re
@@ -17,6 +20,7 @@ import numpy as np
 import pandas as pd
 
 import knot_utm
+from knot_utm import command_line
 from knot_utm.address import Addresses
 from knot_utm.plots import figure
 from knot_utm.yaml_text import load
@@ -212,6 +216,14 @@ class CutShort(Sweeps):
             self.assertEqual(len(rows(self.table(out))), 6)
             for name in ("held", "never"):
                 os.remove(self.path(name))
+
+    def test_by_what_will_not_change_is_not_said_to_go_on(self):
+        for code, said in ((errno.ENOSPC, "a: no space left on device; the same command goes on: again"), (errno.EISDIR, "a: is a directory")):
+            def fail(code=code):
+                raise OSError(code, os.strerror(code), "a")
+            with contextlib.redirect_stderr(io.StringIO()) as told:
+                self.assertEqual(command_line.exit_code_of("scripts/sweep", fail, "again"), 1)
+            self.assertEqual(told.getvalue(), f"sweep: {said}\n")
 
     def test_by_a_full_disk_goes_on_when_there_is_room(self):
         self.sweep("out", "--jobs", "1")
