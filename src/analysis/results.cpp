@@ -113,8 +113,9 @@ LastCycles last_cycles(const std::vector<Sample>& samples) {
   if (steps.empty()) return {};
   const Stretch& step = steps.back();
   const Sample origin = origin_at(samples[step.begin], samples[step.begin - 1]);
-  Path path = {{origin.extension, origin.force_upper}};
-  for (std::size_t i = step.begin; i < step.end; ++i) path.push_back({samples[i].extension, samples[i].force_upper});
+  const auto point = [](const Sample& at) { return PathPoint{at.extension, at.force_upper, at.displacement}; };
+  Path path = {point(origin)};
+  for (std::size_t i = step.begin; i < step.end; ++i) path.push_back(point(samples[i]));
   return {step.begin - 1, closed_cycles(path)};
 }
 
