@@ -159,6 +159,34 @@ TEST(Results, AnOverhandThatInvertsSnaps) {
   EXPECT_FALSE(pulled(0.1, 0.3).snap_extension) << "what was stored before the pull is a drawn shape's";
 }
 
+/// A specimen that is loaded, unloaded or held, and loaded again: it has bedded in or relaxed meanwhile, and goes on
+/// further with a lower load and less energy than the first loading ended with.
+TEST(Results, ASofterSecondLoadingDoesNotSnap) {
+  for (const bool held : {false, true}) {
+    std::vector<Sample> samples;
+    double work = 0.0;
+    const auto move = [&](Phase phase, double from, double to, double stiffness) {
+      constexpr int kSteps = 100;
+      for (int i = 1; i <= kSteps; ++i) {
+        Sample sample;
+        sample.phase = phase;
+        sample.time = 0.1 * static_cast<double>(samples.size());
+        sample.extension = sample.displacement = from + (to - from) * i / kSteps;
+        sample.force_upper = sample.force_lower = sample.load = stiffness * sample.extension;
+        work += sample.force_upper * (to - from) / kSteps;
+        sample.grip_work = work;
+        sample.bending_energy = 0.5 * stiffness * sample.extension * sample.extension;
+        samples.push_back(sample);
+      }
+    };
+    move(Phase::kCycle, 0.0, 0.1, 1000.0);
+    if (held) move(Phase::kHold, 0.1, 0.1, 800.0);
+    if (!held) move(Phase::kCycle, 0.1, 0.01, 800.0);
+    move(Phase::kCycle, held ? 0.1 : 0.01, 0.12, 800.0);
+    EXPECT_FALSE(on_rollers(samples, EndedBy::kExtension).snap_extension) << held;
+  }
+}
+
 /// As behind a jump: what is pulled is not the knot that was tied.
 TEST(Results, AKnotThatOpenedAsTheLoopWasMountedHasNoReadings) {
   std::vector<Sample> samples = Curve().samples();
