@@ -58,7 +58,7 @@ class RunWriter {
   void add(const Record& record);
   RunFacts facts() const;
   Results results(EndedBy ended_by) const {
-    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value(), hung_);
+    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value(), hung_, program_steps_);
   }
   /// Writes result.yaml, and the files of shapes.
   void finish(const Results& results, RunFacts facts, const Points& final_shape);
@@ -73,6 +73,7 @@ class RunWriter {
   std::vector<int> cuts_;  // edges between one rope and the next
   RunFacts known_;
   std::vector<Sample> samples_;              // all accepted time steps; the last one of a command is its answer
+  std::vector<int> program_steps_;           // the step of the program of each of them
   std::vector<Sample> readings_;             // readings of the load cell: the rows of curve.csv
   double weight_per_length_ = 0.0;           // weight of the rod per length [N/m]
   double length_ = 0.0;                      // length of all ropes in the last known shape [m]
@@ -134,6 +135,7 @@ void RunWriter::add(const Record& record) {
     if (!samples_.empty() && step.time <= samples_.back().time) continue;
     full_curve_.write(step);
     samples_.push_back(step);
+    program_steps_.push_back(record.command.step);
   }
   if (sample.status == BenchStatus::kFailed) return;
   const bool mounted = sample.phase != Phase::kIdle && !forms(sample.phase);
@@ -148,6 +150,7 @@ void RunWriter::add(const Record& record) {
   }
   if (samples_.empty() || sample.time > samples_.back().time) {
     samples_.push_back(sample);
+    program_steps_.push_back(record.command.step);
   } else {
     samples_.back() = sample;
   }

@@ -323,6 +323,24 @@ TEST(Results, AHoldAtALoadIsNoRelaxation) {
   EXPECT_NEAR(on_rollers(samples, EndedBy::kProgram).relaxation->lost(), -2.0, 1e-12);
 }
 
+/// Of one phase, in samples that follow each other: the program tells where one hold ends and the next begins.
+TEST(Results, TwoStepsInARowAreTwo) {
+  const std::vector<Sample> held = {reading(Phase::kPull, 0.0, 0.0),     reading(Phase::kPull, 0.01, 100.0),
+                                    reading(Phase::kHold, 0.015, 150.0), reading(Phase::kHold, 0.02, 200.0),
+                                    reading(Phase::kHold, 0.02, 180.0),  reading(Phase::kHold, 0.02, 170.0),
+                                    reading(Phase::kHold, 0.02, 165.0)};
+  const auto relaxed = [&](const std::vector<int>& steps) {
+    return analyse(held, held, EndedBy::kProgram, false, 0.0, steps).relaxation;
+  };
+  EXPECT_FALSE(relaxed({0, 0, 1, 1, 1, 1, 1})) << "a load was held";
+  EXPECT_EQ(relaxed({0, 0, 1, 1, 2, 2, 2})->from, 200.0) << "and then the crosshead";
+  EXPECT_EQ(relaxed({0, 0, 1, 1, 2, 2, 3})->from, 170.0);
+  std::vector<Sample> cycled;
+  for (const double s : {0.0, 0.01, 0.0, 0.01, 0.0, 0.02, 0.0}) cycled.push_back(reading(Phase::kCycle, s, s));
+  EXPECT_EQ(analyse(cycled, cycled, EndedBy::kProgram, false, 0.0, {-1, 0, 0, 0, 0, 1, 1}).cycles, 1u);
+  EXPECT_EQ(analyse(cycled, cycled, EndedBy::kProgram, false).cycles, 3u);
+}
+
 TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {
   std::vector<Sample> samples = Curve().samples();
   samples.front().phase = Phase::kHold;

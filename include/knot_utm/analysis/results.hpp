@@ -160,8 +160,9 @@ struct Results {
 
 /// Evaluates a whole test. `samples` are all accepted time steps, and `readings` those of them that the load cell read.
 /// Readings after a break do not count. `on_rollers`: rollers hold the loop, not two of its nodes. `hung`: weight that
-/// hangs on the rod [N].
+/// hangs on the rod [N]. `steps`: the step of the program of each sample, which tells two holds in a row apart; empty:
+/// phases tell where a step ends.
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
-                bool on_rollers, double hung = 0.0);
+                bool on_rollers, double hung = 0.0, const std::vector<int>& steps = {});
 
 }  // namespace knot_utm
