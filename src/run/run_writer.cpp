@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "knot_utm/contact/sampled_centreline.hpp"
+#include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/number.hpp"
@@ -108,7 +109,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
     known_.warnings.push_back(
         "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "
         "forces");
-  if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
+  if (method.specimen.to_be_tied && tied_by_preload(method.specimen))
+    known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.free_ends = drawn.free.size();
   hung_ = hung_weight(method.specimen, method.material);
   known_.foreseen = foreseen_warnings(method);
