@@ -303,11 +303,19 @@ class Course {
       results_.tension_at_peak_torque = sample.force_upper;
       results_.span_at_peak_torque = sample.end_to_end;
     }
+    if (!recoils) add_thrust(sample);
     if (forms(sample.phase)) tied_ = &sample;
     if (pulls(sample.phase))
       add_pull(sample, recoils);
     else if (!pull_begin_)
       before_pull_ = &sample;
+  }
+
+  /// Of a rod that has buckled the bends store nearly all.
+  void add_thrust(const Sample& sample) {
+    if (-sample.force_upper <= results_.largest_thrust || sample.bending_energy > sample.stretching_energy) return;
+    results_.largest_thrust = -sample.force_upper;
+    results_.span_at_largest_thrust = sample.end_to_end;
   }
 
   /// Whether the crosshead puts a load on the specimen. In a hold it moves only where a load is kept.

@@ -98,6 +98,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
     known_.dead_load += load.force.norm();
   const KnotDescription& knot = knot_of(method.specimen).about();
   known_.strands = bearing_strands(method.specimen);
+  const double half_waves = method.machine.grips == GripKind::kClamps ? 2.0 : 1.0;
+  if (knot.straight) known_.buckling_factor = std::pow(half_waves * M_PI, 2.0);
   known_.may_hold_a_knot = knot.may_hold_a_knot();
   known_.follows_type = !knot.may_hold_a_knot() || type_is_followed(method.specimen);
   if (method.specimen.drawing)

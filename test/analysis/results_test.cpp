@@ -323,6 +323,22 @@ TEST(Results, AHoldAtALoadIsNoRelaxation) {
   EXPECT_NEAR(on_rollers(samples, EndedBy::kProgram).relaxation->lost(), -2.0, 1e-12);
 }
 
+/// The bends of a rod that has buckled store more than its compression does.
+TEST(Results, TheLargestThrustIsThatOfARodThatIsStillStraight) {
+  std::vector<Sample> samples;
+  for (const double force : {5.0, -3.0, -8.0, -2.0}) {
+    samples.push_back(reading(Phase::kReturn, 0.0, force));
+    samples.back().stretching_energy = 1e-3;
+    samples.back().end_to_end = 0.25 + 1e-3 * force;
+  }
+  samples[2].bending_energy = 2e-3;
+  Results results = on_rollers(samples, EndedBy::kProgram);
+  EXPECT_EQ(results.largest_thrust, 3.0);
+  EXPECT_EQ(results.span_at_largest_thrust, samples[1].end_to_end);
+  samples[2].bending_energy = 0.0;
+  EXPECT_EQ(on_rollers(samples, EndedBy::kProgram).largest_thrust, 8.0);
+}
+
 /// Of one phase, in samples that follow each other: the program tells where one hold ends and the next begins.
 TEST(Results, TwoStepsInARowAreTwo) {
   const std::vector<Sample> held = {reading(Phase::kPull, 0.0, 0.0),     reading(Phase::kPull, 0.01, 100.0),

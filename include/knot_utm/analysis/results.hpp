@@ -122,6 +122,9 @@ struct Results {
   double tension_at_peak_torque = 0.0;  ///< [N]
   double span_at_peak_torque = 0.0;     ///< between the grips [m]
 
+  double largest_thrust = 0.0;          ///< on the upper grip, of a rod that is compressed more than bent [N]
+  double span_at_largest_thrust = 0.0;  ///< between the grips [m]
+
   double max_penetration = 0.0;  ///< largest overlap of the whole test [fraction of radius]
   /// largest difference of the forces on the two grips in the pull, over the peak force [-]
   std::optional<double> force_balance_error;
