@@ -6,7 +6,6 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kTurn = 0.1;    // of the path's range of s
 constexpr double kClosed = 0.1;  // of the cycle's range
 
 double range_of(const Path& path, std::size_t begin, std::size_t end, double PathPoint::*of) {
@@ -20,23 +19,16 @@ double range_of(const Path& path, std::size_t begin, std::size_t end, double Pat
 
 /// Beginning and end of the path among them.
 std::vector<std::size_t> turning_points(const Path& path) {
-  const double least = kTurn * range_of(path, 0, path.size() - 1, &PathPoint::extension);
-  const auto way = [&](std::size_t from, std::size_t to) { return path[to].extension - path[from].extension; };
-  std::vector<std::size_t> turns = {0};
-  std::size_t farthest = 0;  // on the way from the last turn
+  std::vector<std::size_t> turns;
+  double before = 0.0;  // the last way of the crosshead
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const double gone = way(turns.back(), farthest), back = way(i, farthest);
-    const bool out = gone > 0.0;
-    if (std::abs(gone) < least) {  // not yet on the way
-      if (std::abs(way(turns.back(), i)) > std::abs(gone)) farthest = i;
-    } else if (out ? back <= 0.0 : back >= 0.0) {
-      farthest = i;
-    } else if (std::abs(back) >= least) {
-      turns.push_back(farthest);
-      farthest = i;
-    }
+    const double way = path[i].crosshead - path[i - 1].crosshead;
+    if (way == 0.0) continue;  // it may stand where it turns
+    if (turns.empty()) turns.push_back(0);
+    if (way * before < 0.0) turns.push_back(i - 1);
+    before = way > 0.0 ? 1.0 : -1.0;
   }
-  if (farthest != turns.back()) turns.push_back(farthest);
+  if (!turns.empty()) turns.push_back(path.size() - 1);
   return turns;
 }
 
@@ -57,7 +49,6 @@ double enclosed(const Path& path, std::size_t begin, std::size_t end) {
 
 std::vector<Cycle> closed_cycles(const Path& path) {
   std::vector<Cycle> cycles;
-  if (path.empty()) return cycles;
   const std::vector<std::size_t> turns = turning_points(path);
   for (std::size_t i = 0; i + 2 < turns.size(); ++i) {
     const std::size_t begin = turns[i], end = turns[i + 2];

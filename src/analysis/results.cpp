@@ -71,18 +71,19 @@ void read_pull(const Pull& pull, Results& results) {
   results.tangent_stiffness = tangent_stiffness(pull);
 }
 
-/// From the first sample of a phase to the one behind its last.
+/// From the first sample of a step of the program to the one behind its last.
 struct Stretch {
   std::size_t begin, end;
 };
 
-/// In order, those that have a sample before them; each to where the rod parts: its recoil says nothing.
-std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase) {
+/// In order, those of this phase that have a sample before them; each to where the rod parts: its recoil says nothing.
+std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase, const std::vector<int>& steps) {
   std::vector<Stretch> out;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     if (samples[i - 1].status == BenchStatus::kBroken) break;
     if (samples[i].phase != phase) continue;
-    if (out.empty() || out.back().end != i) out.push_back({i, i});
+    const bool begins = !steps.empty() && steps[i] != steps[i - 1];
+    if (out.empty() || out.back().end != i || begins) out.push_back({i, i});
     out.back().end = i + 1;
   }
   return out;
@@ -90,9 +91,9 @@ std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase) 
 
 /// The relaxation in the last hold at a place that is out, with a load on the grip. Where a load is held the crosshead
 /// moves, and a drawn shape that settles bears no load.
-std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples) {
+std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples, const std::vector<int>& steps) {
   std::optional<Relaxation> last;
-  for (const Stretch& hold : stretches(samples, Phase::kHold)) {
+  for (const Stretch& hold : stretches(samples, Phase::kHold, steps)) {
     const Sample &before = samples[hold.begin - 1], &end = samples[hold.end - 1];
     bool stands = true;
     for (std::size_t i = hold.begin; i < hold.end; ++i) stands &= samples[i].displacement == before.displacement;
@@ -108,13 +109,14 @@ struct LastCycles {
   std::vector<Cycle> closed;
 };
 
-LastCycles last_cycles(const std::vector<Sample>& samples) {
-  const std::vector<Stretch> steps = stretches(samples, Phase::kCycle);
-  if (steps.empty()) return {};
-  const Stretch& step = steps.back();
+LastCycles last_cycles(const std::vector<Sample>& samples, const std::vector<int>& steps) {
+  const std::vector<Stretch> cycling = stretches(samples, Phase::kCycle, steps);
+  if (cycling.empty()) return {};
+  const Stretch& step = cycling.back();
   const Sample origin = origin_at(samples[step.begin], samples[step.begin - 1]);
-  Path path = {{origin.extension, origin.force_upper}};
-  for (std::size_t i = step.begin; i < step.end; ++i) path.push_back({samples[i].extension, samples[i].force_upper});
+  const auto point = [](const Sample& at) { return PathPoint{at.extension, at.force_upper, at.displacement}; };
+  Path path = {point(origin)};
+  for (std::size_t i = step.begin; i < step.end; ++i) path.push_back(point(samples[i]));
   return {step.begin - 1, closed_cycles(path)};
 }
 
@@ -301,11 +303,19 @@ class Course {
       results_.tension_at_peak_torque = sample.force_upper;
       results_.span_at_peak_torque = sample.end_to_end;
     }
+    if (!recoils) add_thrust(sample);
     if (forms(sample.phase)) tied_ = &sample;
     if (pulls(sample.phase))
       add_pull(sample, recoils);
     else if (!pull_begin_)
       before_pull_ = &sample;
+  }
+
+  /// Of a rod that has buckled the bends store nearly all.
+  void add_thrust(const Sample& sample) {
+    if (-sample.force_upper <= results_.largest_thrust || sample.bending_energy > sample.stretching_energy) return;
+    results_.largest_thrust = -sample.force_upper;
+    results_.span_at_largest_thrust = sample.end_to_end;
   }
 
   /// Whether the crosshead puts a load on the specimen. In a hold it moves only where a load is kept.
@@ -380,9 +390,9 @@ void read_end(const Sample& last, Results& results) {
   results.final_excess_length = last.excess_length;
 }
 
-void read_holds_and_cycles(const std::vector<Sample>& samples, Results& results) {
-  results.relaxation = last_relaxation(samples);
-  const LastCycles cycles = last_cycles(samples);
+void read_holds_and_cycles(const std::vector<Sample>& samples, const std::vector<int>& steps, Results& results) {
+  results.relaxation = last_relaxation(samples, steps);
+  const LastCycles cycles = last_cycles(samples, steps);
   results.cycles = cycles.closed.size();
   if (cycles.closed.empty()) return;
   results.hysteresis = cycles.closed.back().hysteresis;
@@ -467,7 +477,7 @@ void forget_rest_of_pull(Results& results) {
 }  // namespace
 
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
-                bool on_rollers, double hung) {
+                bool on_rollers, double hung, const std::vector<int>& steps) {
   Results results;
   results.ended_by = ended_by;
   if (samples.empty()) return results;
@@ -482,7 +492,7 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   course.read_balances();
   results.at_start = forces_at_start(samples);
   read_gauge_length(course, results);
-  read_holds_and_cycles(samples, results);
+  read_holds_and_cycles(samples, steps, results);
   read_whole_pull(course, results);
   if (ended_by == EndedBy::kPlateau) forget_rest_of_pull(results);
   return results;

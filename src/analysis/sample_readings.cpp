@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "knot_utm/record/sample.hpp"
 
@@ -66,13 +67,22 @@ struct Moment {
   double extension, force, stored, work;
 };
 
-/// Those of a pull that reach a new largest extension, up to a break.
-std::vector<Moment> pulled(const std::vector<Sample>& samples) {
-  std::vector<Moment> out;
+/// Those of pulls that reach a new largest extension, up to a break, apart for each motion outwards: where the
+/// crosshead went back or stood in between, a load that is lower fell there.
+std::vector<std::vector<Moment>> pulled(const std::vector<Sample>& samples) {
+  std::vector<std::vector<Moment>> out;
+  double furthest = -std::numeric_limits<double>::infinity();
+  bool goes_on = false;
+  const Sample* before = nullptr;
   for (const Sample& sample : samples) {
     if (sample.status == BenchStatus::kBroken) break;
-    if (!pulls(sample.phase) || !(out.empty() || sample.extension > out.back().extension)) continue;
-    out.push_back({sample.extension, sample.force_upper, stored_energy(sample), sample.grip_work});
+    const bool outwards = pulls(sample.phase) && !(before && sample.displacement < before->displacement);
+    before = &sample;
+    if (!outwards) goes_on = false;
+    if (!outwards || !(sample.extension > furthest)) continue;
+    furthest = sample.extension;
+    if (!std::exchange(goes_on, true)) out.emplace_back();
+    out.back().push_back({furthest, sample.force_upper, stored_energy(sample), sample.grip_work});
   }
   return out;
 }
@@ -81,6 +91,19 @@ bool snaps(const Moment& start, const Moment& before, const Moment& after) {
   const double given_up = before.stored - after.stored;
   return after.force <= kLeft * before.force && given_up >= kGivenUp * before.stored &&
          after.work - before.work <= kPutIn * given_up && after.stored >= start.stored;
+}
+
+void keep_larger_snap(const std::vector<Moment>& pull, std::optional<Snap>& out) {
+  for (std::size_t i = 0; i < pull.size(); ++i) {
+    const Moment& before = pull[i];
+    if (!(before.force > 0.0)) continue;
+    // No more can be given up than what is above the energy at the start.
+    const double most = kPutIn * (before.stored - pull.front().stored);
+    for (std::size_t j = i + 1; j < pull.size() && pull[j].work - before.work <= most; ++j) {
+      const double drop = before.force - pull[j].force;
+      if (!(out && drop <= out->drop) && snaps(pull.front(), before, pull[j])) out = Snap{before.extension, drop};
+    }
+  }
 }
 
 // The start is this fraction of the whole extension, by choice: a wave that the pull begins with has crossed the
@@ -110,17 +133,7 @@ RateShares rate_shares(const std::vector<Sample>& samples, std::optional<double>
 
 std::optional<Snap> snap(const std::vector<Sample>& samples) {
   std::optional<Snap> out;
-  const std::vector<Moment> pull = pulled(samples);
-  for (std::size_t i = 0; i < pull.size(); ++i) {
-    const Moment& before = pull[i];
-    if (!(before.force > 0.0)) continue;
-    // No more can be given up than what is above the energy at the start.
-    const double most = kPutIn * (before.stored - pull.front().stored);
-    for (std::size_t j = i + 1; j < pull.size() && pull[j].work - before.work <= most; ++j) {
-      const double drop = before.force - pull[j].force;
-      if (!(out && drop <= out->drop) && snaps(pull.front(), before, pull[j])) out = Snap{before.extension, drop};
-    }
-  }
+  for (const std::vector<Moment>& pull : pulled(samples)) keep_larger_snap(pull, out);
   return out;
 }
 

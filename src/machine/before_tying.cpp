@@ -12,6 +12,7 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
@@ -101,6 +102,12 @@ std::string mesh_warning(double edge, const Material& material) {
 
 }  // namespace
 
+bool tied_by_preload(const SpecimenOptions& specimen) { return !specimen.drawing || !specimen.drawing->tie.empty(); }
+
+bool preload_acts(const SpecimenOptions& specimen) {
+  return tied_by_preload(specimen) || !specimen.drawing->weights.empty();
+}
+
 double closing_preload(const Material& material) {
   return std::exp(M_PI * material.friction_coefficient) * bending_force(material) / (2.0 * kClosed * kClosed);
 }
@@ -130,6 +137,7 @@ void check_stretch(double preload, const Material& material, const std::string& 
 }  // namespace
 
 void check_tying(const SpecimenOptions& specimen, const Material& material) {
+  if (!tied_by_preload(specimen)) return;
   const double preload = tying_load(specimen, material), least = least_preload(specimen, material);
   if (preload < least)
     throw InvalidInput("specimen.preload", short_number(preload),
@@ -148,22 +156,33 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
             " N: it strains the outermost fibre by " + short_number(exposed) + " times what parts it");
 }
 
-std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const Material& material,
-                                        const PhysicsOptions& physics) {
-  std::vector<std::string> all;
-  const double h = material.radius;
+namespace {
+
+void add_preload_warnings(const SpecimenOptions& specimen, const Material& material, double stretch,
+                          std::vector<std::string>& all) {
   const double preload = tying_load(specimen, material), closing = closing_preload(material);
   if (preload < closing)
     all.push_back("a pre-load of " + short_number(preload) + " N leaves the coils open, at a radius of about " +
-                  short_number(std::min(coil_radius(material, preload) / h, drawn_coil(specimen))) +
+                  short_number(std::min(coil_radius(material, preload) / material.radius, drawn_coil(specimen))) +
                   " radii of the rod: they close at " + short_number(closing) + " N");
-  const double stretch = strain_under(material, preload);
   const std::string automatic = automatic_warning(preload, stretch, material);
   if (!automatic.empty())
     all.push_back(automatic);
   else if (stretch > kMostStretch)
     all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " + short_number(1.0 + stretch) +
                   " times its length");
+}
+
+}  // namespace
+
+std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const Material& material,
+                                        const PhysicsOptions& physics) {
+  std::vector<std::string> all;
+  double stretch = 0.0;
+  if (tied_by_preload(specimen)) {
+    stretch = strain_under(material, tying_load(specimen, material));
+    add_preload_warnings(specimen, material, stretch, all);
+  }
   const double edge = specimen.edge_length / tolerances(physics, specimen, material).refinement;
   for (const std::string& found : {strain_warning(stretch, material), mesh_warning(edge, material)})
     if (!found.empty()) all.push_back(found);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "config_library.hpp"
+#include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/numeric/known_names.hpp"
@@ -278,7 +279,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
       change_other(method.material, [&](Material& o) { o.friction_couple = method.material.friction_couple; });
     drop_overruled_keys(parse_yaml(text, file), overrides, method);
     const Material& material = method.material;
-    if (!method.specimen.preload && knot_of(method.specimen).has("preload")) {
+    if (!method.specimen.preload && knot_of(method.specimen).has("preload") && preload_acts(method.specimen)) {
       method.specimen.preload = default_preload(material);
       noted.emplace_back("specimen.preload");
     }

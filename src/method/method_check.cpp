@@ -142,6 +142,9 @@ void check_keys_of_knot(const SpecimenOptions& specimen) {
 void check_effects(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   check_keys_of_knot(s);
+  const double automatic = default_preload(m.material);
+  has_effect(preload_acts(s), "specimen.preload", s.preload.value_or(automatic), automatic,
+             "on a knot whose file says by which ends it is tied (tie) or what hangs on it (weights)");
 
   const MachineOptions& machine = m.machine;
   const MachineOptions bare;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
@@ -93,7 +94,7 @@ std::vector<Scatter> default_scatter(const Method& method) {
     add("specimen.end_to_end", kByRuler);
   }
   if (has_step<TieStep>(method.program)) {
-    add("specimen.preload", kByMachine);
+    if (preload_acts(method.specimen)) add("specimen.preload", kByMachine);
     add("program.tie.speed", kByHand);
   }
   const auto add_strength = [&](const Material& material, const std::string& section) {

@@ -97,7 +97,8 @@ std::vector<CurveRow> read_course(const std::string& file, const RawOptions& opt
   const auto begin = first == rows.begin() ? first : first - 1;
   if (begin != first && balanced_between(*begin, *first))
     begin->extension = begin->crosshead_travel = 0.0;  // zero is where it stood
-  const auto end = std::find_if(rows.rbegin(), rows.rend(), pulled).base();
+  const auto behind = std::find_if(rows.rbegin(), rows.rend(), pulled).base();
+  auto end = rows.end();
   for (auto row = begin; row != end; ++row) {
     const std::string reading = "reading " + std::to_string(row - rows.begin() + 1);
     if (!std::isfinite(row->time) || !std::isfinite(row->extension))
@@ -108,11 +109,17 @@ std::vector<CurveRow> read_course(const std::string& file, const RawOptions& opt
                                    "time goes back at " + reading + ", from " + format_number((row - 1)->time) +
                                        " s to " + format_number(row->time) + " s")
           .in_file(file);
-    if (row->phase == Phase::kBalance || (row - 1 != begin && balanced_between(*(row - 1), *row)))
+    if (row->phase != Phase::kBalance && (row - 1 == begin || !balanced_between(*(row - 1), *row))) continue;
+    if (row < behind)
       throw InvalidInput::sentence(reading, "a balance",
                                    "the test was balanced at " + reading +
                                        ", between its pulls; a record that is followed must keep one zero of extension")
           .in_file(file);
+    if (tell)
+      tell(file + ": followed to reading " + std::to_string(row - rows.begin()) +
+           ", behind which the test was balanced");
+    end = row;
+    break;
   }
   return {begin, end};
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "knot_utm/contact/sampled_centreline.hpp"
+#include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/number.hpp"
@@ -58,7 +59,7 @@ class RunWriter {
   void add(const Record& record);
   RunFacts facts() const;
   Results results(EndedBy ended_by) const {
-    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value(), hung_);
+    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value(), hung_, program_steps_);
   }
   /// Writes result.yaml, and the files of shapes.
   void finish(const Results& results, RunFacts facts, const Points& final_shape);
@@ -73,6 +74,7 @@ class RunWriter {
   std::vector<int> cuts_;  // edges between one rope and the next
   RunFacts known_;
   std::vector<Sample> samples_;              // all accepted time steps; the last one of a command is its answer
+  std::vector<int> program_steps_;           // the step of the program of each of them
   std::vector<Sample> readings_;             // readings of the load cell: the rows of curve.csv
   double weight_per_length_ = 0.0;           // weight of the rod per length [N/m]
   double length_ = 0.0;                      // length of all ropes in the last known shape [m]
@@ -96,6 +98,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
     known_.dead_load += load.force.norm();
   const KnotDescription& knot = knot_of(method.specimen).about();
   known_.strands = bearing_strands(method.specimen);
+  const double half_waves = method.machine.grips == GripKind::kClamps ? 2.0 : 1.0;
+  if (knot.straight) known_.buckling_factor = std::pow(half_waves * M_PI, 2.0);
   known_.may_hold_a_knot = knot.may_hold_a_knot();
   known_.follows_type = !knot.may_hold_a_knot() || type_is_followed(method.specimen);
   if (method.specimen.drawing)
@@ -107,7 +111,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
     known_.warnings.push_back(
         "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "
         "forces");
-  if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
+  if (method.specimen.to_be_tied && tied_by_preload(method.specimen))
+    known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.free_ends = drawn.free.size();
   hung_ = hung_weight(method.specimen, method.material);
   known_.foreseen = foreseen_warnings(method);
@@ -134,6 +139,7 @@ void RunWriter::add(const Record& record) {
     if (!samples_.empty() && step.time <= samples_.back().time) continue;
     full_curve_.write(step);
     samples_.push_back(step);
+    program_steps_.push_back(record.command.step);
   }
   if (sample.status == BenchStatus::kFailed) return;
   const bool mounted = sample.phase != Phase::kIdle && !forms(sample.phase);
@@ -148,6 +154,7 @@ void RunWriter::add(const Record& record) {
   }
   if (samples_.empty() || sample.time > samples_.back().time) {
     samples_.push_back(sample);
+    program_steps_.push_back(record.command.step);
   } else {
     samples_.back() = sample;
   }

@@ -282,7 +282,7 @@ std::string what_keeps_a_knot(const Method& method) {
   std::vector<std::string> remedies{longer_tail(method)};
   if (rolls) {
     if (const std::optional<double> moment = material.bending.value("friction_moment")) {
-      remedies.push_back(higher_preload(method));
+      if (tied_by_preload(method.specimen)) remedies.push_back(higher_preload(method));
       remedies.push_back("a larger material.friction_moment (now " + short_number(*moment) + ")");
     } else if (!remembers_bends(material)) {
       remedies.emplace_back("material.bending_law: frictional, if it is a rope,");
@@ -290,7 +290,7 @@ std::string what_keeps_a_knot(const Method& method) {
     }
     remedies.push_back("a larger material.rolling_resistance (now " + short_number(material.rolling_resistance) + ")");
   } else {
-    if (method.specimen.to_be_tied) remedies.push_back(higher_preload(method));
+    if (method.specimen.to_be_tied && tied_by_preload(method.specimen)) remedies.push_back(higher_preload(method));
     remedies.push_back("a higher material.friction_coefficient (now " + short_number(material.friction_coefficient) +
                        ")");
     remedies.push_back(knot_of(method.specimen).what_keeps_it());

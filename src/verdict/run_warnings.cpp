@@ -177,6 +177,21 @@ class Warnings {
           " N m on under its tension; time steps as long as these may keep it straight");
   }
 
+  /// A straight strand of the length L buckles at Euler's load, 4 pi^2 k_b/L^2 between clamps and pi^2 k_b/L^2 between
+  /// ends that may turn. It is drawn without a bend from which that could grow, and implicit steps that are longer than
+  /// it takes to grow damp it.
+  void of_thrust() {
+    constexpr double kAtRest = 1e-3;  // of the largest force: what rest leaves
+    const double thrust = results_.largest_thrust, span = results_.span_at_largest_thrust;
+    if (!(facts_.buckling_factor > 0.0) || !(thrust > kAtRest * results_.true_peak_force.value_or(0.0))) return;
+    const double least = facts_.buckling_factor * facts_.material.bending_stiffness / (span * span);
+    if (thrust > least)
+      say("the strand bore a thrust of " + short_number(thrust) + " N, but a straight one buckles at " +
+          short_number(least) +
+          " N (Euler's load): it was kept straight by nothing but its perfect shape; draw it slightly bent "
+          "(specimen.knot: file) and compress it from there");
+  }
+
   /// Elastic energy of stretchy strands or of a compliant frame that was released suddenly, although no knot jumped
   /// open. Where strands slide over sharp bends, each node that passes one lets go a little.
   void of_snaps() {
@@ -256,6 +271,7 @@ std::vector<std::string> printed_warnings(const Results& results, const RunFacts
   found.of_a_loose_knot();
   found.of_gravity();
   found.of_twist();
+  found.of_thrust();
   found.of_speed();
   found.of_snaps();
   found.say(facts.warnings);

@@ -20,7 +20,7 @@ class Cycled {
     Sample sample;
     sample.time = static_cast<double>(samples.size());
     sample.phase = phase;
-    sample.extension = extension;
+    sample.extension = sample.displacement = extension;
     sample.end_to_end = kGauge + extension;
     sample.force_upper = sample.force_lower = sample.load = kSpring * (extension - left);
     samples.push_back(sample);

@@ -159,6 +159,34 @@ TEST(Results, AnOverhandThatInvertsSnaps) {
   EXPECT_FALSE(pulled(0.1, 0.3).snap_extension) << "what was stored before the pull is a drawn shape's";
 }
 
+/// A specimen that is loaded, unloaded or held, and loaded again: it has bedded in or relaxed meanwhile, and goes on
+/// further with a lower load and less energy than the first loading ended with.
+TEST(Results, ASofterSecondLoadingDoesNotSnap) {
+  for (const bool held : {false, true}) {
+    std::vector<Sample> samples;
+    double work = 0.0;
+    const auto move = [&](Phase phase, double from, double to, double stiffness) {
+      constexpr int kSteps = 100;
+      for (int i = 1; i <= kSteps; ++i) {
+        Sample sample;
+        sample.phase = phase;
+        sample.time = 0.1 * static_cast<double>(samples.size());
+        sample.extension = sample.displacement = from + (to - from) * i / kSteps;
+        sample.force_upper = sample.force_lower = sample.load = stiffness * sample.extension;
+        work += sample.force_upper * (to - from) / kSteps;
+        sample.grip_work = work;
+        sample.bending_energy = 0.5 * stiffness * sample.extension * sample.extension;
+        samples.push_back(sample);
+      }
+    };
+    move(Phase::kCycle, 0.0, 0.1, 1000.0);
+    if (held) move(Phase::kHold, 0.1, 0.1, 800.0);
+    if (!held) move(Phase::kCycle, 0.1, 0.01, 800.0);
+    move(Phase::kCycle, held ? 0.1 : 0.01, 0.12, 800.0);
+    EXPECT_FALSE(on_rollers(samples, EndedBy::kExtension).snap_extension) << held;
+  }
+}
+
 /// As behind a jump: what is pulled is not the knot that was tied.
 TEST(Results, AKnotThatOpenedAsTheLoopWasMountedHasNoReadings) {
   std::vector<Sample> samples = Curve().samples();
@@ -293,6 +321,40 @@ TEST(Results, AHoldAtALoadIsNoRelaxation) {
   EXPECT_FALSE(on_rollers(samples, EndedBy::kProgram).relaxation);
   samples[3].displacement = samples[2].displacement;
   EXPECT_NEAR(on_rollers(samples, EndedBy::kProgram).relaxation->lost(), -2.0, 1e-12);
+}
+
+/// The bends of a rod that has buckled store more than its compression does.
+TEST(Results, TheLargestThrustIsThatOfARodThatIsStillStraight) {
+  std::vector<Sample> samples;
+  for (const double force : {5.0, -3.0, -8.0, -2.0}) {
+    samples.push_back(reading(Phase::kReturn, 0.0, force));
+    samples.back().stretching_energy = 1e-3;
+    samples.back().end_to_end = 0.25 + 1e-3 * force;
+  }
+  samples[2].bending_energy = 2e-3;
+  Results results = on_rollers(samples, EndedBy::kProgram);
+  EXPECT_EQ(results.largest_thrust, 3.0);
+  EXPECT_EQ(results.span_at_largest_thrust, samples[1].end_to_end);
+  samples[2].bending_energy = 0.0;
+  EXPECT_EQ(on_rollers(samples, EndedBy::kProgram).largest_thrust, 8.0);
+}
+
+/// Of one phase, in samples that follow each other: the program tells where one hold ends and the next begins.
+TEST(Results, TwoStepsInARowAreTwo) {
+  const std::vector<Sample> held = {reading(Phase::kPull, 0.0, 0.0),     reading(Phase::kPull, 0.01, 100.0),
+                                    reading(Phase::kHold, 0.015, 150.0), reading(Phase::kHold, 0.02, 200.0),
+                                    reading(Phase::kHold, 0.02, 180.0),  reading(Phase::kHold, 0.02, 170.0),
+                                    reading(Phase::kHold, 0.02, 165.0)};
+  const auto relaxed = [&](const std::vector<int>& steps) {
+    return analyse(held, held, EndedBy::kProgram, false, 0.0, steps).relaxation;
+  };
+  EXPECT_FALSE(relaxed({0, 0, 1, 1, 1, 1, 1})) << "a load was held";
+  EXPECT_EQ(relaxed({0, 0, 1, 1, 2, 2, 2})->from, 200.0) << "and then the crosshead";
+  EXPECT_EQ(relaxed({0, 0, 1, 1, 2, 2, 3})->from, 170.0);
+  std::vector<Sample> cycled;
+  for (const double s : {0.0, 0.01, 0.0, 0.01, 0.0, 0.02, 0.0}) cycled.push_back(reading(Phase::kCycle, s, s));
+  EXPECT_EQ(analyse(cycled, cycled, EndedBy::kProgram, false, 0.0, {-1, 0, 0, 0, 0, 1, 1}).cycles, 1u);
+  EXPECT_EQ(analyse(cycled, cycled, EndedBy::kProgram, false).cycles, 3u);
 }
 
 TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {

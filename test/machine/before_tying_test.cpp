@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
@@ -72,6 +74,23 @@ TEST(BeforeTying, APreloadThatLeavesTheCoilsOpenIsAWarning) {
   loop.specimen.preload = 0.5 * closing_preload(loop.material);
   EXPECT_EQ(loop.refused(), "");
   EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("leaves the coils open, at a radius of about 2.83 radii")));
+}
+
+/// A figure-eight has no free end: a pre-load can be neither too large nor too small where nothing is pulled with it.
+TEST(BeforeTying, NothingIsSaidOfThePreloadOfAKnotThatNothingTies) {
+  Loop loop;
+  KnotDrawing drawing;
+  loop.specimen.preload = 1e-3 * closing_preload(loop.material);
+  for (const bool pulled : {true, false}) {
+    drawing.tie.assign(pulled ? 1 : 0, {{"tail", 1.0}});
+    loop.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
+    EXPECT_EQ(loop.refused(), pulled ? "specimen.preload" : "");
+    EXPECT_EQ(loop.warnings().empty(), !pulled);
+    EXPECT_EQ(preload_acts(loop.specimen), pulled);
+  }
+  drawing.weights = {{"tail", 0.1}};
+  loop.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
+  EXPECT_TRUE(preload_acts(loop.specimen));
 }
 
 TEST(BeforeTying, APreloadThatMovesNoCoilIsRefused) {

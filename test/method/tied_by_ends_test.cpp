@@ -9,10 +9,13 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 namespace {
@@ -114,6 +117,22 @@ TEST(TiedByEnds, AnEndOfTheUpperGripSlipsAtItsPartAndIsHeldWhereItIsOnceItIsLetG
   EXPECT_GT(bench.last.force_upper, 0.0);
 }
 
+/// As the automatic value it may stand there, as in the method.yaml of an earlier run.
+TEST(TiedByEnds, APreloadOfAKnotThatNothingTiesIsRefused) {
+  const Method method = knot_method("figure_eight");
+  EXPECT_FALSE(method.specimen.preload);
+  for (const Scatter& scatter : method.specimens.scatter) EXPECT_NE(scatter.key, "specimen.preload");
+  EXPECT_NO_THROW(knot_method("figure_eight", {"specimen.preload=" + format_number(default_preload(method.material))}));
+  try {
+    knot_method("figure_eight", {"specimen.preload=7"});
+    ADD_FAILURE() << "it has no effect";
+  } catch (const InvalidInput& invalid) {
+    EXPECT_NE(std::string(invalid.what()).find("specimen.preload is 7, but has an effect only on a knot whose file"),
+              std::string::npos);
+  }
+  EXPECT_EQ(knot_method("overhand_stopper", {"specimen.preload=7"}).specimen.preload, 7.0);
+}
+
 /// A figure-eight, which has no free end, is tightened by its upper end. Without a release the machine's grip takes
 /// over the load, on a frame that gives as on one that does not.
 TEST(TiedByEnds, AKnotWithoutAFreeEndMayBeTightenedByItsUpperEndWhichTheGripThenHolds) {
@@ -125,7 +144,7 @@ TEST(TiedByEnds, AKnotWithoutAFreeEndMayBeTightenedByItsUpperEndWhichTheGripThen
     method.program.erase(method.program.begin() + 1);
     Bench bench(method);
     bench.run_past(Phase::kTie);
-    const double preload = *method.specimen.preload;
+    const double preload = tying_load(method.specimen, method.material);
     EXPECT_NEAR(bench.last.force_upper, preload, 3e-3 * preload) << stiffness;
     EXPECT_NEAR(bench.last.force_lower, preload, 3e-3 * preload) << stiffness;
     bench.last = bench.machine.respond(bench.program.last());

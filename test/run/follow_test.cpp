@@ -92,6 +92,32 @@ TEST_F(Follow, TheWholeWayOfTheRecordIsGone) {
   }
 }
 
+/// What comes behind the last pull belongs to the record, too.
+TEST_F(Follow, TheRecordIsFollowedToItsEnd) {
+  ASSERT_EQ(
+      test("[{pull: {until: {extension: 0.003}}}, {return: {extension: 0.001}}, {hold: {duration: 5}}]", "source").code,
+      0);
+  const Answer answer = test("[{follow: {record: " + in("source") + "}}]", "followed");
+  ASSERT_EQ(answer.code, 0) << answer.text;
+  std::ifstream source(in("source/curve.csv")), followed(in("followed/curve.csv"));
+  const CurveRow last = read_curve(source, "source").back(), same = read_curve(followed, "followed").back();
+  EXPECT_EQ(last.phase, Phase::kHold);
+  EXPECT_NEAR(same.time, last.time, 1.0 / 3.0);
+  EXPECT_NEAR(same.extension, 0.001, 0.0033 / 6.0);
+}
+
+TEST_F(Follow, ABalanceBehindTheLastPullEndsTheRecordAndIsTold) {
+  const std::string file = in("record.csv");
+  std::ofstream(file) << "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n"
+                         "0,0,0,nan,0.25,0,idle\n1,0.001,1,nan,0.251,1,pull\n2,0.0005,0.5,nan,0.2505,0.5,return\n"
+                         "3,0,0,nan,0.2505,0,balance\n4,0,0,nan,0.2505,0,hold\n";
+  std::vector<std::string> told;
+  const std::vector<CurveRow> rows = read_course(file, {}, [&](const std::string& line) { told.push_back(line); });
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows.back().phase, Phase::kReturn);
+  EXPECT_THAT(told, testing::ElementsAre(HasSubstr("followed to reading 3, behind which the test was balanced")));
+}
+
 /// Cells are balanced with the first command of the pull behind a pre-load: there the reading before is at zero.
 TEST_F(Follow, APreloadThatBalancesIsTheOrigin) {
   ASSERT_EQ(test("[{preload: {load: 100}}, {pull: {until: {extension: 0.002}}}]", "source").code, 0);
@@ -174,7 +200,8 @@ TEST_F(Follow, ARecordOfCompressionHasNoPeak) {
   for (const char* key : {"peak_force", "true_peak_force", "energy_to_peak"})
     EXPECT_THAT(result, HasSubstr("\n" + std::string(key) + ": null  # the specimen was never in tension\n"));
   EXPECT_THAT(result, HasSubstr("\nno_plateau_because: \"the specimen was never in tension\"\n"));
-  EXPECT_THAT(result, HasSubstr("\nwarnings: []\n"));
+  EXPECT_THAT(result, HasSubstr("\nwarnings: [\"the strand bore a thrust of "));
+  EXPECT_THAT(result, HasSubstr("but a straight one buckles at "));
 }
 
 /// The folder of a run stands for its curve.

@@ -158,6 +158,12 @@ TEST_F(RunFolder, HoldsTheVerdictOnItsSpecification) {
   EXPECT_EQ(failed["specification_failed"][0].as<std::string>(), "untangled_at has no value in this test");
 }
 
+TEST_F(RunFolder, AHoldBehindOneAtALoadHasARelaxation) {
+  run(load_method(kConfig + "straight.yaml", {"program=[{preload: {load: 5}}, {hold: {duration: 3, control: load, "
+                                              "load: 50}}, {hold: {duration: 3}}]"}));
+  EXPECT_FALSE(result()["relaxation"].IsNull());
+}
+
 TEST_F(RunFolder, ARunThatGaveUpKeepsWhatItHadAndTheReason) {
   FakeBench bench;
   bench.fail_time = 8.0;

@@ -493,6 +493,24 @@ TEST_F(Warnings, TellOfATorqueAtWhichAStrandWrithes) {
   EXPECT_THAT(printed(), Not(Contains(HasSubstr("writhe"))));
 }
 
+/// Euler's load of a clamped strand of 2 pi mm is k_b/(1 mm)^2, here 4 N.
+TEST_F(Warnings, TellOfAThrustAtWhichAStrandBuckles) {
+  facts.material.bending_stiffness = 4e-6;
+  facts.buckling_factor = 4.0 * M_PI * M_PI;
+  results.span_at_largest_thrust = 2e-3 * M_PI;
+  results.largest_thrust = 3.9;
+  EXPECT_THAT(printed(), Not(Contains(HasSubstr("buckles"))));
+  results.largest_thrust = 880.8;
+  EXPECT_THAT(
+      printed(),
+      Contains(HasSubstr("the strand bore a thrust of 881 N, but a straight one buckles at 4 N (Euler's load)")));
+  results.true_peak_force = 1e6;
+  EXPECT_THAT(printed(), Not(Contains(HasSubstr("buckles")))) << "what rest leaves";
+  results.true_peak_force = 10.0;
+  facts.buckling_factor = 0.0;
+  EXPECT_THAT(printed(), Not(Contains(HasSubstr("buckles")))) << "a knot may be pressed together";
+}
+
 /// A free loop of the radius R bears 2 T R^2 = k_b: at 0.05 k_b/h^2 it is 3.16 h. At rest its hole tells.
 TEST_F(Warnings, TellOfAnOverhandThatWasNotPulledTight) {
   results.motion_pattern = MotionPattern::kNone;

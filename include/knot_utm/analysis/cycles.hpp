@@ -7,8 +7,9 @@ namespace knot_utm {
 
 /// One reading of a specimen that is loaded and unloaded.
 struct PathPoint {
-  double extension;  ///< s [m]
-  double force;      ///< F [N]
+  double extension;        ///< s [m]
+  double force;            ///< F [N]
+  double crosshead = 0.0;  ///< its displacement [m]
 };
 using Path = std::vector<PathPoint>;
 
@@ -24,9 +25,10 @@ struct Cycle {
 
 /// The closed cycles of a path, in order.
 ///
-/// A turning point is a point at which s is largest or smallest before it goes back by at least a tenth of the path's
-/// whole range of s. Smaller reversals count as noise. The first and the last point of the path are turning points,
-/// too. A cycle goes from a turning point at which s begins to grow to the next such point.
+/// A turning point is a point at which the crosshead turns. In a step that cycles it does so at the ends of the cycles
+/// alone, however small they are beside the way on which the step first took up slack. The first and the last point of
+/// the path are turning points, too. A cycle goes from a turning point at which s begins to grow to the next such
+/// point.
 ///
 /// Cycles that begin or end with the path may be incomplete: the first may be the approach to the first turning point,
 /// and the last may be cut off. They count only if s or F returns to within a tenth of its range in the cycle.

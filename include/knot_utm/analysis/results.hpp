@@ -122,6 +122,9 @@ struct Results {
   double tension_at_peak_torque = 0.0;  ///< [N]
   double span_at_peak_torque = 0.0;     ///< between the grips [m]
 
+  double largest_thrust = 0.0;          ///< on the upper grip, of a rod that is compressed more than bent [N]
+  double span_at_largest_thrust = 0.0;  ///< between the grips [m]
+
   double max_penetration = 0.0;  ///< largest overlap of the whole test [fraction of radius]
   /// largest difference of the forces on the two grips in the pull, over the peak force [-]
   std::optional<double> force_balance_error;
@@ -160,8 +163,9 @@ struct Results {
 
 /// Evaluates a whole test. `samples` are all accepted time steps, and `readings` those of them that the load cell read.
 /// Readings after a break do not count. `on_rollers`: rollers hold the loop, not two of its nodes. `hung`: weight that
-/// hangs on the rod [N].
+/// hangs on the rod [N]. `steps`: the step of the program of each sample, which tells two holds in a row apart; empty:
+/// phases tell where a step ends.
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
-                bool on_rollers, double hung = 0.0);
+                bool on_rollers, double hung = 0.0, const std::vector<int>& steps = {});
 
 }  // namespace knot_utm

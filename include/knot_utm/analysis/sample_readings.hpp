@@ -39,7 +39,7 @@ struct Snap {
 
 /// The snap of the largest fall of the true force F in a pull; empty where nothing snapped. `samples`: all time steps.
 ///
-/// Between two time steps of a snap
+/// Between two time steps of a snap, on one way of the crosshead outwards and both at a new largest s,
 ///   - F falls by a tenth or more;
 ///   - the rod gives up at least a fiftieth of its stored energy, and twice as much as the grips put in meanwhile;
 ///   - it still stores as much as when the pull began, so that what it gives up is what the pull had stored. A shape

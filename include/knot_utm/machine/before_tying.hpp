@@ -30,6 +30,12 @@ struct Material;
 /// Strain. The outermost fibre of a bend of radius R is strained by h/R in addition to the F_p/k_s of the tension: h/R
 /// is 1/4.7 in the drawn coil and up to 1/2 in one that lies on the strands in it.
 
+/// Whether a pre-load ties the knot. A knot's file may have nothing pulled: then the drawn shape only settles.
+bool tied_by_preload(const SpecimenOptions& specimen);
+
+/// Whether the pre-load has an effect: on what ties the knot, or on what hangs on it.
+bool preload_acts(const SpecimenOptions& specimen);
+
 /// Least F_p that closes the coils [N].
 double closing_preload(const Material& material);
 

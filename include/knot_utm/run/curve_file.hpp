@@ -19,9 +19,10 @@ std::vector<CurveRow> read_curve_file(const std::string& file, const RawOptions&
                                       const Tell& tell = nullptr);
 
 /// Reads the readings of a test whose crosshead motion another test follows. They begin with the reading before the
-/// first that pulls (pulls(phase)) and end with the last that pulls, with all phases in between. Throws InvalidInput as
-/// read_curve_file does. It also throws, naming file and reading, where a number is not finite, a time is smaller than
-/// the one before, or a balance in between makes two zeros of extension.
+/// first that pulls (pulls(phase)) and end with the record, or where it was balanced behind the last that pulls, which
+/// `tell` receives. Throws InvalidInput as read_curve_file does. It also throws, naming file and reading, where a
+/// number is not finite, a time is smaller than the one before, or a balance before the last that pulls makes two zeros
+/// of extension.
 std::vector<CurveRow> read_course(const std::string& file, const RawOptions& options = {}, const Tell& tell = nullptr);
 
 }  // namespace knot_utm

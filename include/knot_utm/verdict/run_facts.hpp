@@ -40,6 +40,7 @@ struct RunFacts {
   double slid_along = 0.0;            ///< largest motion of a loop on rollers along their axes [m]
   Material material;                  ///< material of the rod
   int strands = 1;                    ///< number of strands that bear the load: two of a loop
+  double buckling_factor = 0.0;       ///< Euler's load of a straight specimen times L^2/k_b [-]; 0: it is none
   bool may_hold_a_knot = false;       ///< as the specimen is made
   bool follows_type = true;           ///< of its knot
   bool one_knot_in_a_strand = false;  ///< one knot, and the specimen is no loop
