@@ -3,12 +3,12 @@
 #include <unicode/ustring.h>
 #include <yaml-cpp/depthguard.h>
 
+#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <system_error>
-#include <vector>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 
@@ -49,6 +49,29 @@ int line_of_other_encoding(const std::string& text) {
   return 0;
 }
 
+/// Whether a document follows the first one, of which alone YAML::Load would tell. (LoadAll never ends on some faulty
+/// texts.) A line that begins with --- or ... is a mark between documents wherever it stands.
+bool holds_another_document(const std::string& text) {
+  std::istringstream lines(text);
+  bool begun = false, ended = false;
+  for (std::string line; std::getline(lines, line);) {
+    const auto marks = [&](const char* mark) {
+      return line.rfind(mark, 0) == 0 && (line.size() == 3 || std::isspace(static_cast<unsigned char>(line[3])) != 0);
+    };
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (marks("...")) {
+      ended = begun;
+    } else if (marks("---")) {
+      if (begun) return true;
+      begun = true;
+    } else if (first != std::string::npos && line[first] != '#' && line[0] != '%') {
+      if (ended) return true;
+      begun = true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string yaml_fault(const YAML::Exception& fault) {
@@ -82,14 +105,12 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
     throw InvalidInput::sentence("file", file,
                                  "line " + std::to_string(line) + ": a letter is not in UTF-8; save the file as UTF-8")
         .in_file(file);
+  if (holds_another_document(text))
+    throw InvalidInput::sentence("file", file,
+                                 "the file holds several YAML documents, but must be one: take away its lines \"---\"")
+        .in_file(file);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1)
-      throw InvalidInput::sentence("file", file,
-                                   "the file holds " + std::to_string(documents.size()) +
-                                       " YAML documents, but must be one: take away its lines \"---\"")
-          .in_file(file);
-    return documents.empty() ? YAML::Node() : documents.front();
+    return YAML::Load(text);
   } catch (const YAML::ParserException& parser) {
     const std::string place =
         "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);

@@ -373,8 +373,11 @@ TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
   EXPECT_THAT(complaint(write("broken.yaml", "specimen:\n  knot: [\nmaterial: x")),
               AllOf(HasSubstr("broken.yaml: line "), HasSubstr("a list begins with \"[\" and has no \"]\""),
                     Not(HasSubstr("\n"))));
-  EXPECT_THAT(complaint(write("two.yaml", "specimen: {knot: straight}\n---\nmaterial: nylon\n")),
-              HasSubstr("two.yaml: the file holds 2 YAML documents, but must be one"));
+  for (const char* two : {"a: 1\n---\nb: 2\n", "---\na: 1\n--- # more\n", "a: 1\n...\nb: 2\n"})
+    EXPECT_THAT(complaint(write("two.yaml", two)),
+                HasSubstr("two.yaml: the file holds several YAML documents, but must be one"));
+  for (const char* one : {"# first\n---\nspeciment: {}\n...\n# last\n", "%YAML 1.2\n---\nspeciment: {}\n"})
+    EXPECT_THAT(complaint(write("one.yaml", one)), HasSubstr("speciment"));
   EXPECT_THAT(complaint(write("latin.yaml", "specimen: {knot: straight}\n# n\xE9ud\n")),
               HasSubstr("latin.yaml: line 2: a letter is not in UTF-8; save the file as UTF-8"));
   EXPECT_THAT(complaint(write("tab.yaml", "specimen:\n\tknot: overhand\n")),
