@@ -141,6 +141,73 @@ struct EndNode {
   int node, next;
 };
 
+/// The nodes that a drawing names.
+struct NamedNodes {
+  std::vector<std::pair<std::string, EndNode>> ends;
+  std::vector<int> landmarks;
+};
+
+void check_room(const KnotDrawing& drawing, const DrawnSize& size) {
+  const double least = least_end_to_end(drawing, size.radius);
+  if (!(size.end_to_end >= least))
+    throw InvalidInput("specimen.end_to_end", text(size.end_to_end),
+                       "at least " + least_text(least) + " m for knot: " + drawing.name);
+  if (drawing.lower.empty() && drawing.upper.empty() && size.end_to_end > kSame * least)
+    throw InvalidInput("specimen.end_to_end", text(size.end_to_end),
+                       "auto, " + text(least) + " m, which its posts are apart, for knot: " + drawing.name);
+}
+
+/// One behind the other, joined by cut edges.
+NamedNodes join(const KnotDrawing& drawing, const std::vector<Drawer::Drawn>& strands, Centreline& out) {
+  NamedNodes named;
+  named.landmarks.resize(drawing.landmarks.size());
+  Eigen::Index nodes = 0;
+  for (const Drawer::Drawn& strand : strands) nodes += strand.points.cols();
+  out.points.resize(3, nodes);
+  int begin = 0;
+  for (std::size_t k = 0; k < strands.size(); ++k) {
+    const Points& points = strands[k].points;
+    const int end = begin + static_cast<int>(points.cols());
+    out.points.middleCols(begin, points.cols()) = points;
+    for (std::size_t i = 0; i < named.landmarks.size(); ++i)
+      if (const KnotDrawing::Landmark& landmark = drawing.landmarks[i]; landmark.strand == k)
+        named.landmarks[i] = begin + node_at(strands[k].places[landmark.point], points);
+    if (k > 0) out.cuts.push_back(begin - 1);
+    named.ends.push_back({drawing.strands[k].ends[0], {begin, begin + 1}});
+    named.ends.push_back({drawing.strands[k].ends[1], {end - 1, end - 2}});
+    begin = end;
+  }
+  return named;
+}
+
+/// What is held, pulled, hung and read.
+void name_nodes(const KnotDrawing& drawing, const NamedNodes& named, Centreline& out) {
+  for (const auto& [name, at] : named.ends) {
+    if (contains(drawing.lower, name)) out.below.push_back({at.node, at.next});
+    if (contains(drawing.upper, name)) out.above.push_back({at.node, at.next});
+    if (drawing.held(name) == KnotDrawing::End::kFree) out.free.push_back(at.node);
+  }
+  const auto pulled = [&](const std::vector<KnotDrawing::Pull>& pulls) {
+    std::vector<PulledEnd> found;
+    for (const KnotDrawing::Pull& pull : pulls)
+      for (const auto& [name, at] : named.ends)
+        if (name == pull.end && drawing.held(name) != KnotDrawing::End::kFree)
+          found.push_back({at.node, Vec3::UnitZ(), pull.fraction, at.next});
+        else if (name == pull.end)
+          found.push_back({at.node, (out.points.col(at.node) - out.points.col(at.next)).normalized(), pull.fraction});
+    return found;
+  };
+  for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) out.tied.push_back(pulled(together));
+  for (const KnotDrawing::Pull& weight : drawing.weights) {
+    for (const auto& [name, at] : named.ends)
+      if (name == weight.end) out.weights.push_back({at.node, weight.fraction});
+    for (std::size_t i = 0; i < named.landmarks.size(); ++i)
+      if (drawing.landmarks[i].name == weight.end) out.weights.push_back({named.landmarks[i], weight.fraction});
+  }
+  for (const KnotDrawing::Reading& reading : drawing.read)
+    out.read.push_back({reading.kind, named.landmarks[reading.first], named.landmarks[reading.second]});
+}
+
 }  // namespace
 
 KnotDrawing::End KnotDrawing::held(const std::string& end) const {
@@ -215,63 +282,16 @@ Roller roller_of(const KnotDrawing::Post& post, double radius, const Vec3& origi
 Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
   check_radius(size.radius);
   check_edge_length(size.edge_length, size.radius);
-  const double least = least_end_to_end(drawing, size.radius);
-  if (!(size.end_to_end >= least))
-    throw InvalidInput("specimen.end_to_end", text(size.end_to_end),
-                       "at least " + least_text(least) + " m for knot: " + drawing.name);
-  if (drawing.lower.empty() && drawing.upper.empty() && size.end_to_end > kSame * least)
-    throw InvalidInput("specimen.end_to_end", text(size.end_to_end),
-                       "auto, " + text(least) + " m, which its posts are apart, for knot: " + drawing.name);
+  check_room(drawing, size);
   const Drawer drawer(drawing, size);
   std::vector<Drawer::Drawn> strands;
-  Eigen::Index nodes = 0;
   for (const KnotDrawing::Strand& strand : drawing.strands) {
     const double part = strands.empty() ? size.first : size.others;
     strands.push_back(drawer.strand(strand, part));
     check_bends(drawing, part * size.radius, strands.back().points);
-    nodes += strands.back().points.cols();
   }
   Centreline out;
-  out.points.resize(3, nodes);
-  std::vector<std::pair<std::string, EndNode>> ends;
-  std::vector<int> landmarks(drawing.landmarks.size());
-  int begin = 0;
-  for (std::size_t k = 0; k < strands.size(); ++k) {
-    const Points& points = strands[k].points;
-    const int end = begin + static_cast<int>(points.cols());
-    out.points.middleCols(begin, points.cols()) = points;
-    for (std::size_t i = 0; i < landmarks.size(); ++i)
-      if (const KnotDrawing::Landmark& landmark = drawing.landmarks[i]; landmark.strand == k)
-        landmarks[i] = begin + node_at(strands[k].places[landmark.point], points);
-    if (k > 0) out.cuts.push_back(begin - 1);
-    ends.push_back({drawing.strands[k].ends[0], {begin, begin + 1}});
-    ends.push_back({drawing.strands[k].ends[1], {end - 1, end - 2}});
-    begin = end;
-  }
-  for (const auto& [name, at] : ends) {
-    if (contains(drawing.lower, name)) out.below.push_back({at.node, at.next});
-    if (contains(drawing.upper, name)) out.above.push_back({at.node, at.next});
-    if (drawing.held(name) == KnotDrawing::End::kFree) out.free.push_back(at.node);
-  }
-  const auto pulled = [&](const std::vector<KnotDrawing::Pull>& pulls) {
-    std::vector<PulledEnd> found;
-    for (const KnotDrawing::Pull& pull : pulls)
-      for (const auto& [name, at] : ends)
-        if (name == pull.end && drawing.held(name) != KnotDrawing::End::kFree)
-          found.push_back({at.node, Vec3::UnitZ(), pull.fraction, at.next});
-        else if (name == pull.end)
-          found.push_back({at.node, (out.points.col(at.node) - out.points.col(at.next)).normalized(), pull.fraction});
-    return found;
-  };
-  for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) out.tied.push_back(pulled(together));
-  for (const KnotDrawing::Pull& weight : drawing.weights) {
-    for (const auto& [name, at] : ends)
-      if (name == weight.end) out.weights.push_back({at.node, weight.fraction});
-    for (std::size_t i = 0; i < landmarks.size(); ++i)
-      if (drawing.landmarks[i].name == weight.end) out.weights.push_back({landmarks[i], weight.fraction});
-  }
-  for (const KnotDrawing::Reading& reading : drawing.read)
-    out.read.push_back({reading.kind, landmarks[reading.first], landmarks[reading.second]});
+  name_nodes(drawing, join(drawing, strands, out), out);
   std::vector<double> radii;
   if (size.first != size.others) {
     radii.assign(strands.size(), size.others * size.radius);
