@@ -376,8 +376,8 @@ TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
   for (const char* two : {"a: 1\n---\nb: 2\n", "---\na: 1\n--- # more\n", "a: 1\n...\nb: 2\n"})
     EXPECT_THAT(complaint(write("two.yaml", two)),
                 HasSubstr("two.yaml: the file holds several YAML documents, but must be one"));
-  for (const char* one : {"# first\n---\nspeciment: {}\n...\n# last\n", "%YAML 1.2\n---\nspeciment: {}\n"})
-    EXPECT_THAT(complaint(write("one.yaml", one)), HasSubstr("speciment"));
+  for (const char* one : {"# first\n---\nspecimen: {}\n...\n# last\n", "%YAML 1.2\n---\nspecimen: {}\n"})
+    EXPECT_THAT(complaint(write("one.yaml", one)), HasSubstr("material is missing"));
   EXPECT_THAT(complaint(write("latin.yaml", "specimen: {knot: straight}\n# n\xE9ud\n")),
               HasSubstr("latin.yaml: line 2: a letter is not in UTF-8; save the file as UTF-8"));
   EXPECT_THAT(complaint(write("tab.yaml", "specimen:\n\tknot: overhand\n")),
