@@ -55,7 +55,7 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
       progress_(std::make_unique<ProgressLine>(stderr)),
       factor_(std::numeric_limits<double>::quiet_NaN()),
       actions_(
-          node, without_timer(node), [this](Actions::GoalHandle goal) { on_goal(std::move(goal)); },
+          node, without_timer(node), [this](const Actions::GoalHandle& goal) { on_goal(goal); },
           [this](const Actions::GoalHandle& goal) { on_cancel(goal); }, false),
       diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
