@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
