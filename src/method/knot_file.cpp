@@ -23,7 +23,10 @@ using fields::Reader;
 
 constexpr double kFarthest = 200.0;  // coordinate of a point [h]
 constexpr double kLeastStep = 0.1;   // from a point to the next [h]
-constexpr double kOffAxis = 1e-3;    // of the two last points of a held end: they lie along z [h]
+// Radius of a hole: a strand that fills it is as near to all sections of its ring, and touches none of them rightly
+// [h].
+constexpr double kNarrowestHole = 1.02;
+constexpr double kOffAxis = 1e-3;  // of the two last points of a held end: they lie along z [h]
 constexpr std::size_t kFewestPoints = 3, kMostPoints = 2000;
 
 /// Reads the lists of a knot's file, and refuses what is none.
@@ -95,7 +98,7 @@ class KnotReader {
     if (out.along.norm() < kLeastStep) refuse(key + ".along", along, "a direction");
     out.along.normalize();
     out.radius = number(key + ".radius", radius, 0.5, kFarthest);
-    if (ring.IsDefined()) out.ring = number(key + ".ring", ring, out.radius + 1.0, kFarthest);  // a strand fits through
+    if (ring.IsDefined()) out.ring = number(key + ".ring", ring, out.radius + kNarrowestHole, kFarthest);
     const std::string of = grip.IsDefined() && grip.IsScalar() ? grip.Scalar() : "lower";
     out.upper = of == "upper";
     if ((grip.IsDefined() && !grip.IsScalar()) || (!out.upper && of != "lower"))

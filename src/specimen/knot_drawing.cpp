@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kStraightToGrip = 4.0;  // of a held strand, at least, between its last point and its grip [h]
 constexpr double kSame = 1.0 + 1e-6;     // over a length that is rounded in a method
+constexpr double kMayCut = 0.99;         // of the distance of a post, by edges that cut the corners of a bend
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -108,7 +109,7 @@ void check_posts(const KnotDrawing& drawing, const DrawnSize& size, const Centre
     for (Eigen::Index i = 1; i < rod.points.cols(); ++i)
       if (distance(i) < distance(nearest)) nearest = i;
     const double least = post.radius + h;
-    if (distance(nearest) < 0.99 * least)
+    if (distance(nearest) < kMayCut * least)
       throw InvalidInput::sentence(
           "specimen.knot", drawing.name,
           "specimen.knot " + shown(drawing.name) + ": at " + place_text((rod.points.col(nearest) - origin) / h) +

@@ -125,8 +125,8 @@ TEST_F(KnotFile, MayStandOnPostsOfEitherGripAndBearWeights) {
   EXPECT_THAT(complaint("lower: [lower]\nupper: [upper]\n", post), HasSubstr("lower: the lower grip must hold"));
   EXPECT_THAT(complaint("upper: [upper]\n", "posts: [{through: [0, 0, 30], along: [0, 1, 0], radius: 5, grip: up}]\n"),
               HasSubstr("posts.0.grip is \"up\", but must be lower, whose post stands still, or upper"));
-  EXPECT_THAT(complaint("lower: [lower]\n", "posts: [{through: [9, 0, 0], along: [0, 0, 1], radius: 2, ring: 2.9}]\n"),
-              HasSubstr("posts.0.ring is 2.9, but must be a number from 3 to"));
+  EXPECT_THAT(complaint("lower: [lower]\n", "posts: [{through: [9, 0, 0], along: [0, 0, 1], radius: 2, ring: 3}]\n"),
+              HasSubstr("posts.0.ring is 3, but must be a number from 3.02 to"));
   EXPECT_THAT(complaint("tie:", "weights: {tail: 1}\ntie:"),
               HasSubstr("weights: no end and no landmark is called tail"));
   EXPECT_THAT(complaint("tie:", "weights: {lower: 1}\ntie:"), HasSubstr("weights: lower is held by a grip"));
