@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "four_contacts.hpp"
-#include "knot_utm/contact/return_mapping.hpp"
 #include "knot_utm/contact/surface_contact.hpp"
 
 // What four contacts with friction at the surfaces have in common, whether their forces are evaluated or linearised.
@@ -64,12 +63,13 @@ Points4 points_of(const std::array<Contact*, 4>& four, const std::vector<Contact
 /// The sections of four strands.
 struct Section {
   FourVectors over;  // c^
-  Lanes over_length2;
+  Lanes length2, over_length2;
   FourVectors turn;
   Lanes spin;
 
-  Section(const FourVectors& along, const FourVectors& turn_, const Lanes& spin_) : turn(turn_), spin(spin_) {
-    const Lanes length2 = dot(along, along), none = Lanes{};
+  Section(const FourVectors& along, const FourVectors& turn_, const Lanes& spin_)
+      : length2(dot(along, along)), turn(turn_), spin(spin_) {
+    const Lanes none = Lanes{};
     over_length2 = select(length2 > 0.0, 1.0 / length2, none);
     over = over_length2 * along;
   }
@@ -99,13 +99,6 @@ struct Section {
   Change spun() const { return {FourVectors{}, over}; }
 };
 
-/// rho_n of four contacts.
-template <typename Contact>
-FourVectors rolled_by(const std::array<Contact*, 4>& contacts) {
-  return FourVectors::of(to_lanes(contacts[0]->memory.rolled), to_lanes(contacts[1]->memory.rolled),
-                         to_lanes(contacts[2]->memory.rolled), to_lanes(contacts[3]->memory.rolled));
-}
-
 /// mu_r(p), and d(mu_r p)/dp, of four contacts. A linear model may have a pressure below zero.
 inline Lanes square_root_of(const RollingResistance& rolling, const Lanes& pressure) {
   return rolling.growth * square_root(larger(pressure, Lanes{}));
@@ -121,22 +114,22 @@ inline Lanes rolling_slope(const RollingResistance& rolling, const Lanes& pressu
 
 /// The resistance of four contacts to rolling.
 struct FourRolling {
-  FourVectors remembered, rho;  // rho_n, and rho before projection
-  ReturnMapping<FourVectors> mapping;
+  FourVectors line;   // l
+  FourVectors turns;  // phi_a - phi_b
+  Lanes zeta;
+  Lanes slope;  // rho_s dzeta/drho, or the secant's
 
   template <typename Contact>
   FourRolling(const RollingResistance& rolling, const std::array<Contact*, 4>& contacts, const Points4& surfaces,
-              const FourVectors& n, const FourVectors& axis, const Section& a, const Section& b, Linearisation how)
-      : remembered(rolled_by(contacts)),
-        rho(rho_of(rolling, *contacts[0], surfaces, n, axis, a, b)),
-        mapping((1.0 / rolling.presliding) * (rho - dot(n, rho) * n), how) {}
-
- private:
-  FourVectors rho_of(const RollingResistance& rolling, const ContactPoint& one, const Points4& surfaces,
-                     const FourVectors& n, const FourVectors& axis, const Section& a, const Section& b) const {
-    const FourVectors of_a = a.rotation(), of_b = b.rotation();
-    return remembered + (carried(one) * dot(n, of_a + of_b)) * cross(n, remembered) +
-           rolling.radius * (of_a - of_b - four(surfaces, &SurfacePoint::turned) * axis);
+              const FourVectors& axis, const Section& a, const Section& b, Linearisation how)
+      : line(square_root(a.length2) * a.over),
+        turns(a.rotation() - b.rotation() - four(surfaces, &SurfacePoint::turned) * axis) {
+    const Lanes remembered{contacts[0]->memory.rolled, contacts[1]->memory.rolled, contacts[2]->memory.rolled,
+                           contacts[3]->memory.rolled};
+    const Lanes y = (1.0 / rolling.presliding) * (remembered + rolling.radius * dot(line, turns)), size = larger(y, -y);
+    const Lanes one = constant<Lanes>(1.0), secant = select(size < 1.0, one, 1.0 / size);
+    zeta = secant * y;
+    slope = how == Linearisation::kTangent ? select(size < 1.0, one, Lanes{}) : secant;
   }
 };
 

@@ -73,26 +73,26 @@ void set_couples(const RollingLaws& laws, const std::vector<ContactPoint>& conta
     const Points4 points = points_of(four, contacts, surfaces);
     const FourVectors m = cross(lever_of(points) * of(&ContactPoint::x), of(&ContactPoint::force));
     const Section section_a = Section::of_a(points), section_b = Section::of_b(of, points);
-    FourVectors zeta = {}, couple = {};
+    Lanes zeta = {};
+    FourVectors couple = {};
     const FourVectors axis = of(&ContactPoint::axis);
     if (rolling.on()) {
-      zeta =
-          FourRolling(rolling, four, points, of(&ContactPoint::n), axis, section_a, section_b, Linearisation::kTangent)
-              .mapping.z;
+      const FourRolling now(rolling, four, points, axis, section_a, section_b, Linearisation::kTangent);
       const Lanes pressure = of(&ContactPoint::pressure),
                   whole = -rolling_coefficient(rolling, pressure) * rolling.radius;
-      couple = (whole * of(&ContactPoint::weight) * pressure) * zeta;
+      zeta = now.zeta;
+      couple = (whole * of(&ContactPoint::weight) * pressure * zeta) * now.line;
     }
     const FourVectors &a = section_a.over, &b = section_b.over, m_a = m - couple, m_b = times_q(points, m) + couple;
     const bool on_roller = four[0]->on_roller();
     const Parted on_a(cross(a, m_a), -1.0 * dot(a, m_a)),
         on_b(cross(b, m_b), -1.0 * dot(on_roller ? axis : b, on_roller ? couple : m_b));
-    const Parted zetas(zeta), couples(couple);
+    const Parted couples(couple);
     for (std::size_t i = 0; i < 4; ++i) {
       SurfacePoint& surface = surfaces[number_of(four[i], contacts)];
       surface.on_a = on_a[i];
       surface.on_b = on_b[i];
-      surface.zeta = to_vec3(zetas[i]);
+      surface.zeta = zeta[static_cast<int>(i)];
       surface.couple = to_vec3(couples[i]);
     }
   });

@@ -107,11 +107,10 @@ class FourSurfaces : private Levers {
       models[i].on_b = on_b[i];
       models[i].two_feet = Feet::kTwo;
     }
-    Response by_rotation[3], by_rolling[3];
+    Response by_rotation[3], by_rolling;
     for (int i = 0; i < 3; ++i) by_rotation[i] = rotated(unit_vector(i));
     const Response by_twirl = Levers::kEven ? Response() : twirled();
-    if (resists_)
-      for (int i = 0; i < 3; ++i) add_couple(by_rolling[i], rolled(radius_ * unit_vector(i)));
+    if (resists_) add_couple(by_rolling, couple_rolling_ * line_);
     const auto turned = [&](const Section::Change& a, const Section::Change& b) {
       return sections_change(by_rotation, by_twirl, by_rolling, a, b);
     };
@@ -134,7 +133,8 @@ class FourSurfaces : private Levers {
     for (int i = 0; i < 3; ++i) {
       const FourVectors unit = unit_vector(i);
       add_feet(moved(unit - dot(axis_, unit) * axis_, unit), unit, none, none, SurfaceModel::kShift + i);
-      const Response turns_a = turned(a_.change(unit, unit, still), Section::Change());
+      Response turns_a = turned(a_.change(unit, unit, still), Section::Change());
+      if (resists_) add_couple(turns_a, swung(unit));
       if constexpr (Feet::kTwo)
         add_feet(turns_a, none, unit, none, SurfaceModel::kTurnA + i);
       else
@@ -145,7 +145,7 @@ class FourSurfaces : private Levers {
     write(turned(a_.spun(), Section::Change()), still, still, SurfaceModel::kSpinA, models);
     if (on_roller_) {
       Response by_turn = slipped(-1.0 * cross(axis_, (1.0 - lever_) * x_));
-      if (resists_) add_couple(by_turn, rolled(-radius_ * axis_));
+      if (resists_) by_turn.add(-1.0 * dot(axis_, line_), by_rolling);
       write(by_turn, still, still, SurfaceModel::kTurned, models);
     } else
       write(turned(Section::Change(), b_.spun()), still, still, SurfaceModel::kSpinB, models);
@@ -176,25 +176,23 @@ class FourSurfaces : private Levers {
   /// What resists rolling, C and its derivatives.
   void resist(const RollingResistance& rolling, const std::array<const ContactPoint*, 4>& contacts,
               const Points4& surfaces, const ContactLinearisation& how, const Lanes& weight) {
-    const FourRolling now(rolling, contacts, surfaces, n_, axis_, a_, b_, how.friction);
+    const FourRolling now(rolling, contacts, surfaces, axis_, a_, b_, how.friction);
     const auto whole = [&](const Lanes& coefficient) { return -coefficient * rolling.radius; };
-    const Lanes now_whole = whole(rolling_coefficient(rolling, pressures_.pressure));
     resists_ = true;
-    radius_ = rolling.radius;
-    rho_ = now.rho;
-    rolled_ = now.remembered;
-    unit_ = now.mapping.unit;
-    couple_ = (now_whole * weight * pressures_.pressure) * now.mapping.z;
-    couple_pressing_ = (whole(rolling_slope(rolling, pressures_.pressure)) * weight * pressures_.slope) * now.mapping.z;
-    const Lanes spring = (whole(rolling_coefficient(rolling, pressures_.turning)) / rolling.presliding) * turning_;
-    couple_across_ = spring * now.mapping.across;
-    couple_along_ = spring * now.mapping.along;
+    line_ = now.line;
+    turns_ = now.turns;
+    size_ = whole(rolling_coefficient(rolling, pressures_.pressure)) * weight * pressures_.pressure * now.zeta;
+    couple_ = size_ * line_;
+    couple_pressing_ =
+        (whole(rolling_slope(rolling, pressures_.pressure)) * weight * pressures_.slope * now.zeta) * line_;
+    couple_rolling_ = (whole(rolling_coefficient(rolling, pressures_.turning)) * rolling.radius / rolling.presliding) *
+                      turning_ * now.slope;
   }
 
-  /// dC as rho changes while the gap stays.
-  FourVectors rolled(const FourVectors& drho) const {
-    const FourVectors in_plane = drho - dot(n_, drho) * n_;
-    return couple_across_ * in_plane + (couple_along_ * dot(unit_, in_plane)) * unit_;
+  /// dC as the line turns with a', dl = (1 - l l^T) da'/|a'|, while the sections stay.
+  FourVectors swung(const FourVectors& longer) const {
+    const FourVectors dl = square_root(a_.over_length2) * (longer - dot(line_, longer) * line_);
+    return size_ * dl + (couple_rolling_ * dot(turns_, dl)) * line_;
   }
 
   /// A couple that changes by dC.
@@ -216,11 +214,7 @@ class FourSurfaces : private Levers {
     const FourVectors slid = dr - dot(n_, dr) * n_ - away_ * dn - dot(r_, dn) * n_;
     const FourVectors dg = nearer * pressing_ + turning_ * dn - stiffness_ * friction_.slope_times(slid);
     Response out = responds(dg, cross(lever_ * dx, force_) + cross(lever_ * x_, dg));
-    if (!resists_) return out;
-    // d(P rho) = P drho - (n.rho) dn - (rho.dn) n
-    const FourVectors drho = (carried_ * dot(dn, rotation_)) * cross(n_, rolled_) + alpha_ * cross(dn, rolled_);
-    add_couple(out,
-               nearer * couple_pressing_ + rolled(drho - dot(n_, rho_) * dn) - (couple_across_ * dot(rho_, dn)) * n_);
+    if (resists_) add_couple(out, nearer * couple_pressing_);
     return out;
   }
 
@@ -232,16 +226,14 @@ class FourSurfaces : private Levers {
 
   /// To sections that turn by so much more.
   Response rotated(const FourVectors& phi) const {
-    Response out = slipped((carried_ * dot(n_, phi)) * cross(n_, remembered_) - cross(phi, lever_ * x_));
-    if (resists_) add_couple(out, rolled((carried_ * dot(n_, phi)) * cross(n_, rolled_)));
-    return out;
+    return slipped((carried_ * dot(n_, phi)) * cross(n_, remembered_) - cross(phi, lever_ * x_));
   }
 
   /// To a memory of friction that turns about n by so much more, and to nothing else.
   Response twirled() const { return slipped(carried_ * cross(n_, remembered_)); }
 
   /// To sections that change: they turn, and pass on their couples another way.
-  Response sections_change(const Response* by_rotation, const Response& by_twirl, const Response* by_rolling,
+  Response sections_change(const Response* by_rotation, const Response& by_twirl, const Response& by_rolling,
                            const Section::Change& a, const Section::Change& b) const {
     const FourVectors phi = a.rotation + this->times_q(b.rotation), m_a = m_ - couple_,
                       m_b = this->times_q(m_) + couple_;
@@ -250,12 +242,7 @@ class FourSurfaces : private Levers {
     out.on_b = cross(b.over, m_b);
     out.torque_a = dot(a.over, m_a);
     out.torque_b = dot(b.over, m_b);
-    if (resists_) {
-      const FourVectors rolls = a.rotation - b.rotation;
-      out.add(rolls.x, by_rolling[0]);
-      out.add(rolls.y, by_rolling[1]);
-      out.add(rolls.z, by_rolling[2]);
-    }
+    if (resists_) out.add(dot(line_, a.rotation - b.rotation), by_rolling);
     out.add(phi.x, by_rotation[0]);
     out.add(phi.y, by_rotation[1]);
     out.add(phi.z, by_rotation[2]);
@@ -285,9 +272,9 @@ class FourSurfaces : private Levers {
   Lanes turning_, stiffness_;
   FourVectors pressing_, force_, m_;
   // Of the resistance to rolling.
-  FourVectors rho_, rolled_, unit_, couple_ = {}, couple_pressing_;
-  Lanes couple_across_, couple_along_;
-  double radius_ = 0.0, carried_ = 0.0;
+  FourVectors line_, turns_, couple_ = {}, couple_pressing_;
+  Lanes size_, couple_rolling_;  // -w mu_r h p zeta, and how it changes with the turns about l
+  double carried_ = 0.0;
   bool on_roller_, resists_ = false;
 };
 

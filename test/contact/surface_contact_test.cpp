@@ -409,6 +409,112 @@ TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
   EXPECT_NEAR(work, slip, 1e-12 * gross + 1e-12 * std::abs(work));
 }
 
+/// Resistance to rolling of the scene, whose second strand winds around its first one, as that strand does in a step
+/// what `moves` says of a node and its place along the helix.
+struct RollingHelix {
+  static constexpr double kPresliding = 1e-3 * kRadius;
+  static constexpr double kResistance = 0.3;
+  Wound scene;
+  Smooth kind{scene, MemoryFriction{0.0, 1e-3 * kRadius}};
+  Points before;
+
+  RollingHelix() {
+    scene.position = before = scene.start;
+    std::fill(scene.turns.turn.begin(), scene.turns.turn.end(), 0.0);
+    std::fill(scene.lean.begin(), scene.lean.end(), Vec3::Zero());
+    kind.contact.act_at_surface(1.0, scene.turns, RollingResistance{kResistance, kRadius, kPresliding});
+  }
+  /// Sum of |C|, and of its limit mu_r h w p, over the contacts that the helix bears nearly alone.
+  std::pair<double, double> couples() {
+    scene.set_lengths();
+    kind.evaluate();
+    double couple = 0.0, limit = 0.0;
+    for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
+      const ContactPoint& contact = kind.contact.contacts()[i];
+      if (!contact.touches() || contact.weighting < 0.9) continue;
+      couple += kind.contact.surfaces()[i].couple.norm();
+      limit += kResistance * kRadius * contact.weight * contact.pressure;
+    }
+    return {couple, limit};
+  }
+};
+
+TEST(RollingAboutItsLine, AHelixThatAdvancesThroughItselfRollsOverNothing) {
+  RollingHelix helix;
+  const Points& start = helix.scene.start;
+  for (int i = kHalf + kDetour; i + 1 < helix.scene.nodes(); ++i)
+    helix.scene.position.col(i) += 0.05 * (start.col(i + 1) - start.col(i));
+  const auto [couple, limit] = helix.couples();
+  ASSERT_GT(limit, 0.0);
+  // Chords between nodes are not the curve: its sections turn about their own tangents by a little.
+  EXPECT_LT(couple, 0.02 * limit);
+}
+
+TEST(RollingAboutItsLine, AHelixThatSpinsInPlaceIsResistedInFull) {
+  RollingHelix helix;
+  for (int j = kHalf + kDetour; j < helix.scene.rod.edges(); ++j)
+    helix.scene.turns.turn[static_cast<std::size_t>(j)] = 0.05;
+  const auto [couple, limit] = helix.couples();
+  ASSERT_GT(limit, 0.0);
+  EXPECT_NEAR(couple, limit, 1e-9 * limit);
+}
+
+/// Over any history of turns, what resistance takes up less what its springs store, w mu_r p rho_s zeta^2/2, grows.
+TEST(RollingAboutItsLine, WorkIsNeverCreated) {
+  RollingHelix helix;
+  SmoothContact& contact = helix.kind.contact;
+  std::mt19937 random(11);
+  std::normal_distribution<double> turns(0.0, 2.0 * RollingHelix::kPresliding / kRadius);
+  const auto stored = [&] {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < contact.contacts().size(); ++i) {
+      const ContactPoint& point = contact.contacts()[i];
+      const double zeta = contact.surfaces()[i].zeta;
+      if (point.touches())
+        sum +=
+            0.5 * point.weight * RollingHelix::kResistance * point.pressure * RollingHelix::kPresliding * zeta * zeta;
+    }
+    return sum;
+  };
+  double store = 0.0, gross = 0.0;
+  for (int step = 0; step < 200; ++step) {
+    for (double& turn : helix.scene.turns.turn) turn = turns(random);
+    helix.kind.evaluate();
+    double lost = store - stored();
+    store = stored();
+    for (std::size_t i = 0; i < contact.contacts().size(); ++i)
+      if (contact.contacts()[i].touches()) lost += rolling_loss(contact.contacts()[i], contact.surfaces()[i]);
+    gross += lost;
+    EXPECT_GE(lost, -1e-12 * gross) << "step " << step;
+    contact.commit(helix.scene.position);
+  }
+  EXPECT_GT(gross, 0.0);
+}
+
+/// A scene that stands elsewhere, another way round, has the same forces and couples, turned.
+TYPED_TEST(Surface, ForcesTurnWithTheScene) {
+  const MemoryFriction friction{0.4, 1e-3 * kRadius};
+  const RollingResistance rolling{0.3, kRadius, 0.05 * kRadius};
+  if constexpr (!std::is_base_of_v<OnARoller, TypeParam>) {
+    const auto evaluated = [&](Wound scene) {
+      TypeParam kind(scene, friction);
+      kind.contact.act_at_surface(1.0, scene.turns, rolling);
+      return this->forces(kind);
+    };
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Vec3(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
+    Wound turned = this->scene;
+    turned.start = turn * this->scene.start;
+    turned.position = turn * this->scene.position;
+    for (Vec3& lean : turned.lean) lean = turn * lean;
+    turned.set_lengths();
+    const Eigen::VectorXd here = evaluated(this->scene), there = evaluated(turned);
+    Eigen::VectorXd expected = here;
+    for (Eigen::Index i = 0; i < this->scene.nodes(); ++i)
+      expected.segment<3>(4 * i) = turn * Vec3(here.segment<3>(4 * i));
+    EXPECT_LT((there - expected).norm(), 1e-9 * here.norm());
+  }
+}
+
 /// With the whole couple the rod's own contacts exert no moment, wherever its strands overlap.
 TYPED_TEST(Surface, MomentsBalanceWithTheWholeCouple) {
   if constexpr (!std::is_base_of_v<OnARoller, TypeParam>) {

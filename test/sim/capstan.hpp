@@ -32,11 +32,12 @@ inline double elastic_capstan(double t1, double mu, double phi) {
 }
 
 /// The same where friction acts at the surface, of curvature 1/rho throughout: T grows as exp(x phi) with eta = h/rho.
-/// Friction mu and resistance to rolling mu_r leave the shear force Q = -(mu - mu_r) p h, so that, with
-/// f = mu (1 - eta) + mu_r eta, T' = f p and p = T/rho + Q', and x solves (mu - mu_r) eta x^2 + x = f.
-inline double surface_exponent(double mu, double eta, double mu_r = 0.0) {
-  const double f = mu * (1.0 - eta) + mu_r * eta, bends = (mu - mu_r) * eta;
-  return 2.0 * f / (1.0 + std::sqrt(1.0 + 4.0 * bends * f));
+/// Friction leaves the shear force Q = -mu p h, so that, with f = mu (1 - eta), T' = f p and p = T/rho + Q', and x
+/// solves mu eta x^2 + x = f. Resistance to rolling has no part in it: the sections turn about the shaft's axis, across
+/// the line of contact.
+inline double surface_exponent(double mu, double eta) {
+  const double f = mu * (1.0 - eta);
+  return 2.0 * f / (1.0 + std::sqrt(1.0 + 4.0 * mu * eta * f));
 }
 
 /// A rod of bending stiffness 1 around a shaft of a radius near 1, pulled at T1 or more.

@@ -20,7 +20,8 @@ struct RingOptions {
   double radius = 0.1;   ///< h
   double natural = 1.0;  ///< kappa_0, in the plane of the ring
   double friction = 0.5;
-  double couple = 1.0;  ///< eta
+  double couple = 1.0;   ///< eta
+  double rolling = 0.0;  ///< mu_r
   double tension = 200.0;
   int edges_a_turn = 120;
 };
@@ -66,6 +67,7 @@ struct Ring {
     StepSettings settings = capstan_settings(material, options.tension, 1e-3, 1e-8);
     settings.roller_friction = MemoryFriction{options.friction, 1e-4 * options.radius};
     settings.friction_couple = options.couple;
+    settings.rolling = {options.rolling, options.radius, 1e-4 * options.radius};
     settings.spin_inertia = false;
 
     const double at = 1.0 - settings.pressure_law.overlap_at(options.tension);
@@ -190,6 +192,19 @@ TEST(R13ORingStraightAtRest, RollsForNothingWhateverTheFriction) {
                std::abs(ring.force()) / ring.limit());
     EXPECT_NEAR(ring.rolled(), 3.0, 3.0 * kGate);
   }
+}
+
+/// Its line of contact runs around the shaft, and it turns about nothing else: the couple mu_r h p of every piece
+/// resists, which takes the force mu_r p at the surface, h away.
+TEST(R13ORingThatResistsRolling, ResistsInFull) {
+  RingOptions options;
+  options.natural = 0.0;
+  options.rolling = 0.1;
+  Ring ring(options);
+  ring.drag(2.0 * options.radius);
+  hold_against("R13 O-ring that resists rolling: axial force [k_b/R^2]",
+               options.rolling * ring.limit() / options.friction, ring.force(), kGate);
+  EXPECT_NEAR(ring.rolled(), 2.0, 2.0 * kGate);
 }
 
 TEST(R13ORingBeyondFriction, SlidesAndRollsNoFurther) {

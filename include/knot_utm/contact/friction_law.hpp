@@ -47,7 +47,7 @@ struct FrictionMemory {
   Vec3 slip = Vec3::Zero();  ///< xi [m]
   double own = 0.0;          ///< internal variable of the law
   /// rho_n of RollingResistance [m]; archived by the contacts where they have one.
-  Vec3 rolled = Vec3::Zero();
+  double rolled = 0.0;
 
   void state(Archive& archive) { archive(slip, own); }
 };

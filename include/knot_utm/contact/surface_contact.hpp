@@ -68,19 +68,22 @@ struct SurfacePoint {
   Lanes on_a = {};                  ///< a^ x m [N]; lane 3: -a^.m [N]
   Lanes on_b = {};                  ///< b^ x m [N]; lane 3: -b^.m [N]; on a roller -C.axis [N m]
   double turned = 0.0;              ///< psi of the roller [rad]
-  Vec3 zeta = Vec3::Zero();         ///< of RollingResistance [-]
+  double zeta = 0.0;                ///< of RollingResistance [-]
   Vec3 couple = Vec3::Zero();       ///< C [N m]
 };
 
-/// Resistance of contacts to rolling: a couple of each contact, against the rotation of two sections relative to each
-/// other about axes in the tangent plane,
+/// Resistance of contacts to rolling: a couple of each contact about its line, the tangent l of the strand that is
+/// integrated, against the rotation of the two sections relative to each other,
 ///
-///     C = -w mu_r(p) h p zeta,   zeta = y for |y| < 1, else y/|y|,   y = P rho/rho_s,
-///     rho = rho_n + alpha n x rho_n + h (phi_a - phi_b),   P = 1 - n n^T.
+///     C = -w mu_r(p) h p zeta l,   zeta = rho/rho_s, but at most 1 and at least -1,
+///     rho = rho_n + h (phi_a - phi_b).l,   l = a'/|a'|.
 ///
-/// rho_n = rho_s zeta of the last accepted step is what the contact remembers, as friction does its slip: it first
-/// springs, and rolls where the couple reaches mu_r h p. A cylinder on a plane rests up to a slope of mu_r. Source:
-/// Iwashita, Oda 1998 and Ai, Chen, Rotter, Ooi 2011 (elastic-plastic spring of granular mechanics), on line contacts.
+/// C is the first moment of the pressure across a wide line of contact. Its moment along the line is in p(s) already: a
+/// strand that advances along its own bend turns about its binormal and rolls over nothing. rho_n = rho_s zeta of the
+/// last accepted step is what the contact remembers, one number that nothing has to turn: it first springs, and rolls
+/// where the couple reaches mu_r h p. A cylinder on a plane rests up to a slope of mu_r. Where two strands cross, each
+/// resists at its own points, which bear half of the force. Source: Iwashita, Oda 1998 and Ai, Chen, Rotter, Ooi 2011
+/// (elastic-plastic spring of granular mechanics), on line contacts; Johnson 1985, 9.4.
 ///
 /// mu_r(p) = mu_0 + g sqrt(p). The second part is that of a wide contact whose material loses a fraction of the work
 /// that goes into it (growth_of_hysteresis).
