@@ -19,16 +19,22 @@ ROPE = 100.0    # k_s h^2/k_b of more is a rope's
 MOST_TURNS = 30.0  # [rad] of a capstan: already with mu = 0.2 the heavy mass would be four hundred times the light one
 OVERCOME = 1.3     # by which a cantilever must be bent over the moment at which fibres slide to show k_b
 STICK_RATIO = 20.0, 10.0  # and its uncertainty, where none is measured: knots hardly feel whether it is 5 or 60
+TWIST_OF_ROPE, TWIST_OF_ROD = 1 / 4, 2 / 3  # k_t/k_b where k_t is not measured: of fibres twice their G/E, 0.22 to 0.27; nu = 1/2
+PRESSED = 10.0     # [N/m] of strands in knots at the least
 
 # What may be measured: of each group the keys, all of them needed but for those that may be added.
 GROUPS = {"diameter": None, "weighed": ("length", "mass"), "stretched": ("length", "mass", "elongation"),
           "cantilever": ("overhang", "drop"), "loop": ("length", "height"), "capstan": ("angle", "light", "heavy"),
           "mandrel": ("radius", "kept_radius"), "light_cantilever": ("overhang", "drop"), "pulled": ("mass", "kept_radius"),
-          "incline": ("rise", "run"), "creeping": ("masses", "speeds"),
+          "rolled": ("masses", "rises", "run", "length"), "twisted": ("length", "mass", "radius", "period"),
+          "creeping": ("masses", "speeds"),
           "pressed": ("mass", "approach"), "tied": ("mass",), "broken": ("force",)}
 INSTEAD = {"kept_radius": ("chord", "sag")}  # the keys that may stand instead of one: the radius of an arc
 MAY_BE_ADDED = {"capstan": ("post_radius",)}
-SEVERAL = ("masses", "speeds")               # the keys with a list of readings
+SEVERAL = ("masses", "speeds", "rises")      # the keys with a list of readings
+FEWEST = {"creeping": (2, "two readings"), "rolled": (1, "one reading")}
+WITHDRAWN = {"incline": "incline is no longer read, because the weight of a piece alone presses it too little; measure rolled instead, "
+                        "pieces under a loaded board (doc/measure.md)"}
 NEEDED = ("diameter", "weighed", "stretched", "capstan")
 NEEDS = {"light_cantilever": "mandrel", "pulled": "mandrel"}  # of these groups, the one without which they tell nothing
 
@@ -139,19 +145,17 @@ def loop_stiffness(weight, length, height):
 
 def capstan_friction(m, h, heavy):
     """mu, of which a mass `heavy` is the one that just does not slide. Friction acts at the surface of the rope and its tension at
-    the centreline, so that the tension grows by the factor e^(x angle) with (mu - mu_r) h' x^2 + x = mu (1 - h') + mu_r h', where h'
-    is the radius of the rope over that of its centreline, and mu_r resists rolling (doc/references.md, R15). Of a post whose radius
-    is not given, h' = 0."""
+    the centreline, so that the tension grows by the factor e^(x angle) with mu h' x^2 + x = mu (1 - h'), where h' is the radius of
+    the rope over that of its centreline (doc/references.md, R15). Of a post whose radius is not given, h' = 0."""
     grown = math.log(heavy / m["capstan", "light"]) / m["capstan", "angle"]
     if ("capstan", "post_radius") not in m:
         return grown
     thick = h / (m["capstan", "post_radius"] + h)
-    resists = m["incline", "rise"] / m["incline", "run"] if ("incline", "rise") in m else 0.0
     left = 1 - thick * (1 + grown ** 2)
     if left <= 0:
         raise Wrong(f"capstan: around a post as thin as {m['capstan', 'post_radius']:.3g} m no friction at the surface of the rope gives "
                     "this ratio of the masses; is post_radius in m? Else take a thicker post")
-    return (grown - resists * thick * (1 + grown ** 2)) / left
+    return grown / left
 
 
 def kept_curvature(m, group):
@@ -213,6 +217,68 @@ def creep(loads, speeds):
     return rate, speed
 
 
+# ---- rolling and twisting -----------------------------------------------------------------------------------------
+
+
+def power_of_rolling(values, errors):
+    """The power n of the mass with which the slope grows at which the board runs away, mu_r ~ W^n, by least squares of logarithms, and
+    its uncertainty, which is infinite where there is one mass."""
+    of = [("rolled", f"masses[{i}]") for i in range(values["rolled", "masses"])]
+    up = [("rolled", f"rises[{i}]") for i in range(len(of))]
+    apart = np.log([values[key] for key in of])
+    apart -= np.mean(apart)
+    if not np.ptp(apart) > 0:
+        return 0.0, math.inf
+    share = apart / np.sum(apart ** 2)
+    power = float(share @ np.log([values[key] for key in up]))
+    squares = [(errors[rise] / values[rise]) ** 2 + (power * errors[mass] / values[mass]) ** 2 for rise, mass in zip(up, of)]
+    return power, math.sqrt(share ** 2 @ squares)
+
+
+def law_of_rolling(values, errors):
+    """A constant mu_r (power 0), a wide elastic contact that loses a share of its work (1/2), "open" where the readings go with both
+    within two standard uncertainties, or "neither"."""
+    power, error = power_of_rolling(values, errors)
+    constant, root = (abs(power - law) <= 2 * error for law in (0.0, 0.5))
+    return ("open" if root else "constant") if constant else "root" if root else "neither"
+
+
+def rolling(m, out):
+    """The key of rolling: pieces that roll between a board and a loaded board, each with the couple mu_r h p at both, let the upper one
+    go by 2 h for each rad, so that its push is mu_r W whatever their radius (doc/developers/material_readings.md). Of a solid rod whose
+    mu_r grows as sqrt W, the share of work that contacts lose (RollingResistance::growth_of_hysteresis)."""
+    masses = [m["rolled", f"masses[{i}]"] for i in range(m["rolled", "masses"])]
+    slopes = [m["rolled", f"rises[{i}]"] / m["rolled", "run"] for i in range(len(masses))]
+    if m["rolled", "law"] in ("constant", "open"):
+        return {"rolling_resistance": sum(slopes) / len(slopes)}
+    if m["rolled", "law"] == "neither" or limpness(out) >= SOLID:
+        return {"rolling_resistance": slopes[masses.index(max(masses))]}
+    widths = [math.sqrt(3 * out["radius"] * line_load(m, mass) / out["stretching_stiffness"]) for mass in masses]  # a/h
+    return {"rolling_hysteresis": sum(1.5 * math.pi * slope / width for slope, width in zip(slopes, widths)) / len(slopes)}
+
+
+def line_load(m, mass):
+    return mass * GRAVITY / m["rolled", "length"]
+
+
+def twisting(m, out):
+    """k_t: a disc on a rope swings as its J = mass radius^2/2 lets it. Its weight, spread over the section, turns the rope back as well,
+    as two threads side by side do: by m g h^2/2 for each 1/m of twist."""
+    if ("twisted", "period") not in m:
+        return out["bending_stiffness"] * (TWIST_OF_ROD if limpness(out) < SOLID else TWIST_OF_ROPE)
+    seen, of_weight = swing(m, out["radius"])
+    if seen <= of_weight:
+        raise Wrong("twisted: the weight of the disc alone, which turns a twisted rope back, makes it swing as fast as that; take a lighter "
+                    "and wider disc; is twisted.period in s, there and back?")
+    return seen - of_weight
+
+
+def swing(m, h):
+    """What a swinging disc shows, and the part of its weight."""
+    disc = m["twisted", "mass"] * m["twisted", "radius"] ** 2 / 2
+    return 4 * math.pi ** 2 * disc * m["twisted", "length"] / m["twisted", "period"] ** 2, m["twisted", "mass"] * GRAVITY * h * h / 2
+
+
 # ---- from measurements to properties -------------------------------------------------------------------------------
 
 
@@ -230,7 +296,7 @@ def properties(m):
            "friction_coefficient": capstan_friction(m, h, m["capstan", "heavy"])}
     weight = per_length * GRAVITY
     out.update(bending(m, weight, h))
-    out["twisting_stiffness"] = out["bending_stiffness"] * (2 / 3 if limpness(out) < SOLID else 1)
+    out["twisting_stiffness"] = twisting(m, out)
     if ("pressed", "mass") in m:
         out["contact_stiffness"] = (3 * m["pressed", "mass"] * GRAVITY /
                                     (8 * math.sqrt(h) * m["pressed", "approach"] ** 1.5))
@@ -238,8 +304,8 @@ def properties(m):
         out["tying_preload"] = m["tied", "mass"] * GRAVITY
     if ("broken", "force") in m:
         out["breaking_force"] = m["broken", "force"]
-    if ("incline", "rise") in m:
-        out["rolling_resistance"] = m["incline", "rise"] / m["incline", "run"]
+    if ("rolled", "run") in m:
+        out.update(rolling(m, out))
     if ("creeping", "masses") in m:
         count = m["creeping", "masses"]
         loads = [capstan_friction(m, h, m["creeping", f"masses[{i}]"]) / out["friction_coefficient"] for i in range(count)]
@@ -315,9 +381,10 @@ def read_group(group, content):
             out[key] = measured(f"{group}.{key}", content[key])
             continue
         several = content[key]
-        if not isinstance(several, list) or len(several) < 2 or len(several) != len(content[keys[0]]):
+        fewest, in_word = FEWEST[group]
+        if not isinstance(several, list) or len(several) < fewest or len(several) != len(content[keys[0]]):
             other = next(name for name in keys if name in SEVERAL and name != key)
-            raise Wrong(f"{group}.{key} must be a list of two readings or more, as many as {group}.{other}")
+            raise Wrong(f"{group}.{key} must be a list of {in_word} or more, as many as {group}.{other}")
         out[key] = len(several), 0.0
         out.update({f"{key}[{i}]": measured(f"{group}.{key}[{i}]", reading) for i, reading in enumerate(several)})
     return out
@@ -332,7 +399,7 @@ def read(text):
         if group in ("name", "notes"):
             continue
         if group not in GROUPS:
-            raise Wrong(f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
+            raise Wrong(WITHDRAWN.get(group) or f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
         for key, (value, error) in read_group(group, content).items():
             values[group, key], errors[group, key] = value, error
     missing = [group for group in NEEDED if group not in given]
@@ -347,6 +414,8 @@ def read(text):
         raise Wrong("mandrel needs cantilever; a loop will not do, because how its fibres slid depends on how it was formed")
     if "mandrel" in given and "light_cantilever" not in given:
         values["stick_ratio", ""], errors["stick_ratio", ""] = STICK_RATIO
+    if "rolled" in given:
+        values["rolled", "law"], errors["rolled", "law"] = law_of_rolling(values, errors), 0.0
     if values["capstan", "heavy"] <= values["capstan", "light"]:
         raise Wrong("capstan: the heavy mass must be more than the light one")
     angle = values["capstan", "angle"]
@@ -367,16 +436,18 @@ def read(text):
 UNITS = {"radius": "m", "density": "kg/m3", "stretching_stiffness": "N", "bending_stiffness": "N m2",
          "twisting_stiffness": "N m2", "friction_coefficient": "-", "contact_stiffness": "N/m2", "tying_preload": "N",
          "breaking_force": "N", "friction_moment": "k_b/h", "stick_ratio": "-", "compaction": "-", "rolling_resistance": "-",
-         "rate": "-", "rate_speed": "m/s"}
+         "rolling_hysteresis": "-", "rate": "-", "rate_speed": "m/s"}
 HOW = {"radius": "measured: half the diameter", "density": "measured: mass over volume", "tying_preload": "measured",
        "stretching_stiffness": "measured: load over strain", "friction_coefficient": "measured: capstan",
        "bending_stiffness": "measured: sag under its own weight", "breaking_force": "measured",
-       "twisting_stiffness": "assumed: k_b of a rope, 2/3 k_b of a solid rod", "contact_stiffness": "measured: pressed crosswise",
+       "twisting_stiffness": "assumed: k_b/4 of a rope, 2/3 k_b of a solid rod", "contact_stiffness": "measured: pressed crosswise",
        "friction_moment": "measured: kept bend", "stick_ratio": "measured: light over heavy cantilever",
-       "compaction": "measured: kept bend after a pull", "rolling_resistance": "measured: incline"}
+       "compaction": "measured: kept bend after a pull", "rolling_resistance": "measured: rolled",
+       "rolling_hysteresis": "measured: rolled, grows as the root of the load"}
+HOW_ROLLED = {"constant": ", the same under each mass", "root": ", under the heaviest mass", "neither": ", under the heaviest mass", "open": ""}
 # Of the numbers that may come out wrong, those which a method takes, and the group that gives them.
 TAKEN = (("friction_coefficient", 0.0, 5.0, "capstan"), ("stick_ratio", 1.01, 1e3, "light_cantilever"), ("compaction", 0.0, 1.0, "pulled"),
-         ("rolling_resistance", 0.0, 1.0, "incline"), ("rate_speed", 1e-9, 1.0, "creeping"))
+         ("rolling_resistance", 0.0, 1.0, "rolled"), ("rolling_hysteresis", 0.0, 1.0, "rolled"), ("rate_speed", 1e-9, 1.0, "creeping"))
 
 
 def rates(here, errors):
@@ -385,17 +456,23 @@ def rates(here, errors):
             f"{errors['rate']:.2g}, +- {errors['rate_speed']:.2g} m/s, measured: creeping capstan")
 
 
-def material(given, here, errors):
+def how_found(name, given, values):
+    if name == "stick_ratio" and "light_cantilever" not in given:
+        return "assumed"
+    if name == "twisting_stiffness" and "twisted" in given:
+        return "measured: torsion pendulum"
+    return HOW[name] + (HOW_ROLLED[values["rolled", "law"]] if name == "rolling_resistance" else "")
+
+
+def material(given, here, errors, values):
     lines = [f"# {given.get('name', 'A rope')}, from measurements by scripts/material; the uncertainties are one standard "
              "deviation."]
     for name, value in here.items():
         if name == "friction_moment":
             lines.append(f"{'bending_law: frictional':<38}# because a rope that keeps a bend has fibres that rub")
         if name in HOW:
-            how = HOW[name] if name != "stick_ratio" or "light_cantilever" in given else "assumed"
+            how = how_found(name, given, values)
             lines.append(f"{f'{name}: {value:.6g}':<38}# [{UNITS[name]}] +- {errors[name]:.2g}, {how}")
-    if "rolling_resistance" in here:
-        lines.append(f"{'friction_couple: 1':<38}# assumed: friction rolls strands only where it acts at their surface")
     if "rate" in here:
         lines.append("# for a method: " + rates(here, errors))
     lines.append("notes: " + yaml.safe_dump(str(given.get("notes", "Measured with a ruler, a weight and a scale.")),
@@ -438,22 +515,55 @@ def questions(here):
         yield f"the friction coefficient is {here['friction_coefficient']:.3g}, and ropes have 0.05 to 1: is capstan.angle in rad?"
     if here.get("friction_moment", 1.0) < 3e-3:
         yield f"the friction moment is {here['friction_moment']:.2g} k_b/h, and ropes have 0.01 to 0.3: is what mandrel keeps in m?"
+    if not 0.05 <= here["twisting_stiffness"] / here["bending_stiffness"] <= 3:
+        yield (f"it twists {here['twisting_stiffness'] / here['bending_stiffness']:.2g} times as stiffly as it bends, and ropes do about 1/4, "
+               "solid rods 2/3 times: is twisted.period in s, there and back?")
+    if limpness(here) > ROPE and not 0.03 <= here.get("rolling_resistance", 0.1) <= 0.42:
+        yield (f"the resistance to rolling is {here['rolling_resistance']:.2g}, and ropes have 0.1 to 0.35: did the pieces roll, and the "
+               "board not slide on them?")
     if here.get("breaking_force", here["stretching_stiffness"]) < 1e-4 * here["stretching_stiffness"]:
         yield f"it would break at a strain of {here['breaking_force'] / here['stretching_stiffness']:.1g}: is broken.force in N?"
 
 
-def warnings(here, errors, values):
+def doubts_of_rolling(here, values, errors):
+    power, error = power_of_rolling(values, errors)
+    grows, law = f"rolled: the rises grow as the mass to the power {power:.2g} +- {error:.2g}", values["rolled", "law"]
+    if math.isinf(error):
+        yield "rolled: one mass does not tell whether the resistance to rolling grows with the load: add one that is four times as heavy"
+    elif law == "open":
+        yield (f"{grows}, which does not tell a constant (0) from a square root (1/2): take masses further apart, or the mean of more "
+               "readings; their mean is taken as constant")
+    elif law == "neither":
+        yield f"{grows}, neither as a constant (0) nor as a square root (1/2): are the pieces straight, and do they roll?"
+    elif law == "root" and "rolling_resistance" in here:
+        yield (f"{grows}, as of an elastic contact, but the stretching stiffness of a rope does not tell how wide it is: that of the heaviest "
+               "mass is taken")
+    pressed = max(line_load(values, values["rolled", f"masses[{i}]"]) for i in range(values["rolled", "masses"]))
+    if pressed < PRESSED:
+        yield (f"rolled: the pieces bear at most {pressed:.2g} N/m, and strands in knots {PRESSED:g} to 1e5: take a heavier board; are "
+               "rolled.masses in kg, and rolled.length in m?")
+
+
+def warnings(here, uncertain, values, errors):
+    """`uncertain` is of the properties, `errors` of the readings."""
     yield from questions(here)
     h = here["radius"]
     if limpness(here) > ROPE and "friction_moment" not in here:
         yield ("it is a rope, but its bends are taken as elastic, with which the knots of most ropes open: measure cantilever and mandrel, "
                "which tell how its fibres rub")
+    if ("rolled", "run") in values:
+        yield from doubts_of_rolling(here, values, errors)
+    elif limpness(here) > ROPE:
+        yield "it is a rope, but its strands are taken to roll without resistance: measure rolled"
+    if ("twisted", "period") in values and here["twisting_stiffness"] < 0.7 * swing(values, h)[0]:
+        yield ("twisted: more than 30 % of the swing is due to the weight of the disc, not the stiffness of the rope: take a lighter and "
+               "wider disc")
     if ("pressed", "approach") in values and values["pressed", "approach"] > STIFFENING_DEPTH * h:
         yield (f"the strands were pressed {values['pressed', 'approach'] / h:.3f} radii together; beyond {STIFFENING_DEPTH} the "
                "simulated contact stiffens by itself, so that it will be too stiff")
     for name, value in here.items():
-        if errors[name] > 0.3 * value:
-            yield f"{name} is uncertain by {100 * errors[name] / value:.0f} %"
+        if uncertain[name] > 0.3 * value:
+            yield f"{name} is uncertain by {100 * uncertain[name] / value:.0f} %"
 
 
 def main():
@@ -470,7 +580,7 @@ def main():
         usable(values, properties(values))
         here, uncertain = with_errors(values, errors)
         with open(asked.out, "w", encoding="utf-8") as file:
-            file.write(material(given, here, uncertain))
+            file.write(material(given, here, uncertain, values))
     except UnicodeDecodeError as error:
         refuse("material", f"{asked.measurements}: {no_text(error)}")
     except (Wrong, OSError, yaml.YAMLError) as error:
@@ -478,7 +588,7 @@ def main():
     print(f"{asked.out}: {in_words(here)}")
     if "rate" in here:
         print("for a method: " + rates(here, uncertain))
-    for line in warnings(here, uncertain, values):
+    for line in warnings(here, uncertain, values, errors):
         print("material: " + line, file=sys.stderr)
 
 
