@@ -56,9 +56,9 @@ TEST(Compatibility, IsWrittenAndReadBack) {
 
 TEST(Compatibility, LeavesWhatTheMethodSaysOfItsMaterial) {
   const Method set =
-      load_method(kTighten, {"compatibility=1", "material.friction_couple=0.5", "material.rolling_resistance=0.2",
+      load_method(kTighten, {"compatibility=1", "material.friction_couple=1", "material.rolling_resistance=0.2",
                              "material.bending_law=frictional", "material.friction_moment=0.1"});
-  EXPECT_EQ(set.material.friction_couple, 0.5);
+  EXPECT_EQ(set.material.friction_couple, 1.0);
   EXPECT_EQ(set.material.rolling_resistance, 0.2);
   EXPECT_EQ(set.material.bending.value("friction_moment"), 0.1);
   EXPECT_EQ(set.material.bending.value("compaction"), 0.0) << "that of the shipped file is of a later release";
