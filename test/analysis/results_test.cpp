@@ -470,5 +470,40 @@ TEST(Results, ReadingsOfTheCellAreNotThoseOfEveryTimeStep) {
   EXPECT_EQ(results.lock_extension, on_rollers(samples, EndedBy::kExtension).lock_extension);
 }
 
+/// The plateau, half of the way, grows by half of `rise`.
+TEST(Analyse, OnlyALevelLoadIsAPlateau) {
+  const auto read = [](double rise, double noise, double jerk, unsigned seed) {
+    Curve curve;
+    curve.rise = rise;
+    curve.noise = noise;
+    curve.jerk = jerk;
+    curve.seed = seed;
+    return on_rollers(curve.samples(), EndedBy::kExtension);
+  };
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    for (const double rise : {0.0, 0.4, -0.4}) {  // by 20 % of its mean over the plateau
+      for (const auto& [noise, jerk] : {std::pair{0.01, 0.0}, std::pair{0.1, 0.0}, std::pair{0.02, 0.4}}) {
+        const Results level = read(rise, noise, jerk, seed);
+        EXPECT_EQ(level.motion_pattern, MotionPattern::kSliding);
+        EXPECT_EQ(level.curve.no_plateau, "") << "rise " << rise << ", noise " << noise << ", jerk " << jerk;
+        EXPECT_NEAR(level.true_plateau_force.value_or(0.0), 6.6 * (1.0 + 0.05 * rise), 0.06 * 6.6);
+        EXPECT_TRUE(level.curve.plateau_force_low && level.curve.plateau_force_sd && level.true_breakaway_force);
+      }
+    }
+    // From 4.6 to 13.8 N, and by half over the plateau: 0.5 of 1.25, as its mean lies half way.
+    for (const double rise : {1.0, 0.8}) {
+      for (const auto& [noise, jerk] : {std::pair{0.01, 0.0}, std::pair{0.05, 0.0}, std::pair{0.02, 0.2}}) {
+        const Results grows = read(rise, noise, jerk, seed);
+        EXPECT_EQ(grows.motion_pattern, MotionPattern::kSliding);
+        EXPECT_THAT(grows.curve.no_plateau, testing::HasSubstr("the load is not level: "));
+        EXPECT_FALSE(grows.true_plateau_force || grows.curve.plateau_force_sd || grows.curve.plateau_force_low ||
+                     grows.curve.plateau_force_high || grows.curve.plateau_force_slope || grows.plateau_slope ||
+                     grows.curve.breakaway_force || grows.true_breakaway_force || grows.curve.lock_extension_by_load);
+        EXPECT_TRUE(grows.lock_extension && grows.curve.locked_stiffness) << "these the knots tell";
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace knot_utm
