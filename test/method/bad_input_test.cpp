@@ -260,7 +260,29 @@ TEST(BadInput, ResistanceToRollingNeedsStrandsThatRoll) {
                 AllOf(HasSubstr("material.rolling_resistance is 0.1"),
                       HasSubstr("only with material.friction_couple above 0"), Not(HasSubstr("\n"))))
         << held;
+  const std::string greased = "material.friction_coefficient=0";
+  EXPECT_THAT(complaint(kTighten, {resists, greased}),
+              AllOf(HasSubstr("material.rolling_resistance is 0.1"),
+                    HasSubstr("only with a material.friction_coefficient above 0"), Not(HasSubstr("\n"))));
+  EXPECT_EQ(complaint(kTighten, {resists, greased, "machine.roller_friction=0.2"}), "nothing was wrong");
   EXPECT_EQ(complaint(kTighten, {resists}), "nothing was wrong");
+  for (const char* beyond : {"-0.1", "1.1", ".nan"})
+    EXPECT_THAT(
+        complaint(kTighten, {std::string("material.rolling_resistance=") + beyond}),
+        AllOf(HasSubstr("tighten.yaml: material.rolling_resistance is "), HasSubstr("0 to 1"), Not(HasSubstr("\n"))));
+}
+
+TEST(BadInput, ARodThatIsNextToLimpInTwist) {
+  const std::vector<std::string> nylon{"material.bending_stiffness=4e-5", "material.twisting_stiffness=3.9e-7"};
+  EXPECT_THAT(
+      complaint(kTighten, nylon),
+      AllOf(HasSubstr("tighten.yaml: material.twisting_stiffness is 3.9e-07, but must be at least a hundredth of "
+                      "bending_stiffness, 4e-07 N m2"),
+            Not(HasSubstr("\n"))));
+  EXPECT_EQ(complaint(kTighten, {nylon[0], "material.twisting_stiffness=4e-7"}), "nothing was wrong");
+  EXPECT_THAT(complaint(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knot.yaml",
+                        {"specimen.knot=reef", "other_material=nylon", "other_material.twisting_stiffness=1e-9"}),
+              HasSubstr("other_material.twisting_stiffness is 1e-09, but must be at least a hundredth of"));
 }
 
 TEST(BadInput, CompatibilityIsOneOrNone) {

@@ -9,6 +9,7 @@
 
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
+#include "knot_utm/verdict/foreseen.hpp"
 
 namespace knot_utm {
 namespace {
@@ -93,9 +94,18 @@ TEST(OverruledKeys, OfAFormerLawGo) {
 
 TEST(OverruledKeys, OfStrandsThatDoNotRollGo) {
   ASSERT_GT(load_method(kTighten, {"material=pink_vps"}).material.rolling_resistance, 0.0);
+  EXPECT_THAT(load_method(kTighten, {"material=pink_vps"}).overruled, testing::IsEmpty());
   for (const char* held : {"material.friction_couple=0", "physics.friction.at=centreline",
-                           "physics.friction={at: centreline}", "compatibility=1"})
-    EXPECT_EQ(load_method(kTighten, {"material=pink_vps", held}).material.rolling_resistance, 0.0) << held;
+                           "physics.friction={at: centreline}", "material.friction_coefficient=0"}) {
+    const Method method = load_method(kTighten, {"material=pink_vps", held});
+    EXPECT_EQ(method.material.rolling_resistance, 0.0) << held;
+    EXPECT_THAT(method.overruled,
+                testing::ElementsAre(HasSubstr("material.rolling_resistance is 0.1, but has an effect only with ")));
+    EXPECT_THAT(foreseen_warnings(method), testing::Contains(method.overruled.front()));
+  }
+  const Method first = load_method(kTighten, {"material=pink_vps", "compatibility=1"});
+  EXPECT_EQ(first.material.rolling_resistance, 0.0);
+  EXPECT_THAT(first.overruled, testing::IsEmpty()) << "release 1 had no such key";
 }
 
 }  // namespace
