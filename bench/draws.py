@@ -77,7 +77,8 @@ class Draw:
         # Half of them with friction at the surface: strands roll and twist.
         self.settings["material"]["friction_couple"] = 0.0
         if self.choice("friction_at_surface", [False, True]):
-            self.settings["material"]["friction_couple"] = significant(self.uniform("friction_couple", 0.0, 1.0))
+            self.settings["material"]["friction_couple"] = 1.0
+            self.random.random()  # not used, so that all other draws stay as they were
             if self.number % 10 == 3:  # not drawn, so that all other draws stay as they were
                 self.settings["material"]["bending_set"] = self.keep("bending_set", 0.4)
         self.keep("bending_time", significant(h ** 2 * math.sqrt(density * math.pi * h ** 2 / bending)))

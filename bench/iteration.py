@@ -7,14 +7,11 @@ from table import Report, Table, at_most
 MATERIALS = ["nylon", "polypropylene", "pink_vps", "green_vps"]
 ROUNDS = 3
 MOST = 3.0  # bare factorisations and solves that an iteration may cost
-TINY = 1e-12         # couple of friction at the surface that does nothing but cost
 LOOP, OVERHAND = "config/tighten.yaml", "config/overhand.yaml"
 
 
 def report(runner, materials):
     scenes = {"Iterations of the pull": {name: (LOOP, {"material": name}) for name in materials},
-              "Iterations of the pull with friction at the surface":
-                  {name: (LOOP, {"material": name, "material.friction_couple": TINY}) for name in materials},
               "Iterations of the pull of an overhand":
                   {f"twist {twist}": (OVERHAND, {"physics.twist": twist}) for twist in ("off", "on")}}
     tables = []
@@ -33,5 +30,4 @@ def report(runner, materials):
                   "`config/tighten.yaml` and `config/overhand.yaml`: CPU time of the pull over its iterations, so with all "
                   "that a step takes besides: rejected iterations, prediction, patterns, checks, readings, the type of the "
                   "knot; and that of the factorisation and solve alone of the matrix at every tenth command of the pull, "
-                  f"again and again in a warm cache. The least of {ROUNDS} runs. Friction at the surface has a couple of "
-                  f"{TINY:g}.", tables)
+                  f"again and again in a warm cache. The least of {ROUNDS} runs.", tables)

@@ -9,7 +9,6 @@ from table import REFERENCE, Gate, Report, Table, at_most
 from tighten import MATERIALS, SLIDES
 
 OTHER_PRELOADS = {"nylon": [130.0, 260.0]}              # beside the material's own [N]
-COUPLES = {"polypropylene": [0.1], "pink_vps": [0.25], "green_vps": [0.25]}  # eta with which knots keep closed
 SEED, COUNT = 19, 12
 KNOT_DISTANCE, TAIL, TYING_SPEED = 0.15, 0.03, 0.01     # as shipped [m, m, m/s]
 SCATTER = {"specimen.knot_distance": (KNOT_DISTANCE, 0.01), "specimen.tail": (TAIL, 0.05),
@@ -60,15 +59,13 @@ def cases_of(materials):
         out[material] = material, {"material": material}
         for preload in OTHER_PRELOADS.get(material, []):
             out[f"{material}, {preload:g} N"] = material, {"material": material, "specimen.preload": preload}
-        for couple in COUPLES.get(material, []):
-            out[f"{material}, eta {couple:g}"] = material, {"material": material, "material.friction_couple": couple}
     return out
 
 
 def report(runner, materials, seeds=COUNT):
     return report_of(runner, cases_of(materials), seeds, meshes, "Specimens: how the readings scatter, and whether their mean holds still",
                      " Edges h/3 and h/5: the edges in the knots are the radius over 3 and 5 long, where `normal` "
-                     "has h/2.25, and for nylon, which is tied hard, h/3. eta is `material.friction_couple`, friction at the surface.")
+                     "has h/2.25, and for nylon, which is tied hard, h/3.")
 
 
 def convergence(runner, materials, seeds=3):

@@ -22,7 +22,8 @@ FINE = 40       # places along an axis of a picture
 def outcomes(table):
     """The motion pattern of each run. One whose knots jumped open, as it was mounted or pulled, and did not come undone is told
     apart. A run that the solver gave up has none."""
-    opened = (table["jump_force"].notna() | table["opened_when_mounted"].notna()) & table["untangled_at"].isna()
+    mounted = table["opened_when_mounted"].notna() & (table[PATTERN] == UNTANGLING)
+    opened = (table["jump_force"].notna() | mounted) & table["untangled_at"].isna()
     return [FAILED if ended in ("solver", "") or not pattern else OPENED if only_opened else pattern
             for pattern, ended, only_opened in zip(table[PATTERN].fillna(""), table["ended_by"].fillna(""), opened)]
 

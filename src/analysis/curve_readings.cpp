@@ -17,8 +17,8 @@ constexpr double kPlateauBegin = 0.3, kPlateauEnd = 0.8;  // of the way to the l
 constexpr double kLockedLoad = 2.0;                       // times the plateau's mean
 constexpr double kEarliestLock = 0.15;                    // of the pull
 constexpr std::ptrdiff_t kFewestReadings = 3;             // within a plateau
-constexpr double kLevel = 0.5;                            // change of a plateau over its mean ...
-constexpr double kProportional = 1.0 / 1.1;               // ... and that of a force in proportion to s
+constexpr double kLevel = 1.0 / 3.0;                      // growth of a plateau over its mean
+constexpr double kFallsAtOnce = 0.5;                      // of the mean of a plateau
 constexpr double kOffSliding = 0.5;                       // of de/ds from rigid sliding on rollers
 constexpr double kSudden = 0.05;                          // of the way to the lock
 constexpr double kTakenIn = 0.125, kFallen = 0.1;         // of the first excess length; of F
@@ -169,11 +169,12 @@ std::string why_not_sliding(double slope, bool on_rollers) {
 }
 
 /// Why the mean of F is no plateau; empty: it is.
-std::string why_not_level(const Plateau& level, bool locked) {
-  const bool slides = locked || std::isfinite(level.slope);
-  if (std::abs(level.rise) < (slides ? kProportional : kLevel) * level.force) return {};
-  return text("the load is not level: from 0.3 to 0.8 of the way it changes by %.0f %% of its mean",
-              100.0 * level.rise / level.force);
+std::string why_not_level(const Plateau& level) {
+  if (std::abs(level.rise) < kLevel * level.force) return {};
+  return text(
+      "the load is not level: from 0.3 to 0.8 of the way it changes by %.0f %% of its mean, where up to %.0f %% is "
+      "level",
+      100.0 * level.rise / level.force, 100.0 * kLevel);
 }
 
 std::optional<double> lock_by_load(const Pull& pull) {
@@ -295,7 +296,7 @@ namespace {
 /// Where F falls at once by more than a level may change the mean is one of before and behind; empty: it does not.
 std::string why_interrupted(const Pull& pull, double end, double mean) {
   const std::optional<Drop> fall = largest_drop(pull, plateau_range(pull, end), sudden(pull, end));
-  if (!fall || fall->force(pull) < kLevel * mean) return {};
+  if (!fall || fall->force(pull) < kFallsAtOnce * mean) return {};
   return text("the load is not level: it falls at once by %.0f %% of its mean", 100.0 * fall->force(pull) / mean);
 }
 
@@ -321,7 +322,7 @@ std::string why_no_plateau(const Pull& borne, bool on_rollers, const CurveReadin
     return text("the rod is not pulled: from 0.3 to 0.8 of the way the mean of the load is %.2g N", level->force);
   if (std::string falls = why_interrupted(borne, found.slides_to, level->force); !falls.empty()) return falls;
   if (std::string held = why_not_sliding(level->slope, on_rollers); !held.empty()) return held;
-  return why_not_level(*level, found.rises_at.has_value());
+  return why_not_level(*level);
 }
 
 /// Says why the knots do not lock; empty where they lock, which is where the force rises for good.

@@ -94,6 +94,8 @@ void MotionPatternTracker::add(const Sample& sample) {
     add_pulled(sample);
   else if (pull_.empty() && forms(sample.phase))
     add_tied(sample);
+  else if (pull_.empty() && std::isfinite(tied_distance_) && std::isfinite(sample.force_upper))
+    mounted_ = std::max(mounted_, sample.force_upper);
 }
 
 /// The end of tying sets the mark of the excess length; a release that lets the knot open does not move it.
@@ -178,7 +180,9 @@ std::optional<double> MotionPatternTracker::opened_when_mounted() const {
   return nearer > kOpened * tied_distance_ ? std::optional<double>(nearer) : std::nullopt;
 }
 
-bool MotionPatternTracker::untangles() const { return knot_lost() || jumped_ || opened_when_mounted(); }
+bool MotionPatternTracker::untangles() const {
+  return knot_lost() || jumped_ || (opened_when_mounted() && !(peak_ > mounted_));
+}
 
 bool MotionPatternTracker::slid() const {
   const PullPoint &start = pull_.front(), &first = point_at(first_sliding_), &last = point_at(last_sliding_);

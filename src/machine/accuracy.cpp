@@ -88,7 +88,7 @@ double near_locking(const Material& material) {
 /// couple of friction at the surface with fibres that rub.
 bool studied_section(const Material& material, const PhysicsOptions& physics) {
   return material.bending_set == 0.0 && BendingRegistry::entry(material.bending.law).studied &&
-         friction_couple(material, physics) == (remembers_bends(material) ? 1.0 : 0.0);
+         (friction_couple(material, physics) > 0.0) == remembers_bends(material);
 }
 
 /// The error over that at `normal` with edges of one radius. It grows with the square of the edge length, as the method

@@ -22,6 +22,7 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "method_reader.hpp"
+#include "overruled_keys.hpp"
 #include "specimens_section.hpp"
 
 namespace knot_utm {
@@ -77,19 +78,25 @@ void check_breaking(const Material& material, const std::string& section) {
                "with " + section + "breaking.weibull_modulus");
 }
 
-/// What resists rolling needs surfaces that roll. `section`: as for check_breaking.
-void check_rolling(const Material& material, const PhysicsOptions& physics, const std::string& section) {
-  const bool rolls = friction_couple(material, physics) > 0.0;
+/// What resists rolling needs surfaces that rub and roll. `section`: as for check_breaking.
+void check_rolling(const Method& m, const Material& material, const std::string& section) {
+  const bool rolls = friction_rolls(m.material, m.machine, m.physics);
   const std::string resistance = section + "rolling_resistance", hysteresis = section + "rolling_hysteresis",
-                    where = "with " + section + "friction_couple above 0 and friction.at: surface";
+                    where = what_rolling_takes(material, m.physics, section);
   has_effect(rolls, resistance.c_str(), material.rolling_resistance, 0.0, where);
   has_effect(rolls, hysteresis.c_str(), material.rolling_hysteresis, 0.0, where);
   has_effect(is_solid(material), hysteresis.c_str(), material.rolling_hysteresis, 0.0,
              "in a solid rod, whose stretching_stiffness says how wide its contacts are");
 }
 
+/// Softer in twist than any rod or rope: a slip of a unit, with which strands would spin in steps without end.
+constexpr double kSoftestInTwist = 0.01;  // k_t over k_b
+
 /// The laws of a material have their keys, and no others.
 void check_laws(const Material& material, const std::string& section) {
+  if (const double least = kSoftestInTwist * material.bending_stiffness; material.twisting_stiffness < least)
+    reject(section + "twisting_stiffness", material.twisting_stiffness,
+           "at least a hundredth of bending_stiffness, " + least_text(least) + " N m2");
   check_law<StretchingRegistry>(material.stretching, section, "stretching_law");
   check_law<BendingRegistry>(material.bending, section, "bending_law");
   check_breaking(material, section);
@@ -117,7 +124,7 @@ void check_other_material(const Method& m) {
   same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
   if (m.physics.contact_law == ContactLaw::kEdge)
     throw InvalidInput("physics.contact.law", "edge", "smooth where there is an other_material");
-  check_rolling(other, m.physics, "other_material.");
+  check_rolling(m, other, "other_material.");
   check_laws(other, "other_material.");
 }
 
@@ -170,7 +177,7 @@ void check_effects(const Method& m) {
   has_effect(can_part(m.material), "machine.after_break", std::string(follows ? "follow" : "stop"), std::string("stop"),
              "with material.breaking_force");
 
-  check_rolling(m.material, m.physics, "material.");
+  check_rolling(m, m.material, "material.");
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
   check_laws(m.material, "material.");
 }

@@ -73,7 +73,7 @@ inline void material(Fields& f, Material& o) {
   f.required_number("bending_stiffness", o.bending_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("friction_coefficient", o.friction_coefficient, Range{0.0, 5.0, "-"});
-  f.optional_number("friction_couple", o.friction_couple, Range{0.0, 1.0, "-"}, "auto");
+  f.optional_number("friction_couple", o.friction_couple, Range{0.0, 1.0, "-", true}, "auto");
   f.number("rolling_resistance", o.rolling_resistance, Range{0.0, 1.0, "-"});
   f.number("rolling_hysteresis", o.rolling_hysteresis, Range{0.0, 1.0, "-"});
   chosen_law<StretchingRegistry>(f, "stretching_law", o.stretching);

@@ -110,7 +110,7 @@ constexpr Label kLabels[] = {
     {"specimen.refinement", "Refinement within the knots"},
     {"material.rolling_resistance", "Resistance of contacts to rolling"},
     {"material.rolling_hysteresis", "Work lost as a soft contact rolls"},
-    {"material.friction_couple", "Share of friction's couple that sections take"},
+    {"material.friction_couple", "Friction's couple: 1 at the surface, 0 on the centreline"},
     {"material.hardening", "Share of the bending stiffness that does not yield"},
     {"material.friction_moment", "Friction moment of a bent rope"},
     {"material.stick_ratio", "Stiffness of a bend before fibres slide"},

@@ -84,13 +84,14 @@ inline std::string whole_text(double value) { return std::to_string(static_cast<
 /// "0.0001 to 100000 N".
 inline std::string range_text(const Range& range) {
   if (range.min == range.max) return with_unit(plain_number(range.min), range);
+  if (range.only_ends) return plain_number(range.min) + ", " + plain_number(range.max);
   if (std::isinf(range.max)) return "at least " + with_unit(plain_number(range.min), range);
   return with_unit(plain_number(range.min) + " to " + plain_number(range.max), range);
 }
 
 /// "a number from 0.0001 to 100000 (in N)".
 inline std::string number_text(const Range& range) {
-  if (range.min == range.max) return range_text(range);
+  if (range.min == range.max || range.only_ends) return range_text(range);
   const std::string name = range.unit, in = name.rfind("of ", 0) == 0 ? "" : "in ";
   const std::string unit = name == "-" ? "" : " (" + in + name + ")";
   if (std::isinf(range.max)) return "a number of at least " + plain_number(range.min) + unit;
@@ -309,7 +310,8 @@ class Reader : public Fields {
     const std::string or_word = or_term(range) + (word.empty() ? "" : ", or " + word);
     if (!number) fail(key, node, number_text(range) + or_word);
     // Written so that not-a-number fails.
-    if (!(*number >= range.min && *number <= range.max))
+    const bool between = range.only_ends && *number != range.min && *number != range.max;
+    if (between || !(*number >= range.min && *number <= range.max))
       fail_range(key, node, range_text(range) + or_word, range.min, range.max);
     return *number;
   }

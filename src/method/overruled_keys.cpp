@@ -7,6 +7,7 @@
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "method_overrides.hpp"
@@ -48,6 +49,12 @@ void drop_keys_of_former_laws(const std::string& section, const Source& by, Mate
 
 }  // namespace
 
+std::string what_rolling_takes(const Material& material, const PhysicsOptions& physics, const std::string& section) {
+  return friction_couple(material, physics) > 0.0
+             ? "with a " + section + "friction_coefficient above 0"
+             : "with " + section + "friction_couple above 0 and friction.at: surface";
+}
+
 void keep_own_keys(Method& method) {
   keep_own_keys<FrictionRegistry>(method.physics.friction);
   keep_own_keys(method.material);
@@ -61,11 +68,18 @@ void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>
   if (material.other)
     change_other(material, [&](Material& other) { drop_keys_of_former_laws("other_material.", by, other); });
   drop_keys_of_former_law<FrictionRegistry>("physics.friction.", "law", by, method.physics.friction);
+  if (friction_rolls(material, method.machine, method.physics)) return;
   const auto drop_rolling = [&](const std::string& section, Material& of) {
-    const GivenBy rolls = std::max({by(section + "friction_couple"), by("physics.friction.at"), by("compatibility")});
-    if (friction_couple(of, method.physics) > 0.0) return;
-    if (by(section + "rolling_resistance") < rolls) of.rolling_resistance = 0.0;
-    if (by(section + "rolling_hysteresis") < rolls) of.rolling_hysteresis = 0.0;
+    const GivenBy rolls = std::max({by(section + "friction_couple"), by(section + "friction_coefficient"),
+                                    by("physics.friction.at"), by("machine.roller_friction"), by("compatibility")});
+    for (const auto& [name, value] : {std::pair{"rolling_resistance", &of.rolling_resistance},
+                                      std::pair{"rolling_hysteresis", &of.rolling_hysteresis}}) {
+      const std::string key = section + name;
+      if (*value == 0.0 || !(by(key) < rolls)) continue;
+      method.overruled.push_back(key + " is " + format_number(*value) + ", but has an effect only " +
+                                 what_rolling_takes(of, method.physics, section) + ": it is taken as 0");
+      *value = 0.0;
+    }
   };
   drop_rolling("material.", material);
   if (material.other) change_other(material, [&](Material& other) { drop_rolling("other_material.", other); });

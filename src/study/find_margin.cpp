@@ -65,8 +65,7 @@ struct ShortTests {
     if (program.ended_by() == EndedBy::kSolver) return Outcome::kFailed;
     const Results results = analyse(samples, samples, program.ended_by(), rollers_hold(now.specimen, now.machine),
                                     hung_weight(now.specimen, now.material));
-    const bool opened = results.curve.jump_force || results.untangled_at || results.opened_when_mounted;
-    return opened ? Outcome::kOpened : Outcome::kHeld;
+    return results.motion_pattern == MotionPattern::kUntangling ? Outcome::kOpened : Outcome::kHeld;
   }
 };
 

@@ -245,6 +245,7 @@ std::string higher_preload(const Method& method) {
 std::vector<std::string> foreseen_warnings(const Method& method) {
   std::vector<std::string> all;
   if (method.specimen.to_be_tied) all = tying_warnings(method.specimen, method.material, method.physics);
+  all.insert(all.end(), method.overruled.begin(), method.overruled.end());
   for (const std::string& found : {longer_than_usual(method), near_the_rollers(method), between_nodes(method),
                                    drawn_wide(method), scatters(method), too_rough(method)})
     if (!found.empty()) all.push_back(found);

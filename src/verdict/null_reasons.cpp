@@ -22,13 +22,13 @@ std::string why_they_did_not_lock(const Results& results) {
   if (results.curve.jump_force)
     return "a knot jumped open at " + short_number(*results.curve.jump_force) +
            " N, and the load-extension curve after it is that of another knot";
-  if (results.opened_when_mounted) return "a knot opened as the loop was mounted";
   switch (results.motion_pattern) {
     case MotionPattern::kSliding:
       return ended_in_plateau(results) ? kEndedInPlateau : "the knots still slid at the end of the pull";
     case MotionPattern::kStretching:
       return "the motion pattern is stretching";
     case MotionPattern::kUntangling:
+      return "a knot opened as the loop was mounted";
     case MotionPattern::kNone:
       break;
   }
@@ -38,7 +38,7 @@ std::string why_they_did_not_lock(const Results& results) {
 std::string why_the_load_has_no_stiffness(const Results& results) {
   if (results.motion_pattern == MotionPattern::kNone && !results.curve.jump_force)
     return "the load has no rise with three readings or more";
-  if (results.curve.jump_force || results.opened_when_mounted || results.motion_pattern != MotionPattern::kSliding)
+  if (results.curve.jump_force || results.motion_pattern != MotionPattern::kSliding)
     return why_they_did_not_lock(results);
   if (results.curve.rises_at) return "the load was read fewer than three times between the lock and the peak";
   return results.lock_extension ? "the lock does not show in the load" : why_they_did_not_lock(results);
@@ -55,7 +55,7 @@ std::string why_no_error(const ResultSource& source, const std::string& no_readi
   if (!why_not_at_rest(results, source.facts).empty()) return "unknown: the specimen was not at rest as its pull began";
   if (results.curve.jump_force) return "unknown: a knot jumped open, which no convergence study covers";
   if (results.opened_when_mounted)
-    return "unknown: a knot opened as the loop was mounted, which no convergence study covers";
+    return "unknown: the knots moved as the loop was mounted, which no convergence study covers";
   if (hardly_closed && !studied) return "unknown: the knots were hardly closed, which no convergence study covers";
   if (!no_reading.empty()) return no_reading;
   return studied ? "unknown: the estimate is more than half of the reading"

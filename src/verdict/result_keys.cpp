@@ -207,8 +207,8 @@ constexpr ResultKey kKeys[] = {
     {"knot_reading_end", "m", kKnots, "What they are at the end of the pull", of_knots<&R::knot_reading_end>,
      why_no_reading},
     {"opened_when_mounted", "m", kKnots,
-     "How much nearer the knots came as the loop was mounted and one of them opened", read<&R::opened_when_mounted>,
-     "no knot opened as the loop was mounted"},
+     "How much nearer the knots came as the loop was mounted, where one of them opened or slid",
+     read<&R::opened_when_mounted>, "the knots stayed where they were as the loop was mounted"},
 
     // While the knots slide.
     {"plateau_force", "N", kCurve, "Plateau force, the mean while the knots slide", read<&C::plateau_force>,

@@ -78,9 +78,12 @@ class Warnings {
   /// Says what happened in the pull: a knot opened, the rod snapped, knots still slid, a roller bore on a knot.
   void of_events() {
     const CurveReadings& curve = results_.curve;
-    if (results_.opened_when_mounted)
-      say("a knot opened as the loop was mounted: before the pull the knots had come nearer to each other by " +
-          short_number(*results_.opened_when_mounted) + " m");
+    if (results_.opened_when_mounted) {
+      const bool opened = results_.motion_pattern == MotionPattern::kUntangling;
+      say(std::string(opened ? "a knot opened" : "the knots slid") +
+          " as the loop was mounted: before the pull they had come nearer to each other by " +
+          short_number(*results_.opened_when_mounted) + " m" + (opened ? "" : ", and then bore more than before"));
+    }
     if (curve.jump_force)
       say("a knot jumped open at an extension of " + short_number(*curve.jump_extension) + " m: the load went from " +
           short_number(*curve.jump_force) + " N to " + short_number(*curve.force_after_jump) +

@@ -127,8 +127,8 @@ TEST_P(WarmStep, TakesNothingFromTheHeap) {
 
 INSTANTIATE_TEST_SUITE_P(Twist, WarmStep,
                          testing::Values(Kind{"Off", false, 0.0}, Kind{"On", true, 0.0},
-                                         Kind{"OnWithFrictionAtTheSurface", true, 0.3},
-                                         Kind{"OnWithFrictionAmongFibres", true, 0.3, 0.01}),
+                                         Kind{"OnWithFrictionAtTheSurface", true, 1.0},
+                                         Kind{"OnWithFrictionAmongFibres", true, 1.0, 0.01}),
                          [](const auto& kind) { return kind.param.name; });
 
 TEST(WarmStep, OnAFreeRollerTakesNothingFromTheHeap) {

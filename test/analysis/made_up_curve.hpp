@@ -15,6 +15,8 @@ struct Curve {
   double lock = 0.08;      ///< [m]; 0: holds from the start
   double plateau = 6.6;    ///< [N]
   double breakaway = 1.0;  ///< times the plateau, on top of it
+  double rise = 0.0;       ///< from the begin of the pull to the lock, of the plateau, which is then the load half way
+  double jerk = 0.0;       ///< by which strands that stick and slip let go of it, every 6 mm, of the plateau
   double stiffness = 2e5;  ///< once locked [N/m]
   double ripple = 0.03;    ///< of the plateau
   double noise = 0.01;     ///< of the plateau, standard deviation
@@ -41,7 +43,9 @@ struct Curve {
       const double beyond = std::max(0.0, s - lock);
       const double sliding =
           lock > 0.0 ? plateau * (1.0 + breakaway * std::exp(-s / 3e-3)) * std::min(1.0, s / 1e-3) : 0.0;
-      const double wave = 1.0 + 0.5 * ripple * std::sin(2.0 * M_PI * s / 3.2e-3);
+      const double wave = 1.0 + 0.5 * ripple * std::sin(2.0 * M_PI * s / 3.2e-3) +
+                          (lock > 0.0 ? rise * (std::min(s, lock) / lock - 0.5) : 0.0) +
+                          jerk * (std::fmod(s / 6e-3, 1.0) - 0.5);
       sample.load = sliding * wave + plateau * noise * normal(random) + stiffness * beyond;
       sample.force_upper = sample.load;
       sample.force_lower = sample.load * (1.0 + 1e-3);

@@ -187,22 +187,41 @@ TEST(Results, ASofterSecondLoadingDoesNotSnap) {
   }
 }
 
-/// As behind a jump: what is pulled is not the knot that was tied.
-TEST(Results, AKnotThatOpenedAsTheLoopWasMountedHasNoReadings) {
+/// Of a loop whose knots came nearer to each other by a tenth as it was mounted, and bore this much then [N].
+Results of_knots_that_moved(double mounted, KnotType type = KnotType::kKept) {
   std::vector<Sample> samples = Curve().samples();
-  ASSERT_TRUE(on_rollers(samples, EndedBy::kExtension).lock_extension);
-  Sample tied = samples.front();
-  tied.phase = Phase::kRelease;
-  tied.knot_distance *= 1.1;
-  tied.time -= 1.0;
-  samples.insert(samples.begin(), tied);
-  const Results results = on_rollers(samples, EndedBy::kExtension);
+  for (Sample& sample : samples) sample.knot_type = type;
+  std::vector<Sample> before(2, samples.front());
+  before[0].phase = Phase::kRelease;
+  before[0].knot_type = KnotType::kKept;
+  before[0].knot_distance *= 1.1;
+  before[1].phase = Phase::kMount;
+  before[1].force_upper = mounted;
+  for (std::size_t i = 0; i < 2; ++i) before[i].time -= 2.0 - static_cast<double>(i);
+  samples.insert(samples.begin(), before.begin(), before.end());
+  return on_rollers(samples, EndedBy::kExtension);
+}
+
+/// As behind a jump: what is pulled is not the knot that was tied.
+TEST(Results, AKnotThatOpenedAsTheLoopWasMountedAndBearsNoMoreHasNoReadings) {
+  const double largest = on_rollers(Curve().samples(), EndedBy::kExtension).true_peak_force.value_or(0.0);
+  const Results results = of_knots_that_moved(1.01 * largest);
   ASSERT_TRUE(results.opened_when_mounted);
   EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling) << "one event, one word";
   EXPECT_FALSE(results.untangled_at);
   EXPECT_FALSE(results.curve.plateau_force || results.true_plateau_force || results.curve.lock_extension_by_load);
   EXPECT_FALSE(results.lock_extension || results.curve.locked_stiffness);
   EXPECT_NE(results.curve.no_plateau.find("opened as the loop was mounted"), std::string::npos);
+}
+
+TEST(Results, KnotsThatMovedAsTheLoopWasMountedAndThenBearMoreAreReadAsOthersAre) {
+  const Results moved = of_knots_that_moved(10.0), others = on_rollers(Curve().samples(), EndedBy::kExtension);
+  ASSERT_TRUE(moved.opened_when_mounted && others.lock_extension);
+  EXPECT_EQ(moved.motion_pattern, MotionPattern::kSliding);
+  EXPECT_EQ(moved.lock_extension, others.lock_extension);
+  EXPECT_EQ(moved.true_plateau_force, others.true_plateau_force);
+  EXPECT_EQ(moved.curve.locked_stiffness, others.curve.locked_stiffness);
+  EXPECT_EQ(of_knots_that_moved(10.0, KnotType::kCrossed).motion_pattern, MotionPattern::kUntangling);
 }
 
 TEST(Results, ABreakEndsThePullAndIsNoUntangling) {
@@ -468,6 +487,41 @@ TEST(Results, ReadingsOfTheCellAreNotThoseOfEveryTimeStep) {
   EXPECT_LT(*results.curve.peak_force, samples.back().load);
   EXPECT_EQ(results.curve.plateau_force, on_rollers(readings, EndedBy::kExtension).curve.plateau_force);
   EXPECT_EQ(results.lock_extension, on_rollers(samples, EndedBy::kExtension).lock_extension);
+}
+
+/// The plateau, half of the way, grows by half of `rise`.
+TEST(Analyse, OnlyALevelLoadIsAPlateau) {
+  const auto read = [](double rise, double noise, double jerk, unsigned seed) {
+    Curve curve;
+    curve.rise = rise;
+    curve.noise = noise;
+    curve.jerk = jerk;
+    curve.seed = seed;
+    return on_rollers(curve.samples(), EndedBy::kExtension);
+  };
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    for (const double rise : {0.0, 0.4, -0.4}) {  // by 20 % of its mean over the plateau
+      for (const auto& [noise, jerk] : {std::pair{0.01, 0.0}, std::pair{0.1, 0.0}, std::pair{0.02, 0.4}}) {
+        const Results level = read(rise, noise, jerk, seed);
+        EXPECT_EQ(level.motion_pattern, MotionPattern::kSliding);
+        EXPECT_EQ(level.curve.no_plateau, "") << "rise " << rise << ", noise " << noise << ", jerk " << jerk;
+        EXPECT_NEAR(level.true_plateau_force.value_or(0.0), 6.6 * (1.0 + 0.05 * rise), 0.06 * 6.6);
+        EXPECT_TRUE(level.curve.plateau_force_low && level.curve.plateau_force_sd && level.true_breakaway_force);
+      }
+    }
+    // From 4.6 to 13.8 N, and by half over the plateau: 0.5 of 1.25, as its mean lies half way.
+    for (const double rise : {1.0, 0.8}) {
+      for (const auto& [noise, jerk] : {std::pair{0.01, 0.0}, std::pair{0.05, 0.0}, std::pair{0.02, 0.2}}) {
+        const Results grows = read(rise, noise, jerk, seed);
+        EXPECT_EQ(grows.motion_pattern, MotionPattern::kSliding);
+        EXPECT_THAT(grows.curve.no_plateau, testing::HasSubstr("the load is not level: "));
+        EXPECT_FALSE(grows.true_plateau_force || grows.curve.plateau_force_sd || grows.curve.plateau_force_low ||
+                     grows.curve.plateau_force_high || grows.curve.plateau_force_slope || grows.plateau_slope ||
+                     grows.curve.breakaway_force || grows.true_breakaway_force || grows.curve.lock_extension_by_load);
+        EXPECT_TRUE(grows.lock_extension && grows.curve.locked_stiffness) << "these the knots tell";
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ Scene with_a_set(Scene of) {
 
 Scene rolling(Scene of) {
   of.physics.twist = TwistMode::kOn;
-  of.material.friction_couple = 0.3;
+  of.material.friction_couple = 1.0;
   of.material.rolling_resistance = 0.1;
   return of;
 }

@@ -309,7 +309,7 @@ TEST(TestingMachine, TwistIsOnByItselfWhereClampsHoldTwoFramesAndWhereFrictionRo
   EXPECT_TRUE(twists(straight_rod(), GripKind::kClamps, TwistMode::kOn));
 
   Material rope = polypropylene();
-  rope.friction_couple = 0.5;
+  rope.friction_couple = 1.0;
   EXPECT_TRUE(twists(loop, GripKind::kRollers, TwistMode::kAuto, rope));
   EXPECT_FALSE(twists(loop, GripKind::kRollers, TwistMode::kAuto, rope, FrictionAt::kCentreline));
   rope.friction_coefficient = 0.0;

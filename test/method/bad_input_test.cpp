@@ -152,14 +152,16 @@ const std::vector<Wrong>& wrong_overrides() {
        "only with roller_rotation: turned"},
       {"machine={roller_friction: 0.1, roller_rotation: turned}", "machine.roller_rate", "0", "other than 0"},
       {"physics.friction.slip_tolerance=0.01", "physics.friction.slip_tolerance", "0.01", "only with law: smoothed"},
-      {"physics.friction={law: memory, kinetic_share: 0.5}", "physics.friction.kinetic_share", "0.5",
-       "only with law: stribeck"},
-      {"physics.friction={law: stribeck, slip_length: 0.1}", "physics.friction.kinetic_share", "",
-       "is missing: give a number from 0 to 1 (of friction_coefficient), which law: stribeck needs"},
+      {"physics.friction={law: stribeck}", "physics.friction.law", "stribeck", "memory, smoothed, power or rate"},
+      {"physics.friction={law: memory, exponent: 0.5}", "physics.friction.exponent", "0.5", "only with law: power"},
+      {"physics.friction={law: power, reference_pressure: 100}", "physics.friction.exponent", "",
+       "is missing: give a number from 0.5 to 1 (-), which law: power needs"},
       {"material.hardening=0.5", "material.hardening", "0.5", "only with bending_law: plastic"},
       {"material.twisting_law=linear", "material.twisting_law is no key", "", "the keys of material are"},
       {"physics.friction.at=skin", "physics.friction.at", "skin", "surface or centreline"},
-      {"material.friction_couple=1.5", "material.friction_couple", "1.5", "must be 0 to 1"},
+      {"material.friction_couple=0.5", "material.friction_couple", "0.5", "must be 0, 1, or auto"},
+      {"material.friction_couple=1.5", "material.friction_couple", "1.5", "must be 0, 1, or auto"},
+      {"material.friction_couple=all", "material.friction_couple", "all", "must be 0, 1, or auto"},
       {"physics.friction={law: smoothed, presliding: 0.01}", "physics.friction.presliding", "0.01",
        "only with law: memory"},
       {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "can only be the first step"},
@@ -258,7 +260,29 @@ TEST(BadInput, ResistanceToRollingNeedsStrandsThatRoll) {
                 AllOf(HasSubstr("material.rolling_resistance is 0.1"),
                       HasSubstr("only with material.friction_couple above 0"), Not(HasSubstr("\n"))))
         << held;
+  const std::string greased = "material.friction_coefficient=0";
+  EXPECT_THAT(complaint(kTighten, {resists, greased}),
+              AllOf(HasSubstr("material.rolling_resistance is 0.1"),
+                    HasSubstr("only with a material.friction_coefficient above 0"), Not(HasSubstr("\n"))));
+  EXPECT_EQ(complaint(kTighten, {resists, greased, "machine.roller_friction=0.2"}), "nothing was wrong");
   EXPECT_EQ(complaint(kTighten, {resists}), "nothing was wrong");
+  for (const char* beyond : {"-0.1", "1.1", ".nan"})
+    EXPECT_THAT(
+        complaint(kTighten, {std::string("material.rolling_resistance=") + beyond}),
+        AllOf(HasSubstr("tighten.yaml: material.rolling_resistance is "), HasSubstr("0 to 1"), Not(HasSubstr("\n"))));
+}
+
+TEST(BadInput, ARodThatIsNextToLimpInTwist) {
+  const std::vector<std::string> nylon{"material.bending_stiffness=4e-5", "material.twisting_stiffness=3.9e-7"};
+  EXPECT_THAT(
+      complaint(kTighten, nylon),
+      AllOf(HasSubstr("tighten.yaml: material.twisting_stiffness is 3.9e-07, but must be at least a hundredth of "
+                      "bending_stiffness, 4e-07 N m2"),
+            Not(HasSubstr("\n"))));
+  EXPECT_EQ(complaint(kTighten, {nylon[0], "material.twisting_stiffness=4e-7"}), "nothing was wrong");
+  EXPECT_THAT(complaint(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knot.yaml",
+                        {"specimen.knot=reef", "other_material=nylon", "other_material.twisting_stiffness=1e-9"}),
+              HasSubstr("other_material.twisting_stiffness is 1e-09, but must be at least a hundredth of"));
 }
 
 TEST(BadInput, CompatibilityIsOneOrNone) {

@@ -9,6 +9,7 @@
 
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
+#include "knot_utm/verdict/foreseen.hpp"
 
 namespace knot_utm {
 namespace {
@@ -56,9 +57,9 @@ TEST(Compatibility, IsWrittenAndReadBack) {
 
 TEST(Compatibility, LeavesWhatTheMethodSaysOfItsMaterial) {
   const Method set =
-      load_method(kTighten, {"compatibility=1", "material.friction_couple=0.5", "material.rolling_resistance=0.2",
+      load_method(kTighten, {"compatibility=1", "material.friction_couple=1", "material.rolling_resistance=0.2",
                              "material.bending_law=frictional", "material.friction_moment=0.1"});
-  EXPECT_EQ(set.material.friction_couple, 0.5);
+  EXPECT_EQ(set.material.friction_couple, 1.0);
   EXPECT_EQ(set.material.rolling_resistance, 0.2);
   EXPECT_EQ(set.material.bending.value("friction_moment"), 0.1);
   EXPECT_EQ(set.material.bending.value("compaction"), 0.0) << "that of the shipped file is of a later release";
@@ -93,9 +94,18 @@ TEST(OverruledKeys, OfAFormerLawGo) {
 
 TEST(OverruledKeys, OfStrandsThatDoNotRollGo) {
   ASSERT_GT(load_method(kTighten, {"material=pink_vps"}).material.rolling_resistance, 0.0);
+  EXPECT_THAT(load_method(kTighten, {"material=pink_vps"}).overruled, testing::IsEmpty());
   for (const char* held : {"material.friction_couple=0", "physics.friction.at=centreline",
-                           "physics.friction={at: centreline}", "compatibility=1"})
-    EXPECT_EQ(load_method(kTighten, {"material=pink_vps", held}).material.rolling_resistance, 0.0) << held;
+                           "physics.friction={at: centreline}", "material.friction_coefficient=0"}) {
+    const Method method = load_method(kTighten, {"material=pink_vps", held});
+    EXPECT_EQ(method.material.rolling_resistance, 0.0) << held;
+    EXPECT_THAT(method.overruled,
+                testing::ElementsAre(HasSubstr("material.rolling_resistance is 0.1, but has an effect only with ")));
+    EXPECT_THAT(foreseen_warnings(method), testing::Contains(method.overruled.front()));
+  }
+  const Method first = load_method(kTighten, {"material=pink_vps", "compatibility=1"});
+  EXPECT_EQ(first.material.rolling_resistance, 0.0);
+  EXPECT_THAT(first.overruled, testing::IsEmpty()) << "release 1 had no such key";
 }
 
 }  // namespace

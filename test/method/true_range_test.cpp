@@ -153,7 +153,7 @@ TEST(TrueRange, OfEveryOtherKnot) {
 
 TEST(TrueRange, OfLawsWithKeysOfTheirOwn) {
   expect_true_ranges({shipped("straight"), {"physics.friction={law: smoothed}"}}, {"physics.friction."}, 1);
-  expect_true_ranges({shipped("straight"), {"physics.friction={law: stribeck, kinetic_share: 0.5, slip_length: 1}"}},
+  expect_true_ranges({shipped("straight"), {"physics.friction={law: power, exponent: 0.9, reference_pressure: 100}"}},
                      {"physics.friction."}, 2);
 }
 

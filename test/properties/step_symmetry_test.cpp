@@ -141,7 +141,7 @@ TEST_P(StepSymmetry, ScenesTouchAndSlide) {
 INSTANTIATE_TEST_SUITE_P(Laws, StepSymmetry,
                          testing::Values(Kind{ContactLaw::kSmooth, false}, Kind{ContactLaw::kSmooth, true},
                                          Kind{ContactLaw::kEdge, false}, Kind{ContactLaw::kEdge, true},
-                                         Kind{ContactLaw::kSmooth, true, 1.0}, Kind{ContactLaw::kEdge, true, 0.5}),
+                                         Kind{ContactLaw::kSmooth, true, 1.0}, Kind{ContactLaw::kEdge, true, 1.0}),
                          [](const auto& kind) {
                            return std::string(kind.param.law == ContactLaw::kEdge ? "edge" : "smooth") +
                                   (kind.param.twist ? "Twist" : "") + (kind.param.couple > 0.0 ? "Rolling" : "");

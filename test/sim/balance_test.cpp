@@ -89,7 +89,7 @@ struct Scene {
     static const char* const kinds[] = {"Straight", "Overhand", "FallsOnARoller", "Curved", "CurvedAndRelaxing"};
     return std::string(kinds[static_cast<int>(kind)]) + (twist ? "WithTwist" : "") +
            (law == ContactLaw::kEdge ? "BetweenEdges" : "") + (friction > 0.0 ? "AndFriction" : "") +
-           (couple > 0.0 ? "AtTheSurface" : "") + (couple > 0.0 && couple < 1.0 ? "InPart" : "") +
+           (couple > 0.0 ? "AtTheSurface" : "") +
            (turns == Turns::kFreely   ? "ThatIsFree"
             : turns == Turns::kDriven ? "ThatIsDriven"
                                       : "");
@@ -221,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
         Scene{Kind::kCurved, true, ContactLaw::kSmooth, 0.0}, Scene{Kind::kRelaxing, true, ContactLaw::kSmooth, 0.0},
         Scene{Kind::kStraight, false, ContactLaw::kSmooth, 0.0}, Scene{Kind::kStraight, true, ContactLaw::kSmooth, 0.0},
         Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.3}, Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3},
-        Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 0.4},
+        Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 1.0},
         Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3, 1.0},
         Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0},
         Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0},

@@ -207,18 +207,6 @@ TEST(R14CrossedRods, RollElasticallyThenSlip) {
   hold_against("R14 crossed rods: force as they slip [N]", limit, beyond, 0.02);
 }
 
-TEST(R14CrossedRods, HalfTheCoupleRollsFourTimesAsStiffly) {
-  CrossedRods scene(0.5);
-  scene.force_at(0.0, 1e-9, 1);
-  const double h = CrossedRods::lever(),
-               limit = CrossedRods::kFriction * scene.stepper->readings().contact().normal_force;
-  const double roll = 4.0 * 2.0 * scene.rod.material.twisting_stiffness / (scene.free_length() * h * h);
-  const double together = 1.0 / (1.0 / roll + CrossedRods::kPresliding / limit);
-  const double way = 0.5 * limit / together;
-  hold_against("R14 crossed rods, half the couple: stiffness [N/m]", together, scene.force_at(1e-9, way, 20) / way,
-               0.02);
-}
-
 /// The rod that is not dragged rests until friction's couple F lambda passes mu_r N h/2, and its turn phi gives way to
 /// what is beyond: F lambda - mu_r N h/2 = 2 k_t phi/l, with lambda half of the centrelines' distance. It is half of
 /// N, since each strand resists about its own line, at its own points, and where strands cross they bear half of it.

@@ -28,7 +28,7 @@ struct LooseKnotOptions {
   double presliding = 1e-3;  // xi_s [h]
   double drag = 1e-4;        // on the whole rod at speed 1 [eps^4/2]
   double residual = 1e-6;    // [eps^4/2]
-  double couple = 0.0;       // eta, of friction
+  double couple = 0.0;       // 1: friction at the surface
 };
 
 /// A loose overhand knot in a long thin rod along z whose ends are held by nodes: no moment, no twist. Units: h = 1,

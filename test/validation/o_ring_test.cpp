@@ -20,7 +20,6 @@ struct RingOptions {
   double radius = 0.1;   ///< h
   double natural = 1.0;  ///< kappa_0, in the plane of the ring
   double friction = 0.5;
-  double couple = 1.0;   ///< eta
   double rolling = 0.0;  ///< mu_r
   double tension = 200.0;
   int edges_a_turn = 120;
@@ -66,7 +65,7 @@ struct Ring {
     material.stretching_stiffness = 100.0 * options.tension;
     StepSettings settings = capstan_settings(material, options.tension, 1e-3, 1e-8);
     settings.roller_friction = MemoryFriction{options.friction, 1e-4 * options.radius};
-    settings.friction_couple = options.couple;
+    settings.friction_couple = 1.0;
     settings.rolling = {options.rolling, options.radius, 1e-4 * options.radius};
     settings.spin_inertia = false;
 
@@ -103,9 +102,8 @@ struct Ring {
 
   /// Drags the ring along the shaft until its way is `to`, in steps in which a rolling ring turns by 0.05.
   void drag(double to) {
-    const double lever = options.couple > 0.0 ? options.couple * options.radius : options.radius;
     StepControl::Options control_options;
-    control_options.longest = control_options.first = 0.05 * lever / kSpeed;
+    control_options.longest = control_options.first = 0.05 * options.radius / kSpeed;
     control_options.motion = control_options.slip = 1e3;
     run_to(to / kSpeed, *stepper, time, control_options, [&](double now) -> const Boundary& {
       for (FixedNode& held : boundary.fixed_nodes) held.position[0] = kSpeed * now;
@@ -215,15 +213,6 @@ TEST(R13ORingBeyondFriction, SlidesAndRollsNoFurther) {
   hold_against("R13 O-ring beyond what friction can bear: axial force [k_b/R^2]", ring.limit(), ring.force(), kGate);
   hold_against("R13 O-ring beyond what friction can bear: rolled by [rad]",
                std::asin(ring.limit() / rolling_force(options, 0.5 * M_PI)), ring.rolled(), kGate);
-}
-
-TEST(R13ORingOfHalfTheCouple, RollsTwiceAsFastAgainstTwiceTheForce) {
-  RingOptions options;
-  options.couple = 0.5;
-  Ring ring(options);
-  ring.drag(0.5 * options.radius);
-  hold_against("R13 O-ring with half the couple, phi = 1: axial force [k_b/R^2]", 2.0 * rolling_force(options, 1.0),
-               ring.force(), kGate);
 }
 
 }  // namespace

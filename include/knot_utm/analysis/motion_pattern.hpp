@@ -15,7 +15,7 @@ enum class MotionPattern {
   kNone,        ///< nothing was pulled yet, or there are no two knots
   kSliding,     ///< the knots slide towards each other under a low, steady load; they may lock later
   kStretching,  ///< the knots hold from the start: e and the load grow
-  kUntangling   ///< a knot came undone, jumped open, or had opened as the loop was mounted
+  kUntangling   ///< a knot came undone or jumped open, or opened as the loop was mounted and bore no more afterwards
 };
 
 const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding", ... as in result.yaml
@@ -26,9 +26,9 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// Symbols: s extension, e knot distance, F true force on the upper grip, q the limit of de/ds between sliding and
 /// stretching. F is used because the reading of the load cell is shifted by its balance. Only samples of the pull
 /// count, up to a break. Of these only the ones count that reach a new largest s, because moving back tells nothing.
-/// Untangling is decided first, then sliding, and stretching is anything else. A knot that came undone, jumped open or
-/// opened as the loop was mounted is an event: whatever is pulled afterwards is another knot, and how it moves does not
-/// change the pattern.
+/// Untangling is decided first, then sliding, and stretching is anything else. A knot that came undone or jumped open
+/// is an event: whatever is pulled afterwards is another knot, and how it moves does not change the pattern. Knots that
+/// came nearer as the loop was mounted, and then bear more than they did then, are pulled as any others.
 ///
 /// The confidence, 0 to 1, is the mean of those of the following indicators that can be read, each limited to 0 to 1.
 /// Lines are least-squares lines whose points are weighted by extension. They are fitted over the part that decides:
@@ -62,7 +62,8 @@ class MotionPatternTracker {
   /// Time at which the knot came undone [s]: the time at which its type changed. Empty where it did not come undone.
   std::optional<double> untangled_at() const;
 
-  /// By how much the knots came nearer to each other between release and pull, where a knot opened meanwhile [m].
+  /// By how much the knots came nearer to each other between release and pull, where that is so much that a knot opened
+  /// meanwhile or slid [m].
   std::optional<double> opened_when_mounted() const;
 
   /// The samples of the pull that count.
@@ -101,6 +102,7 @@ class MotionPatternTracker {
   double last_sliding_ = 0.0;   ///< extension at which de/ds last rose through q, or at which it was last below q [m]
   double hung_ = 0.0;           ///< [N]
   double peak_ = 0.0;           ///< largest F [N]
+  double mounted_ = 0.0;        ///< largest F before the pull, once the knots were tied and released [N]
   std::array<Excess, PerKnot::kMost> excess_;                        ///< of each knot
   double tied_distance_ = std::numeric_limits<double>::quiet_NaN();  ///< e once the knots are tied and released [m]
   std::optional<double> type_lost_;  ///< time since which the knot type has been another one [s]

@@ -7,13 +7,12 @@
 #include "knot_utm/contact/power_friction.hpp"
 #include "knot_utm/contact/rate_friction.hpp"
 #include "knot_utm/contact/smoothed_friction.hpp"
-#include "knot_utm/contact/stribeck_friction.hpp"
 #include "knot_utm/numeric/law_registry.hpp"
 
 namespace knot_utm {
 
 /// All friction laws there are, in the order in which messages name them; the first is the default.
-using FrictionLaws = std::variant<MemoryFriction, SmoothedFriction, StribeckFriction, PowerFriction, RateFriction>;
+using FrictionLaws = std::variant<MemoryFriction, SmoothedFriction, PowerFriction, RateFriction>;
 
 using FrictionRegistry = LawRegistry<FrictionLaws>;
 

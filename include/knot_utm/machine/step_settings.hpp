@@ -14,8 +14,8 @@ struct Material;
 StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                            const PhysicsOptions& physics);
 
-/// eta, the fraction of friction's couple that the rod's sections transmit [-]: that of the material, or 0 where a
-/// method puts friction on the centreline.
+/// 1 where friction acts at the surface, with its couple, else 0 [-]: that of the material, or 0 where a method puts
+/// friction on the centreline.
 double friction_couple(const Material& material, const PhysicsOptions& physics);
 
 /// The pressure law of contacts between strands of this material, and on rollers, with the contact tolerance delta [m].

@@ -58,7 +58,8 @@ struct Method {
   Specification specification;
   SpecimensOptions specimens;
   std::map<std::string, std::string>
-      automatic;  ///< dotted keys whose values `auto` gave, and these as they are written
+      automatic;                       ///< dotted keys whose values `auto` gave, and these as they are written
+  std::vector<std::string> overruled;  ///< what nearer keys left without effect and took away, a sentence each
 };
 
 /// Reads a method file. Materials and load cells are given as maps in the method, or by name. A name is looked up as

@@ -15,7 +15,8 @@ namespace knot_utm::fields {
 struct Range {
   double min;
   double max;
-  const char* unit;  ///< "-": none
+  const char* unit;        ///< "-": none
+  bool only_ends = false;  ///< nothing between the two is allowed
 };
 
 /// Two numbers, the lower one first.

@@ -92,14 +92,13 @@ struct StepSettings {
     void state(Archive& archive);
   };
   std::optional<OtherLaws> others;
-  double friction_couple =
-      0.0;                    ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
-  RollingResistance rolling;  ///< of the first rope's contacts; only where friction acts at the surfaces
-  double weighting_time = 0.05;             ///< relaxation time of weighting factors (smooth_contact.hpp) [s]
-  Vec3 gravity = Vec3::Zero();              ///< g [m/s^2]
-  double drag = 0.0;                        ///< c, force -c v per length [N s/m^2]
-  bool spin_inertia = true;                 ///< spin has inertia and drag (frame_terms.hpp)
-  double residual = 0.0;                    ///< tolerance of a node's residual [N]
+  double friction_couple = 0.0;  ///< 1: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
+  RollingResistance rolling;     ///< of the first rope's contacts; only where friction acts at the surfaces
+  double weighting_time = 0.05;  ///< relaxation time of weighting factors (smooth_contact.hpp) [s]
+  Vec3 gravity = Vec3::Zero();   ///< g [m/s^2]
+  double drag = 0.0;             ///< c, force -c v per length [N s/m^2]
+  bool spin_inertia = true;      ///< spin has inertia and drag (frame_terms.hpp)
+  double residual = 0.0;         ///< tolerance of a node's residual [N]
   double residual_from_step = 0.0;          ///< in shorter steps it falls with their square, down to a thousandth [s]
   double residual_of_tension = 0.0;         ///< tolerance scaling: more by this fraction of the node's tension [-]
   double residual_at_little_tension = 0.0;  ///< small tension: tolerance at most this times the largest; 0: any [-]

@@ -17,7 +17,7 @@ enum class BreakingLaw : std::size_t {};
 struct Material : RodMaterial {
   std::string name;
   double friction_coefficient = 0.0;        ///< mu [-]
-  std::optional<double> friction_couple;    ///< eta [-]; unset: default_friction_couple
+  std::optional<double> friction_couple;    ///< 0 or 1 [-]; unset: default_friction_couple
   double rolling_resistance = 0.0;          ///< mu_r of its contacts (RollingResistance) [-]
   double rolling_hysteresis = 0.0;          ///< alpha of a solid rod's contacts (growth_of_hysteresis) [-]
   double bending_set = 0.0;                 ///< fraction of the bend in its tied knots that the rod keeps at rest [-]
@@ -65,8 +65,8 @@ inline double default_contact_stiffness(const Material& material) {
   return material.contact_stiffness.value_or(300.0 * material.bending_stiffness / (h2 * h2));
 }
 
-/// Fraction eta of friction's couple that the section transmits: the material's own, else all of it, because friction
-/// acts at the surface of a strand, a radius off its centreline (doc/model.md, section 5). Less is for experiments.
+/// 1: friction acts at the surface of a strand, a radius off its centreline, with the couple that this makes; 0: on the
+/// centreline, as in the source paper. The material's own, else 1 (doc/model.md, section 5).
 inline double default_friction_couple(const Material& material) { return material.friction_couple.value_or(1.0); }
 
 }  // namespace knot_utm

@@ -14,7 +14,7 @@ TITLES = {row["knot"]: row["title"] for row in tool.listing("knots")}
 KEYS_OF_KNOTS = {row["knot"]: row["keys"].split() for row in tool.listing("knots")}
 # How a unit of a method is shown, where that is not as in a result.
 KINDS = {**quantities.KINDS, "m/s": "speed", "N/s": "force_rate", "of the radius": "of the radius",
-         "of capacity": "of its capacity", "of k_b/h2": "k_b/h²", "of friction_coefficient": "of the friction coefficient"}
+         "of capacity": "of its capacity", "of k_b/h2": "k_b/h²"}
 # Labels where the rod lies around a post.
 ON_POST = {"machine.roller_friction": "Friction coefficient of the rod on the post"}
 NOT_FACTS = ("name", "notes", "tying_preload", "seed", "load_cell")

@@ -87,15 +87,15 @@ class Facts(unittest.TestCase):
         method = {"specimen": {"knot": "capstan", "wrap": 3.0, "end_to_end": 0.2}, "machine": {},
                   "material": {"stretching_law": "linear", "bending_law": "plastic", "hardening": 0.1},
                   "physics": {"inertia": 2.0, "friction": {"law": "power", "exponent": 0.9, "reference_pressure": 100.0,
-                                                           "kinetic_share": 0.8, "slip_length": 1.5}}}
+                                                           "presliding": 0.02}}}
         found = {row for _, rows, _ in method_facts.method_facts(method, Units("lbf", "in")) for row in rows}
         self.assertLessEqual({
             ("Knot", "Strand around a post (capstan)"), ("Angle around the post", "3 rad"), ("End to end L", "7.874 in"),
             ("Stretching law", "linear"), ("Bending law", "plastic"),
             ("Share of the bending stiffness that does not yield", "0.1"),
             ("Mass that is accelerated", "2 of the own mass"),
-            ("Friction", "law power, exponent 0.9 of the pressure, reference pressure 100 N/m, kinetic share 0.8 of the "
-                         "friction coefficient, slip length 1.5 of the radius")}, found)
+            ("Friction", "law power, exponent 0.9 of the pressure, reference pressure 100 N/m, "
+                         "presliding 0.02 of the radius")}, found)
 
     def test_of_a_step_have_the_units_of_the_page(self):
         steps = [{"pull": {"speed": 0.002, "until": {"extension": 0.1, "load": 5.0, "break": True}}},
