@@ -133,8 +133,10 @@ class ArgumentsTest(unittest.TestCase):
                   'units:=time=s,extension=mm,load=N', 'specimen:=1']
         needed = {'experiment': record, 'replay': ['bag:=x']}
         for file, word, said in (
-                ('tighten', 'method:=nowhere.yaml', 'utm_node: .*nowhere.yaml'), ('tighten', 'material:=nilon', 'utm_node: .*nilon'),
-                ('tighten', 'preload:=1e9', 'utm_node: .*specimen.preload, 1e.09 N'), ('tighten', 'data:=nowhere.csv', 'utm_node: .*nowhere.csv'),
+                ('tighten', 'method:=nowhere.yaml', 'utm_node: .*nowhere.yaml'),
+                ('tighten', 'material:=nilon', 'utm_node: .*nilon'),
+                ('tighten', 'preload:=1e9', 'utm_node: .*specimen.preload, 1e.09 N'),
+                ('tighten', 'data:=nowhere.csv', 'utm_node: .*nowhere.csv'),
                 ('tighten', "overrides:='program.pull.speed=-1'", 'utm_node: .*speed is -1'),
                 ('tighten', 'real_time_factor:=-1', 'utm_node: real_time_factor is -1'),
                 ('tighten', 'real_time_factor:=fast', 'utm_node: /utm_node/real_time_factor is fast'),
