@@ -143,7 +143,9 @@ class ArgumentsTest(unittest.TestCase):
                 ('tighten', 'record:=perhaps', 'record is "perhaps", but must be true or false'),
                 ('tighten', 'network:=perhaps', 'network is "perhaps", but must be true or false'),
                 ('experiment', 'balance:=perhaps', 'experiment_node: balance is perhaps'),
-                ('replay', 'bag:=nowhere.bag', 'replay_node: .*nowhere.bag'), ('replay', 'rate:=-1', 'replay_node: rate is -1'), ('replay', 'rate:=fast', 'replay_node: /replay_node/rate is fast')):
+                ('replay', 'bag:=nowhere.bag', 'replay_node: .*nowhere.bag'),
+                ('replay', 'rate:=-1', 'replay_node: rate is -1'),
+                ('replay', 'rate:=fast', 'replay_node: /replay_node/rate is fast')):
             console = self.said(2, *CHECK, '--values', file + '.launch', '--', *needed.get(file, []), word)
             self.assertRegex(console, '^%s.*\n$' % said)
         console = self.said(1, 'roslaunch', '-p', str(free_port()), 'knot_utm', 'tighten.launch', 'material:=nilon')
