@@ -181,8 +181,11 @@ std::optional<double> MotionPatternTracker::opened_when_mounted() const {
 }
 
 bool MotionPatternTracker::untangles() const {
-  return knot_lost() || jumped_ || (opened_when_mounted() && !(peak_ > mounted_));
+  return knot_lost() || jumped_ || (opened_when_mounted() && !slides_under_more());
 }
+
+/// Whether knots that moved as the loop was mounted slide, and bear more than they did then.
+bool MotionPatternTracker::slides_under_more() const { return std::isfinite(slope_) && peak_ > mounted_ && slid(); }
 
 bool MotionPatternTracker::slid() const {
   const PullPoint &start = pull_.front(), &first = point_at(first_sliding_), &last = point_at(last_sliding_);

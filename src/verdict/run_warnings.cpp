@@ -81,7 +81,7 @@ class Warnings {
     if (results_.opened_when_mounted) {
       const bool opened = results_.motion_pattern == MotionPattern::kUntangling;
       say(std::string(opened ? "a knot opened" : "the knots slid") +
-          " as the loop was mounted: before the pull they had come nearer to each other by " +
+          " as the loop was mounted: before the pull the knots had come nearer to each other by " +
           short_number(*results_.opened_when_mounted) + " m" + (opened ? "" : ", and then bore more than before"));
     }
     if (curve.jump_force)

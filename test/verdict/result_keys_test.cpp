@@ -71,6 +71,14 @@ TEST_F(ResultYaml, SaysByHowMuchAKnotOpenedAsItWasMounted) {
   EXPECT_TRUE(says("opened_when_mounted: 0.0125\n"));
   for (const char* key : {"lock_extension", "locked_stiffness"})
     EXPECT_TRUE(says(key + std::string(": null  # a knot opened as the loop was mounted\n")));
+  EXPECT_THAT(warnings(),
+              Contains(HasSubstr("a knot opened as the loop was mounted: before the pull the knots had come nearer to "
+                                 "each other by 0.0125 m")));
+  results.motion_pattern = MotionPattern::kSliding;
+  EXPECT_TRUE(says("lock_extension: null  # the knots still slid at the end of the pull\n"));
+  EXPECT_THAT(warnings(),
+              Contains(HasSubstr("the knots slid as the loop was mounted: before the pull the knots had come nearer to "
+                                 "each other by 0.0125 m, and then bore more than before")));
 }
 
 /// A load behind a lock depends on where the lock is, one at which a knot breaks on friction; of other kinds nothing is

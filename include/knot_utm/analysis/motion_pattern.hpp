@@ -15,7 +15,7 @@ enum class MotionPattern {
   kNone,        ///< nothing was pulled yet, or there are no two knots
   kSliding,     ///< the knots slide towards each other under a low, steady load; they may lock later
   kStretching,  ///< the knots hold from the start: e and the load grow
-  kUntangling   ///< a knot came undone or jumped open, or opened as the loop was mounted and bore no more afterwards
+  kUntangling  ///< a knot came undone or jumped open, or opened as the loop was mounted and did not slide and bear more
 };
 
 const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding", ... as in result.yaml
@@ -28,7 +28,7 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// count, up to a break. Of these only the ones count that reach a new largest s, because moving back tells nothing.
 /// Untangling is decided first, then sliding, and stretching is anything else. A knot that came undone or jumped open
 /// is an event: whatever is pulled afterwards is another knot, and how it moves does not change the pattern. Knots that
-/// came nearer as the loop was mounted, and then bear more than they did then, are pulled as any others.
+/// came nearer as the loop was mounted, and then slide and bear more than they did, slide as any others.
 ///
 /// The confidence, 0 to 1, is the mean of those of the following indicators that can be read, each limited to 0 to 1.
 /// Lines are least-squares lines whose points are weighted by extension. They are fitted over the part that decides:
@@ -86,6 +86,7 @@ class MotionPatternTracker {
   bool vanished() const;
   bool knot_lost() const;
   bool untangles() const;
+  bool slides_under_more() const;
 
   bool on_rollers_;
   double turnover_;  ///< q
