@@ -415,7 +415,7 @@ struct RollingHelix {
   static constexpr double kPresliding = 1e-3 * kRadius;
   static constexpr double kResistance = 0.3;
   Wound scene;
-  Smooth kind{scene, MemoryFriction{0.0, 1e-3 * kRadius}};
+  Smooth kind{scene, MemoryFriction{0.4, 1e-3 * kRadius}};
   Points before;
 
   RollingHelix() {
