@@ -1,5 +1,6 @@
 #include "knot_utm/contact/surface_contact.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "four_contacts.hpp"

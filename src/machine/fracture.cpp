@@ -1,5 +1,6 @@
 #include "knot_utm/machine/fracture.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #include "knot_utm/specimen/rest_shape.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "knot_utm/numeric/invalid_input.hpp"
