@@ -8,6 +8,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
+#include "knot_utm/rod/frames.hpp"
 #include "watch_increment.hpp"
 
 namespace knot_utm {
@@ -67,6 +68,11 @@ class ImplicitStep final : public TimeStep {
   }
 
  private:
+  void take_lengths() override {
+    equation_.centreline.take_lengths();
+    equation_.frames.take_lengths();
+  }
+
   void cut(int edge) {
     equation_.part(edge);
     tunnelling_.part(edge);
@@ -130,7 +136,31 @@ Eigen::VectorXd TimeStep::tension() const {
 
 void TimeStep::take_set(double fraction) { take_bending_set(fraction, &state_); }
 
-void TimeStep::state(Archive& archive) { archive(state_); }
+void TimeStep::lay(const Eigen::VectorXd& rest_length, const Points& position) {
+  const Points before = state_.position;
+  state_.position = position;
+  if (state_.twist.size() > 0) transport_frames(before, &state_);
+  set_lengths(rest_length);
+}
+
+void TimeStep::set_lengths(const Eigen::VectorXd& rest_length) {
+  const RodProperties laid = make_rod(rod_.material, rest_length);
+  rod_.rest_length = laid.rest_length;
+  rod_.voronoi_length = laid.voronoi_length;
+  rod_.mass = laid.mass;
+  take_lengths();
+}
+
+void TimeStep::state(Archive& archive) {
+  Eigen::VectorXd lengths = rod_.rest_length;
+  if (archive.optional_section("LAID", lengths != made_with_.rest_length)) {
+    archive.list(lengths);
+    const bool fits = lengths.size() == rod_.edges() && lengths.allFinite() && lengths.minCoeff() > 0.0;
+    archive.require(fits, "lengths of the rod", "those of no rod");
+    if (archive.loads()) set_lengths(lengths);
+  }
+  archive(state_);
+}
 
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {

@@ -369,14 +369,14 @@ TEST(Results, TwoStepsInARowAreTwo) {
                                     reading(Phase::kHold, 0.02, 180.0),  reading(Phase::kHold, 0.02, 170.0),
                                     reading(Phase::kHold, 0.02, 165.0)};
   const auto relaxed = [&](const std::vector<int>& steps) {
-    return analyse(held, held, EndedBy::kProgram, false, 0.0, steps).relaxation;
+    return analyse(held, held, EndedBy::kProgram, false, 0.0, 0.0, steps).relaxation;
   };
   EXPECT_FALSE(relaxed({0, 0, 1, 1, 1, 1, 1})) << "a load was held";
   EXPECT_EQ(relaxed({0, 0, 1, 1, 2, 2, 2})->from, 200.0) << "and then the crosshead";
   EXPECT_EQ(relaxed({0, 0, 1, 1, 2, 2, 3})->from, 170.0);
   std::vector<Sample> cycled;
   for (const double s : {0.0, 0.01, 0.0, 0.01, 0.0, 0.02, 0.0}) cycled.push_back(reading(Phase::kCycle, s, s));
-  EXPECT_EQ(analyse(cycled, cycled, EndedBy::kProgram, false, 0.0, {-1, 0, 0, 0, 0, 1, 1}).cycles, 1u);
+  EXPECT_EQ(analyse(cycled, cycled, EndedBy::kProgram, false, 0.0, 0.0, {-1, 0, 0, 0, 0, 1, 1}).cycles, 1u);
   EXPECT_EQ(analyse(cycled, cycled, EndedBy::kProgram, false).cycles, 3u);
 }
 

@@ -445,15 +445,19 @@ TEST_F(Warnings, AreNoneWhereAKnotIsReadAndItsReadingsAreNamed) {
   EXPECT_EQ((*this)["knot_reading_end"][1].as<double>(), 0.5);
 }
 
-/// Ctrl-C while the knots are tied finds them still far from where they will be.
-TEST_F(Warnings, SayNothingOfKnotsThatWereNotReleased) {
-  results.tied_knot_distance = 0.0967;
+TEST_F(Warnings, SayWhichMarksThePullDidNotBeginWith) {
   facts.knot_distance = 0.15;
-  EXPECT_THAT(printed(), ElementsAre(HasSubstr("the knots moved as they were released")));
-  results.ended_by = EndedBy::kOperator;
-  EXPECT_THAT(printed(), ElementsAre(HasSubstr("the knots moved as they were released")));
-  results.true_peak_force.reset();
+  facts.end_to_end = 0.25;
+  results.tied_knot_distance = 0.0967;
+  EXPECT_THAT(printed(), IsEmpty()) << "nothing was pulled";
+  results.knot_distance = 0.1514;
+  results.gauge_length = 0.2476;
   EXPECT_THAT(printed(), IsEmpty());
+  results.knot_distance = 0.1516;
+  EXPECT_THAT(printed(), ElementsAre(HasSubstr("the knots are 0.152 m apart as the pull begins, instead of 0.15 m")));
+  results.knot_distance = 0.15;
+  results.gauge_length = 0.2474;
+  EXPECT_THAT(printed(), ElementsAre(HasSubstr("the grips are 0.247 m apart as the pull begins, instead of 0.25 m")));
 }
 
 /// Without gravity a light loop slides as far.

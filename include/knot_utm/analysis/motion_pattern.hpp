@@ -43,8 +43,8 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 class MotionPatternTracker {
  public:
   /// `on_rollers`: rollers hold the loop, not two of its nodes. `hung`: weight that hangs on the rod, and that a knot
-  /// which came undone still bears [N].
-  explicit MotionPatternTracker(bool on_rollers, double hung = 0.0);
+  /// which came undone still bears [N]. `marks`: e to which mounting sets the knots; 0: they stay where they are [m].
+  explicit MotionPatternTracker(bool on_rollers, double hung = 0.0, double marks = 0.0);
 
   void add(const Sample& sample);
 
@@ -62,8 +62,8 @@ class MotionPatternTracker {
   /// Time at which the knot came undone [s]: the time at which its type changed. Empty where it did not come undone.
   std::optional<double> untangled_at() const;
 
-  /// By how much the knots came nearer to each other between release and pull, where that is so much that a knot opened
-  /// meanwhile or slid [m].
+  /// By how much the knots are nearer to each other, as the pull begins, than their marks or than they were tied, where
+  /// that is so much that a knot opened meanwhile or slid [m].
   std::optional<double> opened_when_mounted() const;
 
   /// The samples of the pull that count.
@@ -102,6 +102,7 @@ class MotionPatternTracker {
   double first_sliding_ = 0.0;  ///< extension at which de/ds was first below q [m]
   double last_sliding_ = 0.0;   ///< extension at which de/ds last rose through q, or at which it was last below q [m]
   double hung_ = 0.0;           ///< [N]
+  double marks_ = 0.0;          ///< [m]
   double peak_ = 0.0;           ///< largest F [N]
   double mounted_ = 0.0;        ///< largest F before the pull, once the knots were tied and released [N]
   std::array<Excess, PerKnot::kMost> excess_;                        ///< of each knot
