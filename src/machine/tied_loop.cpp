@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kGripStretch = 2.4;    // of a tail's grip when it slips [h]
 constexpr double kTautLoad = 0.03;      // of a loop whose slack is taken up [k_b/h^2]
-constexpr double kWavy = 1.5;           // by which a taut loop is longer than a string around its rollers [h]
 constexpr double kNear = 0.005;         // of e and L, nearer to which they are met
 constexpr int kMostSets = 4;            // of a taut loop to its marks
 constexpr double kSetTime = 1.0 / 3.0;  // in which that is done, at least [s]
+constexpr double kSliding = 4.0;        // times the crosshead's speed: that of the knots' marks meanwhile
 constexpr double kOpened = 0.05;        // of e, as where the motion pattern says so (motion_pattern.cpp)
 constexpr const char* kNoRoom =
     "mount: the loop as it was tied and released leaves no room for the rollers; choose a larger specimen.end_to_end, "
@@ -56,7 +56,7 @@ void TiedLoop::enter(const Command& command, const Place& now) {
   } else if (rig_.tied()) {
     rig_.let_go(stepper_, now.time);
   } else if (rig_.released() && !rests(phase)) {
-    put_on(phase, now);
+    put_on(now);
   } else if (rig_.guides() && phase != Phase::kMount) {
     rig_.take_guides_off(stepper_, now.time);
   }
@@ -66,34 +66,24 @@ void TiedLoop::enter(const Command& command, const Place& now) {
   begin_to_take_up(now);
 }
 
-void TiedLoop::put_on(Phase phase, const Place& now) {
-  if (phase == Phase::kMount) set_to_marks();
+void TiedLoop::put_on(const Place& now) {
+  tied_distance_ = knot_distance();
   rig_.put_on(stepper_, now.time);
   const auto loop = stepper_.state().position.middleCols(rig_.loop_begin(), rig_.loop_end() - rig_.loop_begin() + 1);
   if (!grips_.put_on(loop, now.grip, radius_)) not_mounted_ = kNoRoom;
 }
 
-/// Neither e nor L affects how a knot is tied and let go: a second drawing, by which the knots come to lie at their
-/// marks, would lead to the same knots. So the loop is laid as from that drawing.
-void TiedLoop::set_to_marks() {
-  const auto [around, distance] = rig_.lengths(stepper_.rod(), stepper_.state());
-  const double taut = 2.0 * (end_to_end_ + grips_.length_moved(radius_)) + kWavy * radius_;
-  const auto [rest_length, position] = rig_.laid(
-      knot_distance_ - distance, grips_.on_rollers() ? 0.5 * (taut - around) : 0.0, stepper_.rod(), stepper_.state());
-  stepper_.lay(rest_length, position);
-}
-
-/// What is left of e and L once the slack is taken up: a stiff rod does not lie on its rollers as a taut string does.
-/// Knots that are far from their marks by now have opened, and stay.
-bool TiedLoop::set_taut_to_marks(const Place& now) {
-  const double apart = knot_distance_ - knot_distance();
+/// Straight strands become longer or shorter until e and L are met, as if the loop had been drawn so: neither affects
+/// how a knot is tied and let go. Knots that have come nearer by themselves have opened, and stay.
+bool TiedLoop::set_to_marks(const Place& now) {
+  const double distance = knot_distance(), apart = knot_distance_ - distance;
   const double further = grips_.on_rollers() ? end_to_end_ - grips_.end_to_end(now.grip) : 0.0;
-  const bool opened = std::abs(apart) > kOpened * knot_distance_;
+  const bool opened = distance < (1.0 - kOpened) * (sets_ == 0 ? tied_distance_ : knot_distance_);
   const bool near = std::abs(apart) < kNear * knot_distance_ && std::abs(further) < kNear * end_to_end_;
   if (opened || near || sets_ == kMostSets) return false;
   ++sets_;
   set_begin_ = now.time;
-  set_duration_ = std::max(kSetTime, std::abs(further) / speed_);
+  set_duration_ = std::max({kSetTime, std::abs(further) / speed_, std::abs(apart) / (kSliding * speed_)});
   set_speed_ = further / set_duration_;
   set_from_ = stepper_.rod().rest_length;
   set_to_ = rig_.longer(apart, 2.0 * further - apart, stepper_.rod(), stepper_.state());
@@ -102,7 +92,7 @@ bool TiedLoop::set_taut_to_marks(const Place& now) {
 
 void TiedLoop::leave(Phase phase, const Place& now) {
   // What the knots and the load do while they are let go is not the slack's.
-  if (rig_.released() && phase != Phase::kRelease && !rests(phase)) put_on(phase, now);
+  if (rig_.released() && phase != Phase::kRelease && !rests(phase)) put_on(now);
   if (rig_.guides() && phase != Phase::kMount) rig_.take_guides_off(stepper_, now.time);
 }
 
@@ -111,7 +101,7 @@ void TiedLoop::follow(Phase phase, const Place& now, double dt) {
   rig_.follow(stepper_, now.time, dt);
   if (setting()) {
     const double left = std::max(0.0, 1.0 - (now.time - set_begin_) / set_duration_);
-    stepper_.lay(set_to_ + left * (set_from_ - set_to_), stepper_.state().position);
+    stepper_.set_lengths(set_to_ + left * (set_from_ - set_to_));
     if (left == 0.0) set_duration_ = 0.0;
   }
   // From here on weight, if there is any, would carry the slack loop round.
@@ -123,7 +113,7 @@ void TiedLoop::follow(Phase phase, const Place& now, double dt) {
 void TiedLoop::follow_mounting(const Place& now, bool puts_on) {
   if (puts_on || setting()) return begin_to_take_up(now);
   take_up_.follow(load_on_both(), now.displacement, knot_distance());
-  at_marks_ = take_up_.done() && !set_taut_to_marks(now);
+  at_marks_ = take_up_.done() && !set_to_marks(now);
 }
 
 void TiedLoop::begin_to_take_up(const Place& now) { take_up_.begin(load_on_both(), now.displacement, knot_distance()); }
@@ -180,7 +170,7 @@ void TiedLoop::read(Sample& sample) const {
 
 void TiedLoop::state(Archive& archive) {
   archive.section("LOOP");
-  archive(rig_, touch_, take_up_, set_begin_, set_duration_, set_speed_, speed_, sets_, at_marks_);
+  archive(rig_, touch_, take_up_, set_begin_, set_duration_, set_speed_, speed_, tied_distance_, sets_, at_marks_);
   archive.list(set_from_);
   archive.list(set_to_);
 }

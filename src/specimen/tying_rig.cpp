@@ -120,42 +120,11 @@ NodeRange TyingRig::beyond_knots() const {
   return {clamps_[2 * kClamps - 1].node, clamps_[kClamps - 1].node};
 }
 
-TyingRig::LoopLengths TyingRig::lengths(const RodProperties& rod, const RodState& state) const {
-  const NodeRange beyond = beyond_knots();
-  const Points& x = state.position;
-  double length = std::abs(x(2, beyond.last) - x(2, beyond.first));
-  for (int i = beyond.first; i < beyond.last; ++i) length += (x.col(i + 1) - x.col(i)).norm();
-  return {length, (knot_middle(0, rod, state) - knot_middle(1, rod, state)).norm()};
-}
-
-TyingRig::LaidLoop TyingRig::laid(double apart, double longer, const RodProperties& rod, const RodState& state) const {
-  const Points& x = state.position;
-  const double z[] = {knot_middle(0, rod, state).z(), knot_middle(1, rod, state).z()};
-  const double middle = 0.5 * (z[0] + z[1]), half = 0.5 * std::abs(z[1] - z[0]);
-  const double inside = half - kHalfKnot * radius_, outside = half + kHalfKnot * radius_;
-  const int far_begin = far_side_.front().node, far_end = far_side_.back().node;
-  const double top = x(2, far_begin), bottom = x(2, far_end);
-  const double to_knots = 0.5 * std::clamp(apart, -std::max(inside, 0.0), 2.0 * std::max(inside, 0.0));
-  const auto moved = [&](int i) {
-    const double from_middle = x(2, i) - middle, r = std::abs(from_middle), up = from_middle > 0.0 ? 1.0 : -1.0;
-    if (i >= far_begin && i <= far_end) return longer * ((x(2, i) - bottom) / (top - bottom) - 0.5);
-    if (r <= inside) return to_knots * from_middle / inside;
-    const double ends = up > 0.0 ? top - middle : middle - bottom;  // the straight strands
-    if (r <= outside || i < knots_[0].standing_node || i > knots_[1].standing_node) return up * to_knots;
-    if (r >= ends) return 0.5 * up * longer;
-    return up * (to_knots + (r - outside) / (ends - outside) * (0.5 * longer - to_knots));
-  };
-  LaidLoop out{rod.rest_length, x};
-  for (int i = 0; i < static_cast<int>(rod.nodes()); ++i) out.position(2, i) += moved(i);
-  for (int i = 0; i < static_cast<int>(rod.edges()); ++i)
-    out.rest_length[i] *= (out.position.col(i + 1) - out.position.col(i)).norm() / (x.col(i + 1) - x.col(i)).norm();
-  return out;
-}
-
 Eigen::VectorXd TyingRig::longer(double apart, double beyond, const RodProperties& rod, const RodState& state) const {
   const NodeRange outside = beyond_knots();
   const double z[] = {knot_middle(0, rod, state).z(), knot_middle(1, rod, state).z()};
-  const double low = std::min(z[0], z[1]) + kHalfKnot * radius_, high = std::max(z[0], z[1]) - kHalfKnot * radius_;
+  const double low = std::min(z[0], z[1]) + kStandingFromKnot * radius_,
+               high = std::max(z[0], z[1]) - kStandingFromKnot * radius_;
   // Of an edge: 0 and 1 in either strand between the knots, 2 beyond the knots, 3 in a knot.
   const auto piece = [&](int edge) {
     if (edge >= outside.first && edge < outside.last) return std::size_t{2};

@@ -47,9 +47,8 @@ class TiedLoop final : public Tying {
   void state(Archive& archive) override;
 
  private:
-  void put_on(Phase phase, const Place& now);
-  void set_to_marks();
-  bool set_taut_to_marks(const Place& now);
+  void put_on(const Place& now);
+  bool set_to_marks(const Place& now);
   bool setting() const { return set_duration_ > 0.0; }
   void follow_mounting(const Place& now, bool puts_on);
   void begin_to_take_up(const Place& now);
@@ -64,6 +63,7 @@ class TiedLoop final : public Tying {
   double set_begin_ = 0.0, set_duration_ = 0.0;  // of that [s]; no duration: nothing is being set
   double set_speed_ = 0.0;                       // of the crosshead meanwhile [m/s]
   double speed_ = 0.0;                           // of the step that mounts [m/s]
+  double tied_distance_ = 0.0;                   // e as the loop is put on [m]
   int sets_ = 0;                                 // of the taut loop
   bool at_marks_ = false;                        // as near as it comes
   TyingRig rig_;

@@ -93,20 +93,6 @@ class TyingRig {
   /// Why the knots cannot be tied; empty: they can.
   const std::string& not_tied() const { return not_tied_; }
 
-  /// How long the rod of a loop is that was tied and let go.
-  struct LoopLengths {
-    double loop;      ///< once around: along the rod beyond the knots, and straight from knot to knot [m]
-    double distance;  ///< e, of the knots [m]
-  };
-  struct LaidLoop {
-    Eigen::VectorXd rest_length;  ///< [m]
-    Points position;              ///< [m]
-  };
-  LoopLengths lengths(const RodProperties& rod, const RodState& state) const;
-  /// A loop off the rollers as if it were drawn with knots that are further apart by `apart`, as far as its strands can
-  /// be, and half circles that are by `longer` [m]. Strands are laid anew where they run straight, with the stretch
-  /// that they have; all else is moved as it is.
-  LaidLoop laid(double apart, double longer, const RodProperties& rod, const RodState& state) const;
   /// Rest lengths [m] with which the two strands between the knots are longer by `apart`, as far as they can be, and
   /// the rod beyond both knots by `beyond` [m]. They change where strands run straight, or around the rollers, so that
   /// the knots stay as they were tied.
