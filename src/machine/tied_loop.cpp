@@ -20,6 +20,7 @@ constexpr double kNear = 0.005;         // of e and L, nearer to which they are 
 constexpr int kMostSets = 4;            // of a taut loop to its marks
 constexpr double kSetTime = 1.0 / 3.0;  // in which that is done, at least [s]
 constexpr double kSliding = 4.0;        // times the crosshead's speed: that of the knots' marks meanwhile
+constexpr double kEndOfSetting = 1e-9;  // when no time is left of it [s]
 constexpr double kOpened = 0.05;        // of e, as where the motion pattern says so (motion_pattern.cpp)
 constexpr const char* kNoRoom =
     "mount: the loop as it was tied and released leaves no room for the rollers; choose a larger specimen.end_to_end, "
@@ -82,11 +83,10 @@ bool TiedLoop::set_to_marks(const Place& now) {
   const bool near = std::abs(apart) < kNear * knot_distance_ && std::abs(further) < kNear * end_to_end_;
   if (opened || near || sets_ == kMostSets) return false;
   ++sets_;
-  set_begin_ = now.time;
-  set_duration_ = std::max({kSetTime, std::abs(further) / speed_, std::abs(apart) / (kSliding * speed_)});
-  set_speed_ = further / set_duration_;
-  set_from_ = stepper_.rod().rest_length;
-  set_to_ = rig_.longer(apart, 2.0 * further - apart, stepper_.rod(), stepper_.state());
+  set_end_ = now.time + std::max({kSetTime, std::abs(further) / speed_, std::abs(apart) / (kSliding * speed_)});
+  set_speed_ = further / (set_end_ - now.time);
+  apart_ = apart;
+  further_ = further;
   return true;
 }
 
@@ -100,9 +100,13 @@ void TiedLoop::follow(Phase phase, const Place& now, double dt) {
   const bool puts_on = rig_.puts_on();
   rig_.follow(stepper_, now.time, dt);
   if (setting()) {
-    const double left = std::max(0.0, 1.0 - (now.time - set_begin_) / set_duration_);
-    stepper_.set_lengths(set_to_ + left * (set_from_ - set_to_));
-    if (left == 0.0) set_duration_ = 0.0;
+    const double left = set_end_ - now.time, part = left > kEndOfSetting ? dt / (left + dt) : 1.0;
+    const TyingRig::Laid laid =
+        rig_.longer(part * apart_, part * (2.0 * further_ - apart_), stepper_.rod(), stepper_.state());
+    stepper_.lay(laid.rest_length, laid.position);
+    apart_ -= part * apart_;
+    further_ -= part * further_;
+    if (part == 1.0) set_end_ = 0.0;
   }
   // From here on weight, if there is any, would carry the slack loop round.
   if (puts_on && rig_.guides()) grips_.hold_far_side(stepper_.state().position, now.grip);
@@ -170,9 +174,7 @@ void TiedLoop::read(Sample& sample) const {
 
 void TiedLoop::state(Archive& archive) {
   archive.section("LOOP");
-  archive(rig_, touch_, take_up_, set_begin_, set_duration_, set_speed_, speed_, tied_distance_, sets_, at_marks_);
-  archive.list(set_from_);
-  archive.list(set_to_);
+  archive(rig_, touch_, take_up_, set_end_, set_speed_, apart_, further_, speed_, tied_distance_, sets_, at_marks_);
 }
 
 double marks_of(const SpecimenOptions& specimen, const Program& program) {

@@ -8,6 +8,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
+#include "knot_utm/rod/frames.hpp"
 #include "watch_increment.hpp"
 
 namespace knot_utm {
@@ -134,6 +135,13 @@ Eigen::VectorXd TimeStep::tension() const {
 }
 
 void TimeStep::take_set(double fraction) { take_bending_set(fraction, &state_); }
+
+void TimeStep::lay(const Eigen::VectorXd& rest_length, const Points& position) {
+  const Points before = state_.position;
+  state_.position = position;
+  if (state_.twist.size() > 0) transport_frames(before, &state_);
+  set_lengths(rest_length);
+}
 
 void TimeStep::set_lengths(const Eigen::VectorXd& rest_length) {
   const RodProperties laid = make_rod(rod_.material, rest_length);

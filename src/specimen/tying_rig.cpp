@@ -120,25 +120,39 @@ NodeRange TyingRig::beyond_knots() const {
   return {clamps_[2 * kClamps - 1].node, clamps_[kClamps - 1].node};
 }
 
-Eigen::VectorXd TyingRig::longer(double apart, double beyond, const RodProperties& rod, const RodState& state) const {
+TyingRig::Laid TyingRig::longer(double apart, double beyond, const RodProperties& rod, const RodState& state) const {
   const NodeRange outside = beyond_knots();
-  const double z[] = {knot_middle(0, rod, state).z(), knot_middle(1, rod, state).z()};
+  const Points& x = state.position;
+  const double z[] = {knot_middle(0, rod, state).z(), knot_middle(1, rod, state).z()}, up = z[0] < z[1] ? 1.0 : -1.0;
   const double low = std::min(z[0], z[1]) + kStandingFromKnot * radius_,
-               high = std::max(z[0], z[1]) - kStandingFromKnot * radius_;
+               high = std::max(z[0], z[1]) - kStandingFromKnot * radius_, of_second = 0.5 * up * apart;
+  const int first = knots_[0].standing_node, last = knots_[1].standing_node;
   // Of an edge: 0 and 1 in either strand between the knots, 2 beyond the knots, 3 in a knot.
   const auto piece = [&](int edge) {
+    if (edge < first || edge >= last) return std::size_t{3};
     if (edge >= outside.first && edge < outside.last) return std::size_t{2};
-    const double middle = 0.5 * (state.position(2, edge) + state.position(2, edge + 1));
+    const double middle = 0.5 * (x(2, edge) + x(2, edge + 1));
     return middle < low || middle > high ? std::size_t{3} : std::size_t{edge < outside.first ? 0U : 1U};
   };
   std::array<double, 4> length{};
-  for (int i = knots_[0].standing_node; i < knots_[1].standing_node; ++i) length[piece(i)] += rod.rest_length[i];
+  for (int i = first; i < last; ++i) length[piece(i)] += rod.rest_length[i];
   const auto factor = [&](std::size_t of) {
     if (of == 3 || !(length[of] > 0.0)) return 1.0;
     return std::clamp(1.0 + (of == 2 ? beyond : apart) / length[of], 1.0 / kLongest, kLongest);
   };
-  Eigen::VectorXd out = rod.rest_length;
-  for (int i = knots_[0].standing_node; i < knots_[1].standing_node; ++i) out[i] *= factor(piece(i));
+  Laid out{rod.rest_length, x};
+  for (int i = 0; i < static_cast<int>(rod.edges()); ++i) out.rest_length[i] *= factor(piece(i));
+  for (int i = 0; i < static_cast<int>(rod.nodes()); ++i)
+    if (i < first || i > last) {
+      out.position(2, i) += i > last ? of_second : -of_second;
+    } else if (i > outside.first && i < outside.last) {
+      // Along its own way around the loop, and not at all half-way.
+      const double from_second = static_cast<double>(i - outside.first) / (outside.last - outside.first);
+      out.position.col(i) += 0.5 * apart * (1.0 - 2.0 * from_second) * (x.col(i + 1) - x.col(i - 1)).normalized();
+    } else {
+      const double share = std::clamp((x(2, i) - low) / (high - low), 0.0, 1.0);
+      out.position(2, i) += up * of_second * (2.0 * share - 1.0);
+    }
   return out;
 }
 

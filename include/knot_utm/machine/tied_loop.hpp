@@ -49,7 +49,7 @@ class TiedLoop final : public Tying {
  private:
   void put_on(const Place& now);
   bool set_to_marks(const Place& now);
-  bool setting() const { return set_duration_ > 0.0; }
+  bool setting() const { return set_end_ > 0.0; }
   void follow_mounting(const Place& now, bool puts_on);
   void begin_to_take_up(const Place& now);
   double load_on_both() const;
@@ -58,14 +58,14 @@ class TiedLoop final : public Tying {
   TimeStep& stepper_;
   Grips& grips_;
   double radius_, bending_set_;
-  double knot_distance_, end_to_end_;            // e and L as the pull is to begin [m]
-  Eigen::VectorXd set_from_, set_to_;            // rest lengths before and after a taut loop is set to its marks [m]
-  double set_begin_ = 0.0, set_duration_ = 0.0;  // of that [s]; no duration: nothing is being set
-  double set_speed_ = 0.0;                       // of the crosshead meanwhile [m/s]
-  double speed_ = 0.0;                           // of the step that mounts [m/s]
-  double tied_distance_ = 0.0;                   // e as the loop is put on [m]
-  int sets_ = 0;                                 // of the taut loop
-  bool at_marks_ = false;                        // as near as it comes
+  double knot_distance_, end_to_end_;   // e and L as the pull is to begin [m]
+  double set_end_ = 0.0;                // when a taut loop is at its marks; 0: nothing is being set [s]
+  double set_speed_ = 0.0;              // of the crosshead meanwhile [m/s]
+  double apart_ = 0.0, further_ = 0.0;  // by which e and L are to grow until then [m]
+  double speed_ = 0.0;                  // of the step that mounts [m/s]
+  double tied_distance_ = 0.0;          // e as the loop is put on [m]
+  int sets_ = 0;                        // of the taut loop
+  bool at_marks_ = false;               // as near as it comes
   TyingRig rig_;
   KnotTouch touch_;
   TakeUp take_up_;

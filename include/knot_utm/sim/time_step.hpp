@@ -77,10 +77,10 @@ class TimeStep {
   /// is lost in the next step as `StepWork::numerical`.
   void take_set(double fraction);
 
-  /// Between two steps the edges of a rod of one material, without cuts, get these rest lengths [m], as if it were drawn
-  /// so. Contacts still count arclengths and lengths as they were when the step was made. Stretching energy that this
-  /// stores or frees goes to the next step's `StepWork::numerical`.
-  void set_lengths(const Eigen::VectorXd& rest_length);
+  /// Between two steps the edges of a rod of one material, without cuts, get these rest lengths [m], and its nodes
+  /// these places, as if it were drawn so. Contacts still count arclengths and lengths as they were when the step was
+  /// made. Stretching energy that this stores or frees goes to the next step's `StepWork::numerical`.
+  void lay(const Eigen::VectorXd& rest_length, const Points& position);
   /// The rod with which it was made.
   const RodProperties& made_with() const { return made_with_; }
 
@@ -115,6 +115,7 @@ class TimeStep {
   TimeStep(const RodProperties& rod, const RodState& state, const StepSettings& settings = {})
       : rod_(rod), state_(state), settings_(settings), made_with_(rod) {}
 
+  void set_lengths(const Eigen::VectorXd& rest_length);
   /// Takes the lengths of the rod anew.
   virtual void take_lengths() = 0;
 

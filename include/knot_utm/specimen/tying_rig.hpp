@@ -93,10 +93,15 @@ class TyingRig {
   /// Why the knots cannot be tied; empty: they can.
   const std::string& not_tied() const { return not_tied_; }
 
-  /// Rest lengths [m] with which the two strands between the knots are longer by `apart`, as far as they can be, and
-  /// the rod beyond both knots by `beyond` [m]. They change where strands run straight, or around the rollers, so that
-  /// the knots stay as they were tied.
-  Eigen::VectorXd longer(double apart, double beyond, const RodProperties& rod, const RodState& state) const;
+  /// A rod as if it had been drawn otherwise.
+  struct Laid {
+    Eigen::VectorXd rest_length;  ///< [m]
+    Points position;              ///< [m]
+  };
+  /// A loop whose two strands between the knots are longer by `apart`, as far as they can be, and whose rod beyond both
+  /// knots is longer by `beyond` [m]. Lengths change where strands run straight, or around the rollers. Knots and
+  /// tails move along z as they are, and the rod beyond them along its own way, so that little is stretched.
+  Laid longer(double apart, double beyond, const RodProperties& rod, const RodState& state) const;
 
   /// Fraction of the time of putting the loop on that is left.
   double left_to_put_on(double time) const;
