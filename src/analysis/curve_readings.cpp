@@ -17,8 +17,7 @@ constexpr double kPlateauBegin = 0.3, kPlateauEnd = 0.8;  // of the way to the l
 constexpr double kLockedLoad = 2.0;                       // times the plateau's mean
 constexpr double kEarliestLock = 0.15;                    // of the pull
 constexpr std::ptrdiff_t kFewestReadings = 3;             // within a plateau
-constexpr double kLevel = 1.0 / 3.0;                      // growth of a plateau over its mean
-constexpr double kFallsAtOnce = 0.5;                      // of the mean of a plateau
+constexpr double kRises = 1.0 / 3.0, kFalls = 0.5;        // growth and fall of a plateau over its mean
 constexpr double kOffSliding = 0.5;                       // of de/ds from rigid sliding on rollers
 constexpr double kSudden = 0.05;                          // of the way to the lock
 constexpr double kTakenIn = 0.125, kFallen = 0.1;         // of the first excess length; of F
@@ -170,11 +169,9 @@ std::string why_not_sliding(double slope, bool on_rollers) {
 
 /// Why the mean of F is no plateau; empty: it is.
 std::string why_not_level(const Plateau& level) {
-  if (std::abs(level.rise) < kLevel * level.force) return {};
-  return text(
-      "the load is not level: from 0.3 to 0.8 of the way it changes by %.0f %% of its mean, where up to %.0f %% is "
-      "level",
-      100.0 * level.rise / level.force, 100.0 * kLevel);
+  if (level.rise < kRises * level.force && -level.rise < kFalls * level.force) return {};
+  return text("the load is not level: from 0.3 to 0.8 of the way it changes by %.0f %% of its mean",
+              100.0 * level.rise / level.force);
 }
 
 std::optional<double> lock_by_load(const Pull& pull) {
@@ -296,7 +293,7 @@ namespace {
 /// Where F falls at once by more than a level may change the mean is one of before and behind; empty: it does not.
 std::string why_interrupted(const Pull& pull, double end, double mean) {
   const std::optional<Drop> fall = largest_drop(pull, plateau_range(pull, end), sudden(pull, end));
-  if (!fall || fall->force(pull) < kFallsAtOnce * mean) return {};
+  if (!fall || fall->force(pull) < kFalls * mean) return {};
   return text("the load is not level: it falls at once by %.0f %% of its mean", 100.0 * fall->force(pull) / mean);
 }
 

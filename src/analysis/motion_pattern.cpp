@@ -76,8 +76,8 @@ const char* motion_pattern_name(MotionPattern pattern) {
   return kNames[static_cast<std::size_t>(pattern)];
 }
 
-MotionPatternTracker::MotionPatternTracker(bool on_rollers, double hung)
-    : on_rollers_(on_rollers), turnover_(kTurnover * rigid_sliding(on_rollers)), hung_(hung) {}
+MotionPatternTracker::MotionPatternTracker(bool on_rollers, double hung, double marks)
+    : on_rollers_(on_rollers), turnover_(kTurnover * rigid_sliding(on_rollers)), hung_(hung), marks_(marks) {}
 
 void MotionPatternTracker::add(const Sample& sample) {
   if (sample.knot_type == KnotType::kKept && !came_apart(sample))
@@ -176,13 +176,16 @@ bool MotionPatternTracker::knot_lost() const {
 
 std::optional<double> MotionPatternTracker::opened_when_mounted() const {
   if (pull_.empty()) return {};
-  const double nearer = tied_distance_ - pull_.front().knot_distance;
-  return nearer > kOpened * tied_distance_ ? std::optional<double>(nearer) : std::nullopt;
+  const double put_on = marks_ > 0.0 ? marks_ : tied_distance_, nearer = put_on - pull_.front().knot_distance;
+  return nearer > kOpened * put_on ? std::optional<double>(nearer) : std::nullopt;
 }
 
 bool MotionPatternTracker::untangles() const {
-  return knot_lost() || jumped_ || (opened_when_mounted() && !(peak_ > mounted_));
+  return knot_lost() || jumped_ || (opened_when_mounted() && !slides_under_more());
 }
+
+/// Whether knots that moved as the loop was mounted slide, and bear more than they did then.
+bool MotionPatternTracker::slides_under_more() const { return std::isfinite(slope_) && peak_ > mounted_ && slid(); }
 
 bool MotionPatternTracker::slid() const {
   const PullPoint &start = pull_.front(), &first = point_at(first_sliding_), &last = point_at(last_sliding_);

@@ -177,8 +177,8 @@ constexpr double kLeast = 1e-4;  // ... and of the largest one, where most of a 
 /// One way through all samples, in order.
 class Course {
  public:
-  Course(const std::vector<Sample>& samples, bool on_rollers, double hung, Results& results)
-      : samples_(samples), results_(results), motion_(on_rollers, hung) {
+  Course(const std::vector<Sample>& samples, bool on_rollers, double hung, double marks, Results& results)
+      : samples_(samples), results_(results), motion_(on_rollers, hung, marks) {
     for (const Sample& sample : samples) add(sample);
   }
 
@@ -332,7 +332,10 @@ void read_gauge_length(const Course& course, Results& results) {
 
 void read_tied(const Course& course, Results& results) {
   const Sample *tied = course.tied(), *pull_begin = course.pull_begin();
-  if (pull_begin) results.balance_offset = pull_begin->balance_offset;
+  if (pull_begin) {
+    results.balance_offset = pull_begin->balance_offset;
+    results.knot_distance = known(pull_begin->knot_distance);
+  }
   if (!tied) return;
   results.tied_excess_length = tied->excess_length;
   results.tied_knot_distance = known(tied->knot_distance);
@@ -400,11 +403,11 @@ void forget_rest_of_pull(Results& results) {
 }  // namespace
 
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
-                bool on_rollers, double hung, const std::vector<int>& steps) {
+                bool on_rollers, double hung, double marks, const std::vector<int>& steps) {
   Results results;
   results.ended_by = ended_by;
   if (samples.empty()) return results;
-  Course course(samples, on_rollers, hung, results);
+  Course course(samples, on_rollers, hung, marks, results);
   read_end(samples.back(), results);
   read_motion(samples, readings, on_rollers, course.motion(), results);
   read_tied(course, results);

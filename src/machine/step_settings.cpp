@@ -17,12 +17,20 @@ constexpr double kMotionLimit = 0.8;         // farthest that a step may move on
 constexpr double kOverlapLimit = 0.5;        // deepest contact that a step may begin or end with [h]
 constexpr double kCandidateMargin = 1.0;     // gap up to which pairs of segments are watched between searches [h]
 constexpr int kMostIterations = 12;          // of Newton's method in a step
+// Way over which a rolling contact springs before it bears all of its couple [mu_r h]. Where the half that is left
+// behind bears nothing, mu_r h is 4/(3 pi) of the half width a. The contact moves by half of the way, so that it has
+// moved by a fourteenth of a: as soon as fibres that stick twenty times as stiffly as they slide let go of what presses
+// them.
+constexpr double kRollsWithin = 1.0 / 3.0;
 constexpr double kResidualAtLittleTension = 1e-3;  // loose knots bear much less than k_b/h^2, and are read too
 
-/// That of contacts of one material. `presliding`: in its radius.
+/// rho_s over h, tied to the width of the contact; where that follows from the pressure, the presliding of friction.
+double rolls_within(double resistance, double presliding) { return std::max(kRollsWithin * resistance, presliding); }
+
+/// That of contacts of one material. `presliding`: of friction, in its radius.
 RollingResistance rolling_of(const Material& material, double presliding) {
   const double h = material.radius;
-  return {material.rolling_resistance, h, presliding * h,
+  return {material.rolling_resistance, h, rolls_within(material.rolling_resistance, presliding) * h,
           RollingResistance::growth_of_hysteresis(material.rolling_hysteresis, h, material.stretching_stiffness)};
 }
 
@@ -55,7 +63,8 @@ RollingResistance rolling_between(const Material& a, const Material& b, double p
   const auto mean = [&](double of_a, double of_b) { return of_b + share_of_a * (of_a - of_b); };
   const auto soft = [](const Material& of) { return of.radius * of.radius / of.stretching_stiffness; };  // 1/(pi E)
   const double lost = mean(a.rolling_hysteresis, b.rolling_hysteresis), stretching = 2.0 * h * h / (soft(a) + soft(b));
-  return {mean(a.rolling_resistance, b.rolling_resistance), h, presliding * h,
+  const double resistance = mean(a.rolling_resistance, b.rolling_resistance);
+  return {resistance, h, rolls_within(resistance, presliding) * h,
           RollingResistance::growth_of_hysteresis(lost, h, stretching)};
 }
 

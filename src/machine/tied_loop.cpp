@@ -1,8 +1,10 @@
 #include "knot_utm/machine/tied_loop.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "knot_utm/record/command.hpp"
+#include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/material.hpp"
@@ -12,8 +14,13 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kGripStretch = 2.4;  // of a tail's grip when it slips [h]
-constexpr double kTautLoad = 0.03;    // of a loop whose slack is taken up [k_b/h^2]
+constexpr double kGripStretch = 2.4;    // of a tail's grip when it slips [h]
+constexpr double kTautLoad = 0.03;      // of a loop whose slack is taken up [k_b/h^2]
+constexpr double kNear = 0.005;         // of e and L, nearer to which they are met
+constexpr int kMostSets = 4;            // of a taut loop to its marks
+constexpr double kSetTime = 1.0 / 3.0;  // in which that is done, at least [s]
+constexpr double kSliding = 4.0;        // times the crosshead's speed: that of the knots' marks meanwhile
+constexpr double kOpened = 0.05;        // of e, as where the motion pattern says so (motion_pattern.cpp)
 constexpr const char* kNoRoom =
     "mount: the loop as it was tied and released leaves no room for the rollers; choose a larger specimen.end_to_end, "
     "a smaller specimen.preload or a smaller machine.roller_diameter";
@@ -34,6 +41,8 @@ TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, co
       grips_(grips),
       radius_(material.radius),
       bending_set_(material.bending_set),
+      knot_distance_(specimen.knot_distance),
+      end_to_end_(specimen.end_to_end),
       rig_(centreline, stepper.rod(), tying_options(specimen, material, creep_speed)),
       touch_(rig_.standing_nodes(), material.radius, centreline.windings()),
       take_up_(kTautLoad * specimen_scales(material).force, material.radius) {}
@@ -51,13 +60,34 @@ void TiedLoop::enter(const Command& command, const Place& now) {
   } else if (rig_.guides() && phase != Phase::kMount) {
     rig_.take_guides_off(stepper_, now.time);
   }
-  if (phase == Phase::kMount) begin_to_take_up(now);
+  if (phase != Phase::kMount) return;
+  speed_ = command.speed;
+  at_marks_ = false;
+  begin_to_take_up(now);
 }
 
 void TiedLoop::put_on(const Place& now) {
+  tied_distance_ = knot_distance();
   rig_.put_on(stepper_, now.time);
   const auto loop = stepper_.state().position.middleCols(rig_.loop_begin(), rig_.loop_end() - rig_.loop_begin() + 1);
   if (!grips_.put_on(loop, now.grip, radius_)) not_mounted_ = kNoRoom;
+}
+
+/// Straight strands become longer or shorter until e and L are met, as if the loop had been drawn so: neither affects
+/// how a knot is tied and let go. Knots that have come nearer by themselves have opened, and stay.
+bool TiedLoop::set_to_marks(const Place& now) {
+  const double distance = knot_distance(), apart = knot_distance_ - distance;
+  const double further = grips_.on_rollers() ? end_to_end_ - grips_.end_to_end(now.grip) : 0.0;
+  const bool opened = distance < (1.0 - kOpened) * (sets_ == 0 ? tied_distance_ : knot_distance_);
+  const bool near = std::abs(apart) < kNear * knot_distance_ && std::abs(further) < kNear * end_to_end_;
+  if (opened || near || sets_ == kMostSets) return false;
+  ++sets_;
+  set_begin_ = now.time;
+  set_duration_ = std::max({kSetTime, std::abs(further) / speed_, std::abs(apart) / (kSliding * speed_)});
+  set_speed_ = further / set_duration_;
+  set_from_ = stepper_.rod().rest_length;
+  set_to_ = rig_.longer(apart, 2.0 * further - apart, stepper_.rod(), stepper_.state());
+  return true;
 }
 
 void TiedLoop::leave(Phase phase, const Place& now) {
@@ -69,15 +99,21 @@ void TiedLoop::leave(Phase phase, const Place& now) {
 void TiedLoop::follow(Phase phase, const Place& now, double dt) {
   const bool puts_on = rig_.puts_on();
   rig_.follow(stepper_, now.time, dt);
+  if (setting()) {
+    const double left = std::max(0.0, 1.0 - (now.time - set_begin_) / set_duration_);
+    stepper_.set_lengths(set_to_ + left * (set_from_ - set_to_));
+    if (left == 0.0) set_duration_ = 0.0;
+  }
   // From here on weight, if there is any, would carry the slack loop round.
   if (puts_on && rig_.guides()) grips_.hold_far_side(stepper_.state().position, now.grip);
-  if (phase == Phase::kMount && rig_.guides()) {
-    if (puts_on)
-      begin_to_take_up(now);
-    else
-      take_up_.follow(load_on_both(), now.displacement, knot_distance());
-  }
+  if (phase == Phase::kMount && rig_.guides()) follow_mounting(now, puts_on);
   touch_.follow(stepper_);
+}
+
+void TiedLoop::follow_mounting(const Place& now, bool puts_on) {
+  if (puts_on || setting()) return begin_to_take_up(now);
+  take_up_.follow(load_on_both(), now.displacement, knot_distance());
+  at_marks_ = take_up_.done() && !set_to_marks(now);
 }
 
 void TiedLoop::begin_to_take_up(const Place& now) { take_up_.begin(load_on_both(), now.displacement, knot_distance()); }
@@ -106,11 +142,12 @@ double TiedLoop::held_length(double from, double to) const {
 
 double TiedLoop::mounting_velocity(double speed) const {
   // It stands while the loop is put on.
-  return rig_.guides() ? speed * take_up_.velocity() : 0.0;
+  if (!rig_.guides()) return 0.0;
+  return setting() ? set_speed_ : speed * take_up_.velocity();
 }
 
 bool TiedLoop::done(Phase phase) const {
-  return forms(phase) ? rig_.tied() || rig_.released() : rig_.guides() && take_up_.done();
+  return forms(phase) ? rig_.tied() || rig_.released() : rig_.guides() && at_marks_;
 }
 
 double TiedLoop::load_on_both() const { return std::min(grips_.force_upper(stepper_), grips_.force_lower(stepper_)); }
@@ -131,6 +168,15 @@ void TiedLoop::read(Sample& sample) const {
   sample.knot_on_roller = touch_.on_rollers();
 }
 
-void TiedLoop::state(Archive& archive) { archive(rig_, touch_, take_up_); }
+void TiedLoop::state(Archive& archive) {
+  archive.section("LOOP");
+  archive(rig_, touch_, take_up_, set_begin_, set_duration_, set_speed_, speed_, tied_distance_, sets_, at_marks_);
+  archive.list(set_from_);
+  archive.list(set_to_);
+}
+
+double marks_of(const SpecimenOptions& specimen, const Program& program) {
+  return specimen.to_be_tied && has_step<MountStep>(program) ? specimen.knot_distance : 0.0;
+}
 
 }  // namespace knot_utm

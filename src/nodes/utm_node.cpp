@@ -14,6 +14,7 @@ file sets (doc/ros.md).
   _autostart:=FLAG            starts the test when knot_node is there; false: utm/start_test starts it [true]
   _record:=FLAG               waits for recorder_node [false]
   _exit_at_end:=FLAG          ends when the test has ended, and the launch with it [false]
+  _check:=FLAG                checks its parameters, and no more [false]
 )";
 
 }  // namespace
@@ -31,11 +32,14 @@ int main(int argc, char** argv) {
     knot_utm::read_parameter(own, "autostart", &options.autostart, "true or false");
     knot_utm::read_parameter(own, "record", &options.record, "true or false");
     knot_utm::read_parameter(own, "exit_at_end", &options.exit_at_end, "true or false");
+    bool check = false;
+    knot_utm::read_parameter(own, "check", &check, "true or false");
     if (!(options.real_time_factor >= 0.0)) {
       throw knot_utm::InvalidInput("real_time_factor", std::to_string(options.real_time_factor),
                                    "0 (as fast as possible) or more");
     }
-    return knot_utm::UtmNode(node, knot_utm::read_test_setup(node), options).spin();
+    knot_utm::UtmNode machine(node, knot_utm::read_test_setup(node), options);
+    return check ? 0 : machine.spin();
   });
   constexpr int kInvalidInput = 2;
   if (code == kInvalidInput) knot_utm::write_verdict(verdict, code, "");

@@ -6,6 +6,7 @@
 #include <boost/make_shared.hpp>
 
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/tied_loop.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
@@ -67,7 +68,8 @@ void KnotNode::begin_specimen() {
   kept_.clear();
   sample_ = Sample();
   motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine),
-                                 hung_weight(method_.specimen, method_.material));
+                                 hung_weight(method_.specimen, method_.material),
+                                 marks_of(method_.specimen, method_.program));
   show_.begin(method_, machine_.lower_grip(), machine_.state().position, machine_.rod().cuts);
   set_on_master(node_.resolveName(names::kRobotDescription),
                 machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip()));

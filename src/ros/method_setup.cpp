@@ -86,13 +86,13 @@ void read_record(const fs::path& base, MethodSetup& setup) {
 }
 
 /// Refused now, and not once others have been tested.
-void check_specimens(const Method& method, const std::string& file) {
+void check_specimens(const Method& method) {
   const int count = method.specimens.count;
+  if (count == 1) return check_fits(method);
   if (count > kMostInBatch)
     throw InvalidInput::sentence("specimens.count", std::to_string(count),
                                  "specimens.count is " + std::to_string(count) + ", but under ROS it may be at most " +
-                                     std::to_string(kMostInBatch) + "; tensile_test takes more")
-        .in_file(file);
+                                     std::to_string(kMostInBatch) + "; tensile_test takes more");
   draw_specimens(method);
 }
 
@@ -124,8 +124,13 @@ void remove_overrides(std::vector<std::string>& overrides, const std::string& ke
 }
 
 MethodSetup read_parameters(const ros::NodeHandle& node) {
-  const MethodSetup setup = set_up(read_words(node));
-  if (setup.method.specimens.count > 1 && !another_says_it(node)) check_specimens(setup.method, setup.file);
+  MethodSetup setup = set_up(read_words(node));
+  if (another_says_it(node)) return setup;
+  try {
+    check_specimens(setup.method);
+  } catch (const InvalidInput& invalid) {
+    throw invalid.in_file(setup.file);
+  }
   return setup;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "knot_utm/machine/tied_loop.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -31,7 +32,7 @@ RunBag::RunBag(const std::string& file, const Method& method, const Centreline& 
       picture_(method.specimen, method.machine, method.material),
       panel_((method.material.name.empty() ? "" : method.material.name + ", ") + knot_of(method.specimen).about().name),
       views_(method.specimen, method.machine, method.material, cuts_),
-      motion_(rollers_hold(method.specimen, method.machine)) {}
+      motion_(rollers_hold(method.specimen, method.machine), 0.0, marks_of(method.specimen, method.program)) {}
 
 void RunBag::add(const Record& record) {
   const Command& command = record.command;

@@ -8,6 +8,7 @@
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/machine/tied_loop.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/run/csv.hpp"
@@ -59,7 +60,8 @@ class RunWriter {
   void add(const Record& record);
   RunFacts facts() const;
   Results results(EndedBy ended_by) const {
-    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value(), hung_, program_steps_);
+    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value(), hung_, known_.knot_distance,
+                   program_steps_);
   }
   /// Writes result.yaml, and the files of shapes.
   void finish(const Results& results, RunFacts facts, const Points& final_shape);
@@ -106,7 +108,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
     for (const KnotDrawing::Reading& reading : method.specimen.drawing->read)
       known_.knot_readings.push_back(reading.name);
   known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
-  if (method.specimen.to_be_tied) known_.knot_distance = method.specimen.knot_distance;
+  known_.knot_distance = marks_of(method.specimen, method.program);
+  known_.end_to_end = method.specimen.end_to_end;
   if (method.machine.roller_rotation == RollerRotation::kTurned)
     known_.warnings.push_back(
         "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "

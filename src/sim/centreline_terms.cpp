@@ -31,8 +31,13 @@ CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
       bending_curve_(cosine_.size()) {
   for (Eigen::Index j = 0; j < rod.edges(); ++j)
     stretching_stiffness_[static_cast<std::size_t>(j)] = rod.material_at(j).stretching_stiffness;
-  for (Eigen::Index i = 0; i < rod.nodes(); ++i)
-    bending_stiffness_[static_cast<std::size_t>(i)] = rod.material_at(i).bending_stiffness / rod.voronoi_length[i];
+  take_lengths();
+}
+
+void CentrelineTerms::take_lengths() {
+  for (Eigen::Index i = 0; i < rod_.nodes(); ++i)
+    bending_stiffness_[static_cast<std::size_t>(i)] = rod_.material_at(i).bending_stiffness / rod_.voronoi_length[i];
+  for (const std::size_t end : ends_of_cuts_) bending_stiffness_[end] = 0.0;
 }
 
 void CentrelineTerms::part(int edge) {

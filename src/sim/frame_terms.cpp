@@ -125,8 +125,13 @@ FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
     drag_[j] = (counts * settings.drag * h2) * rod.rest_length[j];
     rest_[j] = ((1.0 - counts) * kRest * of.twisting_stiffness) * (1.0 / rod.rest_length[j]);
   }
-  for (int i = 1; i + 1 < static_cast<int>(rod.nodes()); ++i)
-    stiffness_[at(i)] = rod.material_at(i).twisting_stiffness / rod.voronoi_length[i];
+  take_lengths();
+}
+
+void FrameTerms::take_lengths() {
+  for (int i = 1; i + 1 < static_cast<int>(rod_.nodes()); ++i)
+    stiffness_[at(i)] = rod_.material_at(i).twisting_stiffness / rod_.voronoi_length[i];
+  for (const int cut : cuts_) stiffness_[at(cut)] = stiffness_[at(cut + 1)] = 0.0;
 }
 
 void FrameTerms::part(int edge) {

@@ -22,6 +22,7 @@ namespace knot_utm {
 struct NoFrames {
   NoFrames(const RodProperties&, const StepSettings&) {}
   void part(int) {}
+  void take_lengths() {}
   void begin(const StepStart&) {}
   void add_forces(const StepStart&, const Points&, std::vector<Lanes>&) {}
   void add_stiffness(LinearSystem<3>&) const {}

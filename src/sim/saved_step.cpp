@@ -34,7 +34,8 @@ struct Scene {
 
 std::string save_step(TimeStep& stepper, const Boundary& boundary, double time, double dt) {
   Archive archive(kKind);
-  Scene scene{stepper.rod(), stepper.settings(), stepper.state().twist.size() > 0, stepper.state().curved_at_rest()};
+  Scene scene{stepper.made_with(), stepper.settings(), stepper.state().twist.size() > 0,
+              stepper.state().curved_at_rest()};
   archive(scene, time, dt);
   Boundary own = boundary;
   own.state(archive, static_cast<int>(scene.rod.nodes()));

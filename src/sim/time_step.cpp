@@ -67,6 +67,11 @@ class ImplicitStep final : public TimeStep {
   }
 
  private:
+  void take_lengths() override {
+    equation_.centreline.take_lengths();
+    equation_.frames.take_lengths();
+  }
+
   void cut(int edge) {
     equation_.part(edge);
     tunnelling_.part(edge);
@@ -130,7 +135,24 @@ Eigen::VectorXd TimeStep::tension() const {
 
 void TimeStep::take_set(double fraction) { take_bending_set(fraction, &state_); }
 
-void TimeStep::state(Archive& archive) { archive(state_); }
+void TimeStep::set_lengths(const Eigen::VectorXd& rest_length) {
+  const RodProperties laid = make_rod(rod_.material, rest_length);
+  rod_.rest_length = laid.rest_length;
+  rod_.voronoi_length = laid.voronoi_length;
+  rod_.mass = laid.mass;
+  take_lengths();
+}
+
+void TimeStep::state(Archive& archive) {
+  Eigen::VectorXd lengths = rod_.rest_length;
+  if (archive.optional_section("LAID", lengths != made_with_.rest_length)) {
+    archive.list(lengths);
+    const bool fits = lengths.size() == rod_.edges() && lengths.allFinite() && lengths.minCoeff() > 0.0;
+    archive.require(fits, "lengths of the rod", "those of no rod");
+    if (archive.loads()) set_lengths(lengths);
+  }
+  archive(state_);
+}
 
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {

@@ -46,8 +46,8 @@ SpecimenScales specimen_scales(const RodMaterial& material) {
 double inertia_factor(const RodMaterial& material, const PhysicsOptions& physics, double slack) {
   const double loop = slack / (2.0 * M_PI), own = specimen_scales(material).mass;
   double mass = mass_of(kBendingTime, material.radius, material);
-  if (loop > 0.0) mass = std::min(mass, mass_of(kSlackTime, loop, material));
-  return physics.inertia.value_or(std::min(mass, own) / own);
+  if (loop > 0.0) mass = std::min({mass, own, mass_of(kSlackTime, loop, material)});
+  return physics.inertia.value_or(mass / own);
 }
 
 double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack) {

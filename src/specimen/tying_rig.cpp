@@ -1,6 +1,7 @@
 #include "knot_utm/specimen/tying_rig.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "knot_utm/rod/isotropic_bending.hpp"
@@ -23,6 +24,7 @@ constexpr double kHalfTightWinding = 1.0;
 
 // While the loop is put on, it moves as a whole: waves of so many radii relax in about a tenth of the settling time.
 constexpr double kPuttingOnWave = 73.0;
+constexpr double kLongest = 2.0;  // that strands may become as the knots are set to their marks, or half as long [-]
 constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
 
 }  // namespace
@@ -111,6 +113,33 @@ void TyingRig::put_on(const TimeStep& stepper, double time) {
     (knot.tail_node == 0 ? loop_begin_ : loop_end_) = tail_begin(k, stepper);
   }
   enter(Stage::kPuttingOn, time);
+}
+
+NodeRange TyingRig::beyond_knots() const {
+  constexpr auto kClamps = static_cast<std::size_t>(1 + kGuideNodes);  // of a knot
+  return {clamps_[2 * kClamps - 1].node, clamps_[kClamps - 1].node};
+}
+
+Eigen::VectorXd TyingRig::longer(double apart, double beyond, const RodProperties& rod, const RodState& state) const {
+  const NodeRange outside = beyond_knots();
+  const double z[] = {knot_middle(0, rod, state).z(), knot_middle(1, rod, state).z()};
+  const double low = std::min(z[0], z[1]) + kStandingFromKnot * radius_,
+               high = std::max(z[0], z[1]) - kStandingFromKnot * radius_;
+  // Of an edge: 0 and 1 in either strand between the knots, 2 beyond the knots, 3 in a knot.
+  const auto piece = [&](int edge) {
+    if (edge >= outside.first && edge < outside.last) return std::size_t{2};
+    const double middle = 0.5 * (state.position(2, edge) + state.position(2, edge + 1));
+    return middle < low || middle > high ? std::size_t{3} : std::size_t{edge < outside.first ? 0U : 1U};
+  };
+  std::array<double, 4> length{};
+  for (int i = knots_[0].standing_node; i < knots_[1].standing_node; ++i) length[piece(i)] += rod.rest_length[i];
+  const auto factor = [&](std::size_t of) {
+    if (of == 3 || !(length[of] > 0.0)) return 1.0;
+    return std::clamp(1.0 + (of == 2 ? beyond : apart) / length[of], 1.0 / kLongest, kLongest);
+  };
+  Eigen::VectorXd out = rod.rest_length;
+  for (int i = knots_[0].standing_node; i < knots_[1].standing_node; ++i) out[i] *= factor(piece(i));
+  return out;
 }
 
 double TyingRig::left_to_put_on(double time) const {

@@ -9,6 +9,7 @@
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/machine/tied_loop.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -64,7 +65,7 @@ struct ShortTests {
     if (program.ended_by() == EndedBy::kUntangled) return Outcome::kOpened;
     if (program.ended_by() == EndedBy::kSolver) return Outcome::kFailed;
     const Results results = analyse(samples, samples, program.ended_by(), rollers_hold(now.specimen, now.machine),
-                                    hung_weight(now.specimen, now.material));
+                                    hung_weight(now.specimen, now.material), marks_of(now.specimen, now.program));
     return results.motion_pattern == MotionPattern::kUntangling ? Outcome::kOpened : Outcome::kHeld;
   }
 };

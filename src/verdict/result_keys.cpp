@@ -195,6 +195,7 @@ constexpr ResultKey kKeys[] = {
     // The knots as they were tied.
     {"preload", "N", kKnots, "Pre-load by which the knots were tied", read<&F::preload>, "nothing was tied"},
     {"tied_knot_distance", "m", kKnots, "Knot distance once tied", read<&R::tied_knot_distance>, kNoKnots},
+    {"knot_distance", "m", kKnots, "Knot distance as the pull begins", read<&R::knot_distance>, kNoKnots},
     {"excess_length", "m", kKnots, "Length of rod within each knot once tied", of_knots<&R::tied_excess_length>,
      kNoLoop},
     {"final_excess_length", "m", kKnots, "Length of rod within each knot at the end", of_knots<&R::final_excess_length>,

@@ -250,7 +250,7 @@ TEST(CurveReadings, AKnotThatJumpsOpenDoesMoreThanSliding) {
 }
 
 TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {
-  const auto bent = [](double s) { return sliding(s) + 100.0 * std::max(0.0, s - 0.04); };
+  const auto bent = [](double s) { return sliding(s) + 50.0 * std::max(0.0, s - 0.04); };
   Pull few;
   for (const double s : {0.0, 1e-3, 0.03, 0.04, 0.05, 0.08, 0.081, 0.12}) few.push_back({s, s, Sample::kNone, bent(s)});
   const CurveReadings a = curve_readings(few), b = curve_readings(pull(bent));

@@ -415,7 +415,7 @@ struct RollingHelix {
   static constexpr double kPresliding = 1e-3 * kRadius;
   static constexpr double kResistance = 0.3;
   Wound scene;
-  Smooth kind{scene, MemoryFriction{0.0, 1e-3 * kRadius}};
+  Smooth kind{scene, MemoryFriction{0.4, 1e-3 * kRadius}};
   Points before;
 
   RollingHelix() {
@@ -496,9 +496,9 @@ TYPED_TEST(Surface, ForcesTurnWithTheScene) {
   const MemoryFriction friction{0.4, 1e-3 * kRadius};
   const RollingResistance rolling{0.3, kRadius, 0.05 * kRadius};
   if constexpr (!std::is_base_of_v<OnARoller, TypeParam>) {
-    const auto evaluated = [&](Wound scene) {
-      TypeParam kind(scene, friction);
-      kind.contact.act_at_surface(1.0, scene.turns, rolling);
+    const auto evaluated = [&](Wound wound) {
+      TypeParam kind(wound, friction);
+      kind.contact.act_at_surface(1.0, wound.turns, rolling);
       return this->forces(kind);
     };
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.0, Vec3(1.0, -2.0, 0.5).normalized()).toRotationMatrix();

@@ -155,7 +155,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"physics.friction={law: stribeck}", "physics.friction.law", "stribeck", "memory, smoothed, power or rate"},
       {"physics.friction={law: memory, exponent: 0.5}", "physics.friction.exponent", "0.5", "only with law: power"},
       {"physics.friction={law: power, reference_pressure: 100}", "physics.friction.exponent", "",
-       "is missing: give a number from 0.5 to 1 (-), which law: power needs"},
+       "is missing: give a number from 0.5 to 1 (of the pressure), which law: power needs"},
       {"material.hardening=0.5", "material.hardening", "0.5", "only with bending_law: plastic"},
       {"material.twisting_law=linear", "material.twisting_law is no key", "", "the keys of material are"},
       {"physics.friction.at=skin", "physics.friction.at", "skin", "surface or centreline"},

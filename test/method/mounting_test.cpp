@@ -33,5 +33,20 @@ TEST_F(Mounting, OfALoopThatLiesAcrossARollersPlaceHasNoLoad) {
   EXPECT_LT(result["true_peak_force"].as<double>(), 2.0) << "k_b/h^2 is 1 N";
 }
 
+/// As they are let go nylon's knots lie a tenth of e too far apart.
+TEST_F(Mounting, SetsTheKnotsToTheirMarks) {
+  const Answer answer = answer_of(
+      tool("tensile_test", "tighten --quiet --out '" + folder() +
+                               "' --set physics.accuracy=draft "
+                               "--set 'program=[{tie: {}}, {release: {duration: 3}}, {mount: {}}, {balance: {}}, "
+                               "{pull: {until: {extension: 0.001}}}]'"));
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  const YAML::Node result = YAML::LoadFile(folder() + "/result.yaml");
+  EXPECT_NEAR(result["knot_distance"].as<double>(), 0.15, 0.0015);
+  EXPECT_NEAR(result["gauge_length"].as<double>(), 0.25, 0.0025);
+  EXPECT_GT(result["tied_knot_distance"].as<double>(), 0.155) << "before";
+  EXPECT_TRUE(result["opened_when_mounted"].IsNull());
+}
+
 }  // namespace
 }  // namespace knot_utm

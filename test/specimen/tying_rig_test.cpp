@@ -121,5 +121,23 @@ TEST(TyingRig, GoesOnWhereNothingComesToRestInTimeAndSaysSo) {
   EXPECT_TRUE(loop.rig->released());
 }
 
+TEST(TyingRig, SetsKnotsToTheirMarksByWhatLiesBetweenAndBeyondThem) {
+  const Loop loop(TyingRig::Options{});
+  const RodState& state = loop.stepper->state();
+  const double apart = -0.01, beyond = 0.03;
+  const Eigen::VectorXd change = loop.rig->longer(apart, beyond, loop.rod, state) - loop.rod.rest_length;
+  EXPECT_NEAR(change.sum(), 2.0 * apart + beyond, 1e-12);
+  EXPECT_NEAR(change.cwiseMax(0.0).sum(), beyond, 1e-12);
+  for (const int k : {0, 1}) {
+    const Vec3 middle = loop.rig->knot_middle(k, loop.rod, state);
+    for (Eigen::Index j = 0; j < change.size(); ++j) {
+      const Vec3 away = state.position.col(j) - middle;
+      const bool in_knot = std::abs(away.z()) < 3.0 * loop.rod.material.radius && state.position(0, j) > 0.0;
+      EXPECT_TRUE(!in_knot || change[j] == 0.0) << j;
+    }
+  }
+  EXPECT_GT((loop.rig->longer(-1.0, 0.0, loop.rod, state).cwiseQuotient(loop.rod.rest_length)).minCoeff(), 0.49);
+}
+
 }  // namespace
 }  // namespace knot_utm

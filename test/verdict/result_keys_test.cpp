@@ -71,6 +71,14 @@ TEST_F(ResultYaml, SaysByHowMuchAKnotOpenedAsItWasMounted) {
   EXPECT_TRUE(says("opened_when_mounted: 0.0125\n"));
   for (const char* key : {"lock_extension", "locked_stiffness"})
     EXPECT_TRUE(says(key + std::string(": null  # a knot opened as the loop was mounted\n")));
+  EXPECT_THAT(warnings(),
+              Contains(HasSubstr("a knot opened as the loop was mounted: before the pull the knots had come nearer to "
+                                 "each other by 0.0125 m")));
+  results.motion_pattern = MotionPattern::kSliding;
+  EXPECT_TRUE(says("lock_extension: null  # the knots still slid at the end of the pull\n"));
+  EXPECT_THAT(warnings(),
+              Contains(HasSubstr("the knots slid as the loop was mounted: before the pull the knots had come nearer to "
+                                 "each other by 0.0125 m, and then bore more than before")));
 }
 
 /// A load behind a lock depends on where the lock is, one at which a knot breaks on friction; of other kinds nothing is
@@ -437,15 +445,19 @@ TEST_F(Warnings, AreNoneWhereAKnotIsReadAndItsReadingsAreNamed) {
   EXPECT_EQ((*this)["knot_reading_end"][1].as<double>(), 0.5);
 }
 
-/// Ctrl-C while the knots are tied finds them still far from where they will be.
-TEST_F(Warnings, SayNothingOfKnotsThatWereNotReleased) {
-  results.tied_knot_distance = 0.0967;
+TEST_F(Warnings, SayWhichMarksThePullDidNotBeginWith) {
   facts.knot_distance = 0.15;
-  EXPECT_THAT(printed(), ElementsAre(HasSubstr("the knots moved as they were released")));
-  results.ended_by = EndedBy::kOperator;
-  EXPECT_THAT(printed(), ElementsAre(HasSubstr("the knots moved as they were released")));
-  results.true_peak_force.reset();
+  facts.end_to_end = 0.25;
+  results.tied_knot_distance = 0.0967;
+  EXPECT_THAT(printed(), IsEmpty()) << "nothing was pulled";
+  results.knot_distance = 0.1514;
+  results.gauge_length = 0.2476;
   EXPECT_THAT(printed(), IsEmpty());
+  results.knot_distance = 0.1516;
+  EXPECT_THAT(printed(), ElementsAre(HasSubstr("the knots are 0.152 m apart as the pull begins, instead of 0.15 m")));
+  results.knot_distance = 0.15;
+  results.gauge_length = 0.2474;
+  EXPECT_THAT(printed(), ElementsAre(HasSubstr("the grips are 0.247 m apart as the pull begins, instead of 0.25 m")));
 }
 
 /// Without gravity a light loop slides as far.

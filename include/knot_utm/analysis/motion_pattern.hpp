@@ -15,7 +15,7 @@ enum class MotionPattern {
   kNone,        ///< nothing was pulled yet, or there are no two knots
   kSliding,     ///< the knots slide towards each other under a low, steady load; they may lock later
   kStretching,  ///< the knots hold from the start: e and the load grow
-  kUntangling   ///< a knot came undone or jumped open, or opened as the loop was mounted and bore no more afterwards
+  kUntangling  ///< a knot came undone or jumped open, or opened as the loop was mounted and did not slide and bear more
 };
 
 const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding", ... as in result.yaml
@@ -28,7 +28,7 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// count, up to a break. Of these only the ones count that reach a new largest s, because moving back tells nothing.
 /// Untangling is decided first, then sliding, and stretching is anything else. A knot that came undone or jumped open
 /// is an event: whatever is pulled afterwards is another knot, and how it moves does not change the pattern. Knots that
-/// came nearer as the loop was mounted, and then bear more than they did then, are pulled as any others.
+/// came nearer as the loop was mounted, and then slide and bear more than they did, slide as any others.
 ///
 /// The confidence, 0 to 1, is the mean of those of the following indicators that can be read, each limited to 0 to 1.
 /// Lines are least-squares lines whose points are weighted by extension. They are fitted over the part that decides:
@@ -43,8 +43,8 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 class MotionPatternTracker {
  public:
   /// `on_rollers`: rollers hold the loop, not two of its nodes. `hung`: weight that hangs on the rod, and that a knot
-  /// which came undone still bears [N].
-  explicit MotionPatternTracker(bool on_rollers, double hung = 0.0);
+  /// which came undone still bears [N]. `marks`: e to which mounting sets the knots; 0: they stay where they are [m].
+  explicit MotionPatternTracker(bool on_rollers, double hung = 0.0, double marks = 0.0);
 
   void add(const Sample& sample);
 
@@ -62,8 +62,8 @@ class MotionPatternTracker {
   /// Time at which the knot came undone [s]: the time at which its type changed. Empty where it did not come undone.
   std::optional<double> untangled_at() const;
 
-  /// By how much the knots came nearer to each other between release and pull, where that is so much that a knot opened
-  /// meanwhile or slid [m].
+  /// By how much the knots are nearer to each other, as the pull begins, than their marks or than they were tied, where
+  /// that is so much that a knot opened meanwhile or slid [m].
   std::optional<double> opened_when_mounted() const;
 
   /// The samples of the pull that count.
@@ -86,6 +86,7 @@ class MotionPatternTracker {
   bool vanished() const;
   bool knot_lost() const;
   bool untangles() const;
+  bool slides_under_more() const;
 
   bool on_rollers_;
   double turnover_;  ///< q
@@ -101,6 +102,7 @@ class MotionPatternTracker {
   double first_sliding_ = 0.0;  ///< extension at which de/ds was first below q [m]
   double last_sliding_ = 0.0;   ///< extension at which de/ds last rose through q, or at which it was last below q [m]
   double hung_ = 0.0;           ///< [N]
+  double marks_ = 0.0;          ///< [m]
   double peak_ = 0.0;           ///< largest F [N]
   double mounted_ = 0.0;        ///< largest F before the pull, once the knots were tied and released [N]
   std::array<Excess, PerKnot::kMost> excess_;                        ///< of each knot

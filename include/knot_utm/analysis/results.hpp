@@ -149,8 +149,8 @@ struct Results {
   PerKnot tail_slip;                         ///< rod length by which each free end ran into the knot in the pull [m]
   PerKnot knot_reading_begin;                ///< what the knot's file reads, where the pull begins [m]
   PerKnot knot_reading_end;                  ///< where it was last known in the pull [m]
-  /// Decrease of e between release and pull [m], where it is more than a twentieth of e: a knot opened as the loop was
-  /// mounted.
+  std::optional<double> knot_distance;       ///< e as the pull begins [m]
+  /// MotionPatternTracker::opened_when_mounted [m]
   std::optional<double> opened_when_mounted;
   RateShares rate;            ///< how far the pull is from a quasi-static one
   double fastest_node = 0.0;  ///< largest speed of a node in the pull, until the knots lock [m/s]
@@ -163,9 +163,9 @@ struct Results {
 
 /// Evaluates a whole test. `samples` are all accepted time steps, and `readings` those of them that the load cell read.
 /// Readings after a break do not count. `on_rollers`: rollers hold the loop, not two of its nodes. `hung`: weight that
-/// hangs on the rod [N]. `steps`: the step of the program of each sample, which tells two holds in a row apart; empty:
-/// phases tell where a step ends.
+/// hangs on the rod [N]. `marks`: as of the tracker [m]. `steps`: the step of the program of each sample, which tells
+/// two holds in a row apart; empty: phases tell where a step ends.
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
-                bool on_rollers, double hung = 0.0, const std::vector<int>& steps = {});
+                bool on_rollers, double hung = 0.0, double marks = 0.0, const std::vector<int>& steps = {});
 
 }  // namespace knot_utm

@@ -7,14 +7,19 @@
 #include "knot_utm/machine/knot_touch.hpp"
 #include "knot_utm/machine/take_up.hpp"
 #include "knot_utm/machine/tying.hpp"
+#include "knot_utm/record/program.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 
 namespace knot_utm {
 
 struct Material;
 
+/// e to which a step of the program sets the knots of a loop that it ties [m]; 0: none does.
+double marks_of(const SpecimenOptions& specimen, const Program& program);
+
 /// A loop on the machine with its two knots. The rig ties and releases them, the loop is put on the grips, its slack is
-/// taken up, and the knots are read. Where the program ties nothing, the rig is idle, and the knots are read as well.
+/// taken up, and the knots are read. As it is put on, the knots are set to their marks (doc/model.md, section 9). Where
+/// the program ties nothing, the rig is idle, and the knots are read as well.
 class TiedLoop final : public Tying {
  public:
   /// `creep_speed`: speed with which nodes of a rod at rest may creep under its friction [m/s]. `stepper` and `grips`
@@ -43,6 +48,9 @@ class TiedLoop final : public Tying {
 
  private:
   void put_on(const Place& now);
+  bool set_to_marks(const Place& now);
+  bool setting() const { return set_duration_ > 0.0; }
+  void follow_mounting(const Place& now, bool puts_on);
   void begin_to_take_up(const Place& now);
   double load_on_both() const;
   double knot_distance() const;
@@ -50,6 +58,14 @@ class TiedLoop final : public Tying {
   TimeStep& stepper_;
   Grips& grips_;
   double radius_, bending_set_;
+  double knot_distance_, end_to_end_;            // e and L as the pull is to begin [m]
+  Eigen::VectorXd set_from_, set_to_;            // rest lengths before and after a taut loop is set to its marks [m]
+  double set_begin_ = 0.0, set_duration_ = 0.0;  // of that [s]; no duration: nothing is being set
+  double set_speed_ = 0.0;                       // of the crosshead meanwhile [m/s]
+  double speed_ = 0.0;                           // of the step that mounts [m/s]
+  double tied_distance_ = 0.0;                   // e as the loop is put on [m]
+  int sets_ = 0;                                 // of the taut loop
+  bool at_marks_ = false;                        // as near as it comes
   TyingRig rig_;
   KnotTouch touch_;
   TakeUp take_up_;

@@ -24,6 +24,9 @@ class CentrelineTerms {
   /// From now on the rod is cut at this edge, too: it has no tension, and does not bend at its ends.
   void part(int edge);
 
+  /// Takes the lengths of the rod anew.
+  void take_lengths();
+
   /// Begins a step. `predicts`: the geometric stiffness uses the predicted tensions, at first those at its start; else
   /// the present ones.
   void begin(const StepStart& start, bool predicts);

@@ -75,6 +75,9 @@ class FrameTerms {
   /// From now on the rod is cut at this edge, too: at its ends nothing twists or bends.
   void part(int edge);
 
+  /// Takes the lengths of the rod anew for what it twists by; its spin keeps the inertia and the drag that it had.
+  void take_lengths();
+
   /// Begins a step, whose state must have frames. Held angles begin at their prescribed values, all others at a
   /// prediction from their rates.
   void begin(const StepStart& start);

@@ -77,6 +77,13 @@ class TimeStep {
   /// is lost in the next step as `StepWork::numerical`.
   void take_set(double fraction);
 
+  /// Between two steps the edges of a rod of one material, without cuts, get these rest lengths [m], as if it were drawn
+  /// so. Contacts still count arclengths and lengths as they were when the step was made. Stretching energy that this
+  /// stores or frees goes to the next step's `StepWork::numerical`.
+  void set_lengths(const Eigen::VectorXd& rest_length);
+  /// The rod with which it was made.
+  const RodProperties& made_with() const { return made_with_; }
+
   const RodProperties& rod() const { return rod_; }
   const RodState& state() const { return state_; }
   const StepSettings& settings() const { return settings_; }
@@ -106,11 +113,15 @@ class TimeStep {
 
  protected:
   TimeStep(const RodProperties& rod, const RodState& state, const StepSettings& settings = {})
-      : rod_(rod), state_(state), settings_(settings) {}
+      : rod_(rod), state_(state), settings_(settings), made_with_(rod) {}
+
+  /// Takes the lengths of the rod anew.
+  virtual void take_lengths() = 0;
 
   RodProperties rod_;
   RodState state_;
   StepSettings settings_;
+  RodProperties made_with_;
   std::function<void(const Iterate&)> watcher_;
   std::function<std::string(const Points& end, double dt)> judge_;
   int parted_edge_ = -1;

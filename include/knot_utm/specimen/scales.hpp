@@ -32,10 +32,10 @@ struct SpecimenScales {
 SpecimenScales specimen_scales(const RodMaterial& material);
 
 /// Accelerated mass over the rod's own (`physics.inertia`) [-]. `auto` is the mass of tau = 2e-4 s, about that of the
-/// paper's ropes, so that similar specimens move alike, but never more than the rod's own mass. It is also so little
-/// that a slack loop comes to rest: of `slack` [m], the length of rod beyond the distance of its ends, a loop of radius
-/// R = slack/2 pi springs in the time R^2 sqrt(m/k_b), which is 0.1 s at most. The weight always follows from the rod's
-/// own mass.
+/// paper's ropes, so that similar specimens move alike, from a thread to a hawser. Of a rod with a slack loop it is no
+/// more than its own, and so little that the loop comes to rest: of `slack` [m], the length of rod beyond the distance
+/// of its ends, a loop of radius R = slack/2 pi springs in the time R^2 sqrt(m/k_b), which is 0.1 s at most. The weight
+/// always follows from the rod's own mass.
 double inertia_factor(const RodMaterial& material, const PhysicsOptions& physics, double slack);
 /// Of two materials the smaller one, so that gravity accelerates both ropes alike.
 double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack);

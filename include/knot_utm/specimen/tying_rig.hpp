@@ -93,6 +93,11 @@ class TyingRig {
   /// Why the knots cannot be tied; empty: they can.
   const std::string& not_tied() const { return not_tied_; }
 
+  /// Rest lengths [m] with which the two strands between the knots are longer by `apart`, as far as they can be, and
+  /// the rod beyond both knots by `beyond` [m]. They change where strands run straight, or around the rollers, so that
+  /// the knots stay as they were tied.
+  Eigen::VectorXd longer(double apart, double beyond, const RodProperties& rod, const RodState& state) const;
+
   /// Fraction of the time of putting the loop on that is left.
   double left_to_put_on(double time) const;
 
@@ -127,6 +132,8 @@ class TyingRig {
     double reach;  ///< largest reach outwards from its middle once it is tight [m]
   };
   void attach_grips();
+  /// Nodes of the guides that stand furthest out, from the one at the second knot to the one at the first.
+  NodeRange beyond_knots() const;
   /// The outermost node of a knot from which its tail runs on.
   int tail_begin(int knot, const TimeStep& stepper) const;
   SpringHold guide(const Clamp& clamp) const;

@@ -48,7 +48,8 @@ struct RunFacts {
   std::optional<double> knot_hole;    ///< hole_diameter at the end of the test, of one knot in a strand [m]
   std::size_t free_ends = 0;          ///< of its ropes, that a knot's file describes
   double dead_load = 0.0;             ///< constant force on the specimen's other end [N]; 0: there is none
-  double knot_distance = 0.0;         ///< knot distance at which the knots were to be tied [m]; 0: none were tied
+  double knot_distance = 0.0;         ///< that the pull was to begin with [m]; 0: no knots were tied
+  double end_to_end = 0.0;            ///< the same of the specimen's length [m]
   double pull_speed = 0.0;            ///< largest programmed speed of a pull [m/s]; 0: there is none
   LoadCellOptions load_cell;          ///< load cell that read the forces
   Specification specification;        ///< requirements on the results

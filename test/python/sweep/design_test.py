@@ -189,7 +189,7 @@ class Documented(unittest.TestCase):
                 for value in point.items():
                     first.setdefault(str(value), point)
             asked = list({id(point): point for point in first.values()}.values())
-            for point in asked[::max(1, len(asked) // 16)]:
+            for point in asked[::max(1, len(asked) // 8)]:
                 self.assertIsNone(tool.refusal(study.method, point), file)
 
     def test_shipped_methods_would_run(self):

@@ -72,11 +72,8 @@ class TightenTest(unittest.TestCase):
             shutil.copy(METHOD, os.path.join(folder, '...yaml'))
 
         console, folders = self.ends(2, 'method:=...yaml', 'out:=', prepare=copy)
-        self.assertEqual(console.count('its name without its ending is that of the folder to write to'), 1)
-        self.assertTrue(console.endswith('scripts/tighten: nothing was written\n'))
-        self.assertEqual(folders, ['...yaml', 'console', 'log'])
-        for word in ('died', 'REQUIRED'):
-            self.assertNotIn(word, console)
+        self.assertRegex(console, '^utm_node: .* its name without its ending is that of the folder to write to\n$')
+        self.assertEqual([name for name in folders if name != 'log'], ['...yaml', 'console'])
 
     def test_a_knot_that_comes_undone(self):
         console, _ = self.ends(1, 'real_time_factor:=0', SLIPPERY)
@@ -130,6 +127,30 @@ class ArgumentsTest(unittest.TestCase):
             console = self.said(2, *CHECK, 'tighten.launch', '--', word, '-p', '1', '--screen')
             self.assertEqual(console.count('\n'), 1, console)
             self.assertIn(why, console)
+
+    def test_values_are_checked_before_anything_starts(self):
+        record = ['data:=' + os.path.join(ROOT, 'test/ros/experiment.csv'), 'columns:=time=Second,extension=Way,load=Pull',
+                  'units:=time=s,extension=mm,load=N', 'specimen:=1']
+        needed = {'experiment': record, 'replay': ['bag:=x']}
+        for file, word, said in (
+                ('tighten', 'method:=nowhere.yaml', 'utm_node: .*nowhere.yaml'),
+                ('tighten', 'material:=nilon', 'utm_node: .*nilon'),
+                ('tighten', 'preload:=1e9', 'utm_node: .*specimen.preload, 1e.09 N'),
+                ('tighten', 'data:=nowhere.csv', 'utm_node: .*nowhere.csv'),
+                ('tighten', "overrides:='program.pull.speed=-1'", 'utm_node: .*speed is -1'),
+                ('tighten', 'real_time_factor:=-1', 'utm_node: real_time_factor is -1'),
+                ('tighten', 'real_time_factor:=fast', 'utm_node: /utm_node/real_time_factor is fast'),
+                ('tighten', 'record:=perhaps', 'record is "perhaps", but must be true or false'),
+                ('tighten', 'network:=perhaps', 'network is "perhaps", but must be true or false'),
+                ('experiment', 'balance:=perhaps', 'experiment_node: balance is perhaps'),
+                ('replay', 'bag:=nowhere.bag', 'replay_node: .*nowhere.bag'),
+                ('replay', 'rate:=-1', 'replay_node: rate is -1'),
+                ('replay', 'rate:=fast', 'replay_node: /replay_node/rate is fast')):
+            console = self.said(2, *CHECK, '--values', file + '.launch', '--', *needed.get(file, []), word)
+            self.assertRegex(console, '^%s.*\n$' % said)
+        console = self.said(1, 'roslaunch', '-p', str(free_port()), 'knot_utm', 'tighten.launch', 'material:=nilon')
+        self.assertEqual(len(re.findall('^utm_node: .*nilon', console, re.MULTILINE)), 1, console)
+        self.assertNotIn('started with pid', console)
 
     def test_arguments_of_a_launch_file_that_includes_ours_are_its_own(self):
         with tempfile.TemporaryDirectory() as folder:
