@@ -13,8 +13,8 @@ def found(runner, facts):
 
 
 def rows(loads, facts):
-    wanted = " < ".join(facts["order"])
-    return [Row(f"{facts['what']}, {rope}", wanted, in_order(of_rope), "", rank_correlation(of_rope, facts["order"]), is_(wanted),
+    wanted, alike = " < ".join(facts["order"]), facts["alike_below"]
+    return [Row(f"{facts['what']}, {rope}", wanted, in_order(of_rope, facts["order"], alike), "", rank_correlation(of_rope, facts["order"], alike), is_(wanted),
                 facts["source"], why=facts["if_it_fails"]) for rope, of_rope in loads.items()]
 
 
@@ -32,19 +32,21 @@ def slipping_row(loads, facts):
                facts["source"], f"friction of {facts['rope']}: {facts['friction']:g}", why=facts["if_it_fails"])
 
 
-def in_order(of_rope):
-    """"grief < thief", or None where one bears no load that was read."""
+def in_order(of_rope, order, alike_below=0.0):
+    """"grief < thief", or None where one bears no load that was read. Loads below `alike_below` are as good as none: among themselves
+    such bends stay as `order` has them."""
     if any(value is None for value, _ in of_rope.values()):
         return None
-    return " < ".join(sorted(of_rope, key=lambda knot: of_rope[knot][0]))
+    return " < ".join(sorted(order, key=lambda knot: max(of_rope[knot][0], alike_below)))
 
 
-def rank_correlation(of_rope, order):
+def rank_correlation(of_rope, order, alike_below=0.0):
     """Spearman's, of the loads with the order."""
-    if in_order(of_rope) is None:
+    found_order = in_order(of_rope, order, alike_below)
+    if found_order is None:
         return None
     count = len(order)
-    ranks = in_order(of_rope).split(" < ")
+    ranks = found_order.split(" < ")
     return 1.0 - 6.0 * sum((ranks.index(knot) - place) ** 2 for place, knot in enumerate(order)) / (count * (count ** 2 - 1))
 
 

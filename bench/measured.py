@@ -4,8 +4,8 @@ import os
 import bend_orders
 import capstans
 import fibers
-import greased
 import hitches
+import holding
 import inversions
 import predictions
 import strengths
@@ -24,9 +24,15 @@ def report(runner):
     rows += fibers.rows(spent, facts)
     loads = bend_orders.found(spent, facts["orders"])
     slipping = bend_orders.slipping(spent, facts["slipping"])
-    holding = greased.found(spent, facts["greased"])
+    greased = holding.scanned(spent, facts["greased"])
+    ordinary = {rope: holding.found(spent, f"ordinary/{rope}", {**facts["ordinary"], "rope": rope}) for rope in facts["ordinary"]["ropes"]}
+    slippery = holding.found(spent, "slippery", facts["slippery"])
+    kept = strengths.found(spent, facts["strengths"])
     rows += bend_orders.rows(loads, facts["orders"]) + [bend_orders.slipping_row(slipping, facts["slipping"])]
-    rows += [greased.row(holding, facts["greased"])] + strengths.rows(spent, facts["strengths"])
+    rows += holding.rows_of_scan(greased, facts["greased"])
+    rows += [holding.row(bends, {**facts["ordinary"], "what": f"{facts['ordinary']['what']}, {rope}"}) for rope, bends in ordinary.items()]
+    rows += [holding.row(slippery, facts["slippery"])]
+    rows += strengths.rows_of(kept, strengths.loop_ratio(spent, facts["strengths"]["loop"]), facts["strengths"])
     return Report("What people measured on knots",
                   "Each prediction is a mean over starts that differ a little, with its standard error, and nothing is fitted but what "
                   "the column says. The factor is predicted over measured, the middle of a range; of an order it is Spearman's rank "
@@ -35,7 +41,10 @@ def report(runner):
                   "sources are in `bench/measured.yaml`.",
                   [predictions.table_of(rows), bend_orders.table_of(loads, facts["orders"]),
                    bend_orders.table_of({facts["slipping"]["rope"]: slipping}, facts["slipping"], bend_orders.SLIPPING),
-                   greased.table_of(holding, facts["greased"]), not_yet(facts["not_yet"])])
+                   holding.table_of("Greased line by its friction", greased, facts["greased"]),
+                   holding.table_of("Ordinary bends", ordinary, facts["ordinary"]),
+                   holding.table_of("Slippery rope", {facts["slippery"]["rope"]: slippery}, facts["slippery"]),
+                   strengths.table_of(kept, facts["strengths"]), not_yet(facts["not_yet"])])
 
 
 class Counted:
