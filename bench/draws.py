@@ -72,7 +72,7 @@ class Draw:
         self.settings["material"] = {
             "radius": h, "density": density, "stretching_stiffness": significant(stretching * self.force),
             "bending_stiffness": bending,
-            "twisting_stiffness": significant(bending * self.uniform("twisting", 0.66, 1.0)),
+            "twisting_stiffness": significant(bending * self.uniform("twisting", 0.15, 1.0)),
             "friction_coefficient": self.uniform("friction_coefficient", 0.0, 1.5)}
         # Half of them with friction at the surface: strands roll and twist.
         self.settings["material"]["friction_couple"] = 0.0

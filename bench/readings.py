@@ -23,7 +23,9 @@ READINGS = {"plateau_force": ("plateau force", "true_plateau_force"),
 # What is drawn: three of four loops have friction at the surface and among fibres, as shipped materials do, the others
 # friction on centrelines and elastic bends.
 ROLLS = 0.75
-FIBRES = {"friction_moment": (0.03, 0.12), "stick_ratio": (5.0, 40.0), "compaction": (5e-4, 3e-3)}  # of ropes
+FIBRES = {"friction_moment": (0.03, 0.12), "stick_ratio": (5.0, 40.0), "compaction": (5e-4, 3e-3),
+          "rolling_resistance": (0.1, 0.35)}  # of ropes
+TWISTING = {True: (0.15, 0.4), False: (2 / 3, 2 / 3)}  # k_t/k_b of a rope, and of a solid rod with Poisson's ratio 1/2
 HYSTERESIS = {"friction_moment": (0.24, 0.4), "stick_ratio": (4.0, 8.0), "rolling_resistance": (0.05, 0.2)}  # of solids
 SIZES = [0.0005, PAPER_RADIUS, 0.016]  # radii of a thread, of the paper's ropes and of a hawser [m]
 RODS = {"limp braid": (1e4, 5e4), "stiff braid": (1e3, 1e4), "cable": (10.0, 1e3), "solid": (4.0, 4.0)}  # k_s h^2/k_b
@@ -78,7 +80,8 @@ class Stranger(Draw):
         self.settings["material"] = {
             "radius": h, "density": self.uniform("density", 800.0, 1400.0),
             "stretching_stiffness": significant(stretching * force), "bending_stiffness": bending,
-            "twisting_stiffness": bending, "friction_coefficient": friction}
+            "twisting_stiffness": significant(bending * self.uniform("twisting", *TWISTING[rod != "solid"])),
+            "friction_coefficient": friction}
         scale = h / PAPER_RADIUS
         distance = self.uniform("knot_distance", *DISTANCE)
         length = self.log_uniform("end_to_end", distance + CLEARANCE * PAPER_RADIUS, LONGEST_LOOP)
@@ -104,7 +107,7 @@ class Stranger(Draw):
 
     def title(self):
         v = self.values
-        section = f", M0 {v['friction_moment']:.3g}" if self.rolls else ", centreline"
+        section = f", M0 {v['friction_moment']:.3g}, mu_r {v['rolling_resistance']:.2g}" if self.rolls else ", centreline"
         return (f"{self.number}: {v['rod']}{section}, h {1e3 * v['radius']:.3g} mm, {v['handedness']} hands, mu "
                 f"{v['friction_coefficient']:.2f}, F_p h^2/k_b {v['preload']:.3g}, e/h "
                 f"{v['knot_distance'] / PAPER_RADIUS:.3g}, L/h {v['end_to_end'] / PAPER_RADIUS:.3g}")

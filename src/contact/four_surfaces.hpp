@@ -117,7 +117,7 @@ struct FourRolling {
   FourVectors line;   // l
   FourVectors turns;  // phi_a - phi_b
   Lanes zeta;
-  Lanes slope;  // rho_s dzeta/drho, or the secant's
+  Lanes slope, secant;  // rho_s dzeta/drho, and zeta/y
 
   template <typename Contact>
   FourRolling(const RollingResistance& rolling, const std::array<Contact*, 4>& contacts, const Points4& surfaces,
@@ -127,7 +127,8 @@ struct FourRolling {
     const Lanes remembered{contacts[0]->memory.rolled, contacts[1]->memory.rolled, contacts[2]->memory.rolled,
                            contacts[3]->memory.rolled};
     const Lanes y = (1.0 / rolling.presliding) * (remembered + rolling.radius * dot(line, turns)), size = larger(y, -y);
-    const Lanes one = constant<Lanes>(1.0), secant = select(size < 1.0, one, 1.0 / size);
+    const Lanes one = constant<Lanes>(1.0);
+    secant = select(size < 1.0, one, 1.0 / size);
     zeta = secant * y;
     slope = how == Linearisation::kTangent ? select(size < 1.0, one, Lanes{}) : secant;
   }

@@ -236,6 +236,7 @@ void SmoothContact::add_contact(Tracked& tracked) {
   contact.prediction = tracked.memory.pressure;
   contact.memory = tracked.memory.friction;
   contact.z_old = tracked.memory.z;
+  contact.zeta_old = tracked.memory.zeta;
   const SegmentParabola& c = search_.parabola(foot.segment);
   const Lanes db = c.t + u * c.k;
   contact.db = to_vec3(db);
@@ -356,6 +357,7 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     if (!accepted) {
       if (contact) memory.pressure = contact->prediction;
       memory.z = contact ? contact->z : Vec3::Zero();
+      memory.zeta = contact && turns_ ? surfaces_[tracked.contact].zeta : 0.0;
       continue;
     }
     memory.inside = memory.inside && overlap(tracked) > 0.0;
@@ -364,6 +366,7 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     memory.offset += catch_up_ * (offset_at(foot, *accepted) - memory.offset);
     memory.pressure = contact ? contact->pressure : 0.0;
     memory.z.setZero();
+    memory.zeta = 0.0;
     memory.friction = contact ? remembered(*contact) : FrictionMemory();
   }
   while (done < list.begin.size()) list.begin[done++] = static_cast<int>(list.entries.size());

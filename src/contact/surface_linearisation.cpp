@@ -39,14 +39,16 @@ struct TwoFeet {
   }
 };
 
-/// How far friction has turned from its direction in the last trial: 0 where it hardly has, 1 where it points
-/// elsewhere.
-Lanes turned_from(const FourVectors& old, const FourVectors& z) {
+/// How far a direction of friction or rolling has turned by `apart` from that of the last trial: 0 where it hardly has,
+/// 1 where it points elsewhere, 0 where there was none, `old` squared being 0.
+Lanes turned_from(const Lanes& apart, const Lanes& old2) {
   constexpr double kHardly = 0.2, kElsewhere = 0.7;
+  const Lanes part = (apart - kHardly) / (kElsewhere - kHardly), none = {};
+  return select(old2 > 0.0, smaller(larger(part, none), constant<Lanes>(1.0)), none);
+}
+Lanes turned_from(const FourVectors& old, const FourVectors& z) {
   const FourVectors apart = z - old;
-  const Lanes part = (square_root(dot(apart, apart)) - kHardly) / (kElsewhere - kHardly);
-  const Lanes none = {};
-  return select(dot(old, old) > 0.0, smaller(larger(part, none), constant<Lanes>(1.0)), none);
+  return turned_from(square_root(dot(apart, apart)), dot(old, old));
 }
 
 /// Four contacts at the point at which they are linearised; symbols as in SurfacePoint and ContactPoint.
@@ -177,6 +179,8 @@ class FourSurfaces : private Levers {
   void resist(const RollingResistance& rolling, const std::array<const ContactPoint*, 4>& contacts,
               const Points4& surfaces, const ContactLinearisation& how, const Lanes& weight) {
     const FourRolling now(rolling, contacts, surfaces, axis_, a_, b_, how.friction);
+    const Lanes old = Four<const ContactPoint>(contacts)(&ContactPoint::zeta_old);
+    const Lanes turned = turned_from(larger(now.zeta - old, old - now.zeta), old * old);
     const auto whole = [&](const Lanes& coefficient) { return -coefficient * rolling.radius; };
     resists_ = true;
     line_ = now.line;
@@ -186,7 +190,7 @@ class FourSurfaces : private Levers {
     couple_pressing_ =
         (whole(rolling_slope(rolling, pressures_.pressure)) * weight * pressures_.slope * now.zeta) * line_;
     couple_rolling_ = (whole(rolling_coefficient(rolling, pressures_.turning)) * rolling.radius / rolling.presliding) *
-                      turning_ * now.slope;
+                      turning_ * (now.slope + turned * (now.secant - now.slope));
   }
 
   /// dC as the line turns with a', dl = (1 - l l^T) da'/|a'|, while the sections stay.

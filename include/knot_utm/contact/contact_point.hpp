@@ -67,6 +67,7 @@ struct ContactPoint {
   Vec3 turn = Vec3::Zero();   ///< V = sum_k beta_k (q_k - q_k^n), how b' turned in this step [m]
   Vec3 z = Vec3::Zero();      ///< friction direction, |z| <= 1
   Vec3 z_old = Vec3::Zero();  ///< that of the last trial in this step; 0: there was none
+  double zeta_old = 0.0;      ///< the same of SurfacePoint::zeta
   double mu = 0.0;            ///< friction coefficient [-]
   Vec3 force = Vec3::Zero();  ///< g [N]
 

@@ -101,6 +101,7 @@ class SmoothContact {
     double pressure = -1.0;   // predicted; < 0: none
     FrictionMemory friction;
     Vec3 z = Vec3::Zero();  // of the last trial in this step; zero: there was none
+    double zeta = 0.0;      // the same of the resistance to rolling
     bool pressed = false;   // at the beginning of the step
     bool inside = false;    // appeared deep inside and has not come out yet
 
