@@ -14,8 +14,8 @@ def found(runner, facts):
 
 def rows(loads, facts):
     wanted, alike = " < ".join(facts["order"]), facts["alike_below"]
-    return [Row(f"{facts['what']}, {rope}", wanted, in_order(of_rope, facts["order"], alike), "", rank_correlation(of_rope, facts["order"], alike), is_(wanted),
-                facts["source"], why=facts["if_it_fails"]) for rope, of_rope in loads.items()]
+    return [Row(f"{facts['what']}, {rope}", wanted, in_order(of_rope, facts["order"], alike), "",
+                rank_correlation(of_rope, facts["order"], alike), is_(wanted), facts["source"], why=facts["if_it_fails"]) for rope, of_rope in loads.items()]
 
 
 def slipping(runner, facts):
