@@ -48,6 +48,7 @@ class ScriptedStep : public TimeStep {
   int iterations = 3;
   bool only_secants = false;
   std::vector<double> tried, by_tangents, by_secants;
+  void take_lengths() override {}
 };
 
 struct Outcome {
