@@ -251,7 +251,7 @@ class Repeated(Sweeps):
 
     def setUp(self):
         super().setUp()
-        method = content(CONFIG, "straight.yaml").decode()
+        method = content(CONFIG, "straight.yaml").decode().replace("extension: auto", "extension: 0.02")  # on to the break
         write(self.path("method.yaml"), method + "specimens: {scatter: {material.breaking_force: {normal: 0.1}}}\n")
         write(self.study, self.SCATTERED)
 
