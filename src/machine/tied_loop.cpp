@@ -42,6 +42,7 @@ TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, co
       grips_(grips),
       radius_(material.radius),
       bending_set_(material.bending_set),
+      sets_to_marks_(specimen.set_to_marks),
       knot_distance_(specimen.knot_distance),
       end_to_end_(specimen.end_to_end),
       rig_(centreline, stepper.rod(), tying_options(specimen, material, creep_speed)),
@@ -81,7 +82,7 @@ bool TiedLoop::set_to_marks(const Place& now) {
   const double further = grips_.on_rollers() ? end_to_end_ - grips_.end_to_end(now.grip) : 0.0;
   const bool opened = distance < (1.0 - kOpened) * (sets_ == 0 ? tied_distance_ : knot_distance_);
   const bool near = std::abs(apart) < kNear * knot_distance_ && std::abs(further) < kNear * end_to_end_;
-  if (opened || near || sets_ == kMostSets) return false;
+  if (!sets_to_marks_ || opened || near || sets_ == kMostSets) return false;
   ++sets_;
   set_end_ = now.time + std::max({kSetTime, std::abs(further) / speed_, std::abs(apart) / (kSliding * speed_)});
   set_speed_ = further / (set_end_ - now.time);
@@ -178,7 +179,7 @@ void TiedLoop::state(Archive& archive) {
 }
 
 double marks_of(const SpecimenOptions& specimen, const Program& program) {
-  return specimen.to_be_tied && has_step<MountStep>(program) ? specimen.knot_distance : 0.0;
+  return specimen.to_be_tied && specimen.set_to_marks && has_step<MountStep>(program) ? specimen.knot_distance : 0.0;
 }
 
 }  // namespace knot_utm

@@ -265,6 +265,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     Method method = read_method(root, file, library, &first, noted);
     method.name = path.stem().string();
     method.specimen.to_be_tied = has_step<TieStep>(method.program);
+    method.specimen.set_to_marks = !method.compatibility;
 
     if (!method.material.friction_couple) {
       method.material.friction_couple =

@@ -36,6 +36,7 @@ struct SpecimenOptions {
   double pre_twist = 0.0;                      ///< rho (rest_shape.hpp) [turns/m]
   double edge_length = 0.0032;                 ///< discretisation [m]
   std::optional<double> refinement;            ///< edges between and within knots are shorter by this; unset: auto
+  bool set_to_marks = true;  ///< mounting sets its knots to their marks (not a key); in release 1 it did not
   bool to_be_tied =
       false;  ///< the program ties it (not a key): e is that of the tied knots, and the knots are drawn closer
 };

@@ -78,7 +78,7 @@ class TightenTest(unittest.TestCase):
     def test_a_knot_that_comes_undone(self):
         console, _ = self.ends(1, 'real_time_factor:=0', SLIPPERY)
         self.assertIn('the test ended by untangled', console)
-        self.assertIn('a higher specimen.preload (now 20 N; auto is 50 N)', console)
+        self.assertIn('a higher specimen.preload (now 20 N; auto is 70 N)', console)
 
     def test_a_batch_ends_with_its_statistics(self):
         self.assertIn('\n3 of 3 specimens count\n', self.ends(0, 'method:=' + BATCH, 'real_time_factor:=0')[0])
