@@ -83,7 +83,7 @@ TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {
   method.specimen.preload = 20.0;
   method.specimen.to_be_tied = true;
   EXPECT_EQ(what_keeps_a_knot(method),
-            "a higher specimen.preload (now 20 N; auto is 70 N) or a higher material.friction_coefficient (now 0.3) "
+            "a higher specimen.preload (now 20 N; auto is 50 N) or a higher material.friction_coefficient (now 0.3) "
             "may keep it");
   // A tail that is longer than by default is not it; one that is shorter may slip out of its coil.
   EXPECT_THAT(what_keeps_a_knot(method), Not(HasSubstr("specimen.tail")));
