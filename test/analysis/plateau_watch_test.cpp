@@ -88,8 +88,7 @@ TEST(PlateauWatch, ReadsAtLeastHalfOfALongPlateau) {
 TEST(PlateauWatch, LooksLongerAtAPlateauThatRisesAndAtOneThatIsToBeKnownBetter) {
   std::vector<Sample> rises = Curve().samples();
   for (Sample& sample : rises)
-    for (double* load : {&sample.load, &sample.force_upper, &sample.force_lower})
-      *load *= 1.0 + 20.0 * sample.extension;
+    for (double* load : {&sample.load, &sample.force_upper, &sample.force_lower}) *load *= 1.0 + 5.0 * sample.extension;
   const auto level = ended_early(Curve().samples()), rising = ended_early(rises),
              precise = ended_early(Curve().samples(), 1e-4);
   ASSERT_TRUE(level && rising && precise);

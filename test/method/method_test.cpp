@@ -65,7 +65,7 @@ struct PaperMaterial {
 
 TEST(Method, MaterialsAreThoseOfThePapersTable) {
   for (const PaperMaterial& row : {PaperMaterial{"nylon", 7.34e4, 4.31e-5, 0.46, 150.0, "50kN"},
-                                   PaperMaterial{"polypropylene", 3.90e4, 1.18e-4, 0.63, 50.0, "50kN"},
+                                   PaperMaterial{"polypropylene", 3.90e4, 1.18e-4, 0.63, 70.0, "50kN"},
                                    PaperMaterial{"pink_vps", 1.70, 4.34e-6, 0.54, 1.7, "20N"},
                                    PaperMaterial{"green_vps", 22.15, 5.67e-5, 0.37, 20.0, "50kN"}}) {
     const Method m = load_method(kTighten, {std::string("material=") + row.name});

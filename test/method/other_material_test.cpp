@@ -143,6 +143,7 @@ TEST(OtherMaterial, TheirContactResistsRollingAsItsTwoHalvesDo) {
 TEST(OtherMaterial, WhatResistsRollingIsSavedWithTheSettings) {
   for (const char* resists : {"0", "0.3"}) {
     const Method method = sheet_bend({"other_material=polyester_cord", "other_material.radius=0.001",
+                                      std::string("material.rolling_resistance=") + resists,
                                       std::string("other_material.rolling_resistance=") + resists});
     const StepSettings saved = step_settings(method.specimen, method.material, method.machine, method.physics);
     StepSettings loaded = saved;

@@ -1,5 +1,4 @@
-// Similar specimens from a thread to a hawser, tied and pulled as by default, are one specimen in its own units. By
-// default a light one would have the mass of its own.
+// Similar specimens from a thread to a hawser, tied and pulled as by default, are one specimen in its own units.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,12 +41,11 @@ Ended run(const Size& size) {
       entry("tying_preload", 4.3 * size.force) +
       "density: 900, friction_coefficient: 0.63, bending_law: frictional, friction_moment: 0.06, "
       "compaction: 0.002}";
-  const double own = 900.0 * M_PI * h * h, similar = 4e-8 * bending / (h * h * h * h);  // [kg/m]; that of tau = 2e-4 s
-  char inertia[64];
-  std::snprintf(inertia, sizeof inertia, "physics.inertia=%.17g", similar / own);
+  // A cell of the same rate: commands come as often.
+  const std::string cell = "machine.load_cell={" + entry("capacity", 4e3 * size.force) + "sampling_rate: 3}";
   Ended out;
   out.method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml",
-                           {material, inertia, "physics.accuracy=draft", "program.pull.until={time: 4}"});
+                           {material, cell, "physics.accuracy=draft", "program.pull.until={time: 4}"});
   TestingMachine bench(out.method.specimen, out.method.material, out.method.machine, out.method.physics);
   ProgramRunner program = make_program(out.method, bench.longest_step());
   std::vector<Sample> samples;
