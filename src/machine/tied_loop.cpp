@@ -21,6 +21,7 @@ constexpr int kMostSets = 4;            // of a taut loop to its marks
 constexpr double kSetTime = 1.0 / 3.0;  // in which that is done, at least [s]
 constexpr double kSliding = 4.0;        // times the crosshead's speed: that of the knots' marks meanwhile
 constexpr double kEndOfSetting = 1e-9;  // when no time is left of it [s]
+constexpr double kFarthest = 0.25;      // of e, further than which no release moves knots that hold
 constexpr double kOpened = 0.05;        // of e, as where the motion pattern says so (motion_pattern.cpp)
 constexpr const char* kNoRoom =
     "mount: the loop as it was tied and released leaves no room for the rollers; choose a larger specimen.end_to_end, "
@@ -80,7 +81,8 @@ void TiedLoop::put_on(const Place& now) {
 bool TiedLoop::set_to_marks(const Place& now) {
   const double distance = knot_distance(), apart = knot_distance_ - distance;
   const double further = grips_.on_rollers() ? end_to_end_ - grips_.end_to_end(now.grip) : 0.0;
-  const bool opened = distance < (1.0 - kOpened) * (sets_ == 0 ? tied_distance_ : knot_distance_);
+  const bool opened = distance < (1.0 - kOpened) * (sets_ == 0 ? tied_distance_ : knot_distance_) ||
+                      std::abs(apart) > kFarthest * knot_distance_;
   const bool near = std::abs(apart) < kNear * knot_distance_ && std::abs(further) < kNear * end_to_end_;
   if (!sets_to_marks_ || opened || near || sets_ == kMostSets) return false;
   ++sets_;

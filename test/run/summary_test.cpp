@@ -147,7 +147,8 @@ TEST_F(Summary, IsWhatTheToolsEndWith) {
     EXPECT_EQ(answer.code, 0) << answer.text;
     return answer.text;
   };
-  const std::string ended = asked("tensile_test", "straight --set physics.accuracy=draft --out 'a run'");
+  const std::string ended =
+      asked("tensile_test", "straight --set physics.accuracy=draft --set material.breaking_force=2500 --out 'a run'");
   EXPECT_THAT(ended, AllOf(HasSubstr("the test ended by break after "), HasSubstr("largest load          2.500"),
                            HasSubstr("all results are in a run/result.yaml\n")));
   EXPECT_LE(lines(ended), 10);

@@ -154,7 +154,7 @@ TEST_F(Batch, ARodThatPartsBeforeItIsLoadedIsRejectedAndOneThatIsOnlyHeldCounts)
 
 TEST_F(Batch, AWarningIsToldOnceForAllSpecimens) {
   run_batch(load_method(kConfig + "tighten.yaml",
-                        {"physics.accuracy=draft", "compatibility=1", "specimens={count: 2, scatter: none}"}),
+                        {"physics.accuracy=draft", "material=polypropylene", "specimens={count: 2, scatter: none}"}),
             options);
   EXPECT_THAT(said, HasSubstr("specimens 1 and 2: the plateau force may be off"));
 }

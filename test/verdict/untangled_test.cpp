@@ -65,7 +65,7 @@ TEST_F(Untangled, AKnotThatLetsGoOfItsWeightsOrOfAnotherRope) {
   std::ofstream(heavy) << read_whole(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knots/reef.yaml")
                        << "weights: {lower_tail: 0.05, upper_tail: 0.05}\n";
   for (const std::string& settings :
-       {"--set material=dyneema_2mm --set specimen.knot='" + heavy + "'",
+       {"--set material=dyneema_2mm --set material.rolling_resistance=0 --set specimen.knot='" + heavy + "'",
         std::string("--set material=polyester_cord --set other_material=dyneema_2mm --set specimen.knot=reef")}) {
     const Answer answer = answer_of(tool(
         "tensile_test", "knot --quiet --overwrite --out '" + folder() + "' --set physics.accuracy=draft " + settings));
