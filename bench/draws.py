@@ -78,9 +78,6 @@ class Draw:
         self.settings["material"]["friction_couple"] = 0.0
         if self.choice("friction_at_surface", [False, True]):
             self.settings["material"]["friction_couple"] = 1.0
-            self.random.random()  # not used, so that all other draws stay as they were
-            if self.number % 10 == 3:  # not drawn, so that all other draws stay as they were
-                self.settings["material"]["bending_set"] = self.keep("bending_set", 0.4)
         self.keep("bending_time", significant(h ** 2 * math.sqrt(density * math.pi * h ** 2 / bending)))
 
     def draw_physics(self):
@@ -90,7 +87,6 @@ class Draw:
             self.settings["physics." + key] = self.choice(key, options)
         if self.settings["physics.twist"] == "off" and self.settings["material"]["friction_couple"] > 0.0:
             self.settings["physics.friction.at"] = "centreline"
-            self.settings["material"].pop("bending_set", None)
         self.draw_laws()
 
     def draw_laws(self):
@@ -98,7 +94,7 @@ class Draw:
         others, self.random = self.random, random.Random(f"laws {self.seed} {self.number} {self.quick}")
         material = self.settings["material"]
         rolls = material["friction_couple"] > 0.0 and "physics.friction.at" not in self.settings
-        on_frames = "bending_set" not in material and self.settings["physics.twist"] != "off"
+        on_frames = self.settings["physics.twist"] != "off"
         if on_frames and self.random.random() < 0.5:
             material.update(bending_law="frictional", friction_moment=self.log_uniform("friction_moment", 0.01, 0.5),
                             stick_ratio=self.log_uniform("stick_ratio", 1.5, 60.0),

@@ -289,8 +289,10 @@ void EdgeContact::state(Archive& archive) {
   archive.section("EDG2");  // "EDGE" had no number that a friction law keeps
   archive(candidates_);
   archive.list(memory_);
-  if (rolling_.on())
+  if (rolling_.on()) {
+    archive.section("ROL2");  // before there was none, and a vector for each
     for (Memory& memory : memory_) archive(memory.friction.rolled);
+  }
   if (archive.loads()) find_pairs();
 }
 

@@ -232,8 +232,10 @@ void RollerContact::state(Archive& archive) {
   archive.require(turn_.size() == start_.size(), "turns of rollers", std::to_string(turn_.size()));
   archive.list(committed_prediction_);
   archive.list(memory_);
-  if (rolling_.on())
+  if (rolling_.on()) {
+    archive.section("ROL2");  // before there was none, and a vector for each
     for (FrictionMemory& memory : memory_) archive(memory.rolled);
+  }
   const std::size_t places = memory_index(voronoi_.size(), start_.size(), 0, 0);
   archive.require(places > 0 && committed_prediction_.size() == places && memory_.size() == places, "places on rollers",
                   std::to_string(memory_.size()));

@@ -412,8 +412,9 @@ void SmoothContact::state(Archive& archive) {
   const bool of_this_rod = fraction_.size() == 0 || fraction_.size() == arclength_.size();
   archive.require(of_this_rod, "fractions of points outwards", "of " + std::to_string(fraction_.size()) + " nodes");
   archive(candidates_, accepted_, first_step_);
-  if (rolling_.on())
-    for (Memory& memory : accepted_.entries) archive(memory.friction.rolled);
+  if (!rolling_.on()) return;
+  archive.section("ROL2");  // before there was none, and a vector for each
+  for (Memory& memory : accepted_.entries) archive(memory.friction.rolled);
 }
 
 }  // namespace knot_utm

@@ -87,7 +87,7 @@ double near_locking(const Material& material) {
 /// Whether friction and bends go together as in the studies: friction on centrelines with elastic bends, or the whole
 /// couple of friction at the surface with fibres that rub.
 bool studied_section(const Material& material, const PhysicsOptions& physics) {
-  return material.bending_set == 0.0 && BendingRegistry::entry(material.bending.law).studied &&
+  return BendingRegistry::entry(material.bending.law).studied &&
          (friction_couple(material, physics) > 0.0) == remembers_bends(material);
 }
 

@@ -104,8 +104,7 @@ struct TestingMachine::Impl {
     state.velocity = Points::Zero(3, nodes);
     RodProperties rod = material.other ? make_rod(material, *material.other, rest, centreline.cuts)
                                        : make_rod(material, rest, centreline.cuts);
-    const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
-    if (takes_set || bends_on_frames(material)) remember_bends(rod, &state);
+    if (bends_on_frames(material)) remember_bends(rod, &state);
     remember_stretches(rod, &state);
     give_rest_shape(specimen, &rod, &state);
     if (solves_for_twist(rod, state)) initialise_frames(&state);

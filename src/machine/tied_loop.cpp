@@ -42,7 +42,6 @@ TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, co
     : stepper_(stepper),
       grips_(grips),
       radius_(material.radius),
-      bending_set_(material.bending_set),
       sets_to_marks_(specimen.set_to_marks),
       knot_distance_(specimen.knot_distance),
       end_to_end_(specimen.end_to_end),
@@ -53,7 +52,6 @@ TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, co
 void TiedLoop::enter(const Command& command, const Place& now) {
   const Phase phase = command.phase;
   if (phase == Phase::kTie) rig_.tie(command.speed, now.time, stepper_.state().position);
-  if (rig_.tied() && bending_set_ > 0.0) stepper_.take_set(bending_set_);
   if (phase == Phase::kRelease) {
     rig_.release(command.duration, now.time);
   } else if (rig_.tied()) {

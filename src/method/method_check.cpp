@@ -120,7 +120,6 @@ void check_other_material(const Method& m) {
   same("stretching_law", StretchingRegistry::entry(other.stretching.law).name,
        StretchingRegistry::entry(own.stretching.law).name);
   same("bending_law", BendingRegistry::entry(other.bending.law).name, BendingRegistry::entry(own.bending.law).name);
-  same("bending_set", format_number(other.bending_set), format_number(own.bending_set));
   same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
   if (m.physics.contact_law == ContactLaw::kEdge)
     throw InvalidInput("physics.contact.law", "edge", "smooth where there is an other_material");
@@ -215,8 +214,6 @@ void check_twist(const Method& m) {
   need(has_step<TwistStep>(m.program), "a step of the program twists the rod", "no twist step");
   need(knotted && friction_rolls(m.material, m.machine, m.physics), "friction at the surface twists the rod",
        "physics.friction.at: centreline");
-  need(knotted && m.specimen.to_be_tied && m.material.bending_set > 0.0,
-       "material.bending_set curves the rod at rest, which takes part in its twist", "material.bending_set: 0");
   need(m.specimen.natural_curvature != 0.0 || m.specimen.pre_twist != 0.0,
        "a rod that is curved or twisted at rest takes part in its twist",
        "specimen.natural_curvature: 0 and specimen.pre_twist: 0");
@@ -228,10 +225,7 @@ void check_twist(const Method& m) {
 }
 
 void check_bending(const Method& m) {
-  const bool remembers = remembers_bends(m.material);  // throws where its law misses a value
-  if (remembers && m.material.bending_set > 0.0)
-    reject("material.bending_set", m.material.bending_set,
-           "at most 0 where material.bending_law remembers bends itself: bending_law: elastic takes a set");
+  remembers_bends(m.material);  // throws where its law misses a value
 }
 
 /// A natural curvature stays only where the bending law does not change it, and grips that let the rod turn would let a

@@ -78,7 +78,6 @@ inline void material(Fields& f, Material& o) {
   f.number("rolling_hysteresis", o.rolling_hysteresis, Range{0.0, 1.0, "-"});
   chosen_law<StretchingRegistry>(f, "stretching_law", o.stretching);
   chosen_law<BendingRegistry>(f, "bending_law", o.bending);
-  f.number("bending_set", o.bending_set, Range{0.0, 1.0, "-"});
   f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
   f.optional_number("tying_preload", o.tying_preload, Range{1e-9, 1e9, "N"}, "auto");
   f.optional_number("breaking_force", o.breaking_force, Range{1e-6, 1e8, "N"}, "none");

@@ -119,7 +119,6 @@ constexpr Label kLabels[] = {
     {"material.relaxation_time", "Time in which it relaxes"},
     {"material.bending_relaxation_share", "Share of a held bend's moment that relaxes"},
     {"material.bending_relaxation_time", "Time in which that relaxes"},
-    {"material.bending_set", "Share of the tied bend that sets"},
     {"material.breaking.law", "What parts the rod"},
     {"material.breaking.bending_share", "Share of its bend that a fibre bears"},
     {"material.breaking.crushing_share", "Strength lost by being pressed flat"},

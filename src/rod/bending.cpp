@@ -170,17 +170,4 @@ StencilLocal bending(const BendingInput& input, const Vec3& e, const Vec3& f, co
   return on_nodes(elastic(input, bend.value), bend);
 }
 
-void take_bending_set(double fraction, RodState* state) {
-  if (!state->curved_at_rest())
-    throw InvalidInput("rod", "straight at rest", "made with natural curvatures, be they zero, to take a set");
-  const Points& x = state->position;
-  const auto edge = [&](Eigen::Index j) { return Vec3(x.col(j + 1) - x.col(j)); };
-  const auto directors = [&](Eigen::Index j) {
-    return material_directors(edge(j).normalized(), state->reference_director.col(j), state->twist[j]);
-  };
-  for (Eigen::Index i = 1; i <= state->natural_curvature.cols(); ++i)
-    state->natural_curvature.col(i - 1) =
-        fraction * material_curvature(edge(i - 1), edge(i), directors(i - 1), directors(i));
-}
-
 }  // namespace knot_utm

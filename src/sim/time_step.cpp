@@ -134,8 +134,6 @@ Eigen::VectorXd TimeStep::tension() const {
   return out;
 }
 
-void TimeStep::take_set(double fraction) { take_bending_set(fraction, &state_); }
-
 void TimeStep::lay(const Eigen::VectorXd& rest_length, const Points& position) {
   const Points before = state_.position;
   state_.position = position;

@@ -125,7 +125,8 @@ TyingRig::Laid TyingRig::longer(double apart, double beyond, const RodProperties
   const Points& x = state.position;
   const double z[] = {knot_middle(0, rod, state).z(), knot_middle(1, rod, state).z()}, up = z[0] < z[1] ? 1.0 : -1.0;
   const double low = std::min(z[0], z[1]) + kStandingFromKnot * radius_,
-               high = std::max(z[0], z[1]) - kStandingFromKnot * radius_, of_second = 0.5 * up * apart;
+               high = std::max(z[0], z[1]) - kStandingFromKnot * radius_;
+  const double of_second = high > low ? 0.5 * up * apart : 0.0;  // nothing is straight between knots that are so near
   const int first = knots_[0].standing_node, last = knots_[1].standing_node;
   // Of an edge: 0 and 1 in either strand between the knots, 2 beyond the knots, 3 in a knot.
   const auto piece = [&](int edge) {
@@ -148,8 +149,8 @@ TyingRig::Laid TyingRig::longer(double apart, double beyond, const RodProperties
     } else if (i > outside.first && i < outside.last) {
       // Along its own way around the loop, and not at all half-way.
       const double from_second = static_cast<double>(i - outside.first) / (outside.last - outside.first);
-      out.position.col(i) += 0.5 * apart * (1.0 - 2.0 * from_second) * (x.col(i + 1) - x.col(i - 1)).normalized();
-    } else {
+      out.position.col(i) += up * of_second * (1.0 - 2.0 * from_second) * (x.col(i + 1) - x.col(i - 1)).normalized();
+    } else if (high > low) {
       const double share = std::clamp((x(2, i) - low) / (high - low), 0.0, 1.0);
       out.position(2, i) += up * of_second * (2.0 * share - 1.0);
     }

@@ -287,7 +287,6 @@ std::string what_keeps_a_knot(const Method& method) {
       remedies.push_back("a larger material.friction_moment (now " + short_number(*moment) + ")");
     } else if (!remembers_bends(material)) {
       remedies.emplace_back("material.bending_law: frictional, if it is a rope,");
-      remedies.push_back("a larger material.bending_set (now " + short_number(material.bending_set) + ")");
     }
     remedies.push_back("a larger material.rolling_resistance (now " + short_number(material.rolling_resistance) + ")");
   } else {

@@ -129,18 +129,17 @@ TEST(RelativeErrors, AreGivenForStrandsThatRollAsTheStudyHadThem) {
 }
 
 TEST(RelativeErrors, AreNotGivenWhereNoStudySays) {
-  Loop edge, smoothed, untied, overhand, rolling, set, rough, rubber, straight;
+  Loop edge, smoothed, untied, overhand, rolling, rough, rubber, straight;
   edge.physics.contact_law = ContactLaw::kEdge;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
   overhand.specimen.knot = knot_named("overhand");
   rolling.material.friction_couple = 1.0;
-  set.material.bending_set = 0.5;
   rough.machine.roller_friction = 0.2;
   straight.specimen.knot = knot_named("straight");
   EXPECT_TRUE(straight.errors().locked_stiffness);
   rubber.material.stretching.law = straight.material.stretching.law = static_cast<StretchingLaw>(1);
-  for (const Loop& loop : {edge, smoothed, untied, overhand, rolling, set, rough, rubber, straight}) {
+  for (const Loop& loop : {edge, smoothed, untied, overhand, rolling, rough, rubber, straight}) {
     EXPECT_FALSE(loop.errors().plateau_force);
     EXPECT_FALSE(loop.errors().lock_extension);
     EXPECT_FALSE(loop.errors().locked_stiffness);

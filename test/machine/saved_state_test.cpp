@@ -159,8 +159,9 @@ Scene loop(const std::string& name, RollerRotation rotation) {
   return out;
 }
 
-Scene with_a_set(Scene of) {
-  of.material.bending_set = 0.5;
+Scene with_fibres(Scene of) {
+  of.material.bending.law = static_cast<BendingLaw>(2);
+  of.material.bending.set("friction_moment", 0.06);
   return of;
 }
 
@@ -234,7 +235,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
                                          overhand("overhandWithTwist", "memory", ContactLaw::kSmooth),
                                          overhand("smoothedFriction", "smoothed", ContactLaw::kSmooth),
                                          overhand("rollingEdges", "memory", ContactLaw::kEdge, 0.3),
-                                         with_a_set(loop("loopWithASetOnFreeRollers", RollerRotation::kFree)),
+                                         with_fibres(loop("loopWithFibresOnFreeRollers", RollerRotation::kFree)),
                                          rolling(loop("rollingOnDrivenRollers", RollerRotation::kTurned))),
                          [](const auto& scene) { return scene.param.name; });
 

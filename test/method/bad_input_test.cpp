@@ -143,7 +143,6 @@ const std::vector<Wrong>& wrong_overrides() {
       {"specimen.length=0.5", "specimen.length", "0.5", of_knots("length")},
       {"specimen.file=shape.csv", "specimen.file", "shape.csv", of_knots("file")},
       {"machine={grips: clamps, roller_friction: 0.2}", "machine.roller_friction", "0.2", "only with grips: rollers"},
-      {"material.bending_set=1.5", "material.bending_set", "1.5", "0 to 1"},
       {"machine={roller_rotation: free}", "machine.roller_rotation", "free", "only with a roller_friction above 0"},
       {"specimen.knot=capstan", "machine.grips", "rollers", "nodes or clamps"},
       {"machine={roller_friction: 0.1, roller_rotation: spun}", "machine.roller_rotation", "spun",
@@ -293,12 +292,6 @@ TEST(BadInput, CompatibilityIsOneOrNone) {
         << other;
 }
 
-TEST(BadInput, ABendThatSetsNeedsTwist) {
-  EXPECT_THAT(
-      complaint(kTighten, {kElastic, "material.bending_set=0.5", "physics.twist=off"}),
-      AllOf(HasSubstr("tighten.yaml: physics.twist is off"), HasSubstr("material.bending_set"), Not(HasSubstr("\n"))));
-}
-
 TEST(BadInput, ABendThatYieldsNeedsAYieldStrainAndTwist) {
   EXPECT_THAT(complaint(kTighten, {"material.bending_law=plastic"}),
               AllOf(HasSubstr("material.yield_strain is missing"), Not(HasSubstr("\n"))));
@@ -310,8 +303,6 @@ TEST(BadInput, ABendThatYieldsNeedsAYieldStrainAndTwist) {
   };
   EXPECT_EQ(complaint(kTighten, plastic), "nothing was wrong");
   EXPECT_THAT(with("physics.twist=off"), AllOf(HasSubstr("physics.twist is off"), Not(HasSubstr("\n"))));
-  EXPECT_THAT(with("material.bending_set=0.5"),
-              AllOf(HasSubstr("material.bending_set"), HasSubstr("bending_law: elastic"), Not(HasSubstr("\n"))));
   EXPECT_THAT(with("material.hardening=2"), AllOf(HasSubstr("material.hardening"), HasSubstr("0.01 to 1")));
 }
 
@@ -348,9 +339,6 @@ TEST(BadInput, RelaxationNeedsAShareAndATimeAndLawsThatRelax) {
               AllOf(HasSubstr("material.relaxation_share"), HasSubstr("0 to 0.99"), Not(HasSubstr("\n"))));
   EXPECT_THAT(with(right, {"share=0.2", "time=0"}),
               AllOf(HasSubstr("material.bending_relaxation_time"), HasSubstr("0.001 to 1e9 s"), Not(HasSubstr("\n"))));
-  EXPECT_THAT(complaint(kTighten, {kElastic, "material.bending_law=viscoelastic", "material.bending_set=0.5",
-                                   "material.bending_relaxation_share=0.2", "material.bending_relaxation_time=30"}),
-              HasSubstr("bending_law: elastic takes a set"));
   EXPECT_THAT(complaint(kTighten, {"material.stretching_law=neo_hookean", "material.relaxation_share=0.2"}),
               AllOf(HasSubstr("only with stretching_law: viscoelastic"), Not(HasSubstr("\n"))));
   EXPECT_THAT(complaint(kTighten, {"material.bending_relaxation_time=30"}),

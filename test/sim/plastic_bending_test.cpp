@@ -1,4 +1,4 @@
-// Bends that a rod keeps: by a set that it takes, or because it yields.
+// Bends that a rod keeps because it yields, or because its fibres rub.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kEdges = 24;
 constexpr double kTurn = 2.0, kBend = kTurn / kEdges;  // of the arc, end to end, and of a node [rad]
-constexpr double kShare = 0.6;                         // of the bend: what the set takes, and where it yields
+constexpr double kShare = 0.6;                         // of the bend, where it yields
 constexpr double kHardening = 0.2;
 
 /// A rod as a circular arc, of zero natural curvature.
@@ -60,52 +60,6 @@ struct Strip {
 void expect_bends(const Points& x, double bend, double error) {
   const Points t = tangents(x);
   for (int i = 1; i < kEdges; ++i) EXPECT_NEAR(turning_angle(t.col(i - 1), t.col(i)), bend, error) << i;
-}
-
-TEST(BendingSet, AFreeRodComesToRestWithTheShareOfItsBend) {
-  const Strip strip;
-  std::unique_ptr<TimeStep> stepper = strip.stepper();
-  stepper->take_set(kShare);
-  Balance balance(std::move(stepper), strip.settings, 0.02);
-  const Boundary free;
-  balance.run(20.0, [&](double) -> const Boundary& { return free; });
-  expect_bends(balance.stepper().state().position, kShare * kBend, 1e-5);
-  EXPECT_LT(balance.stepper().readings().energies().elastic(), 1e-6 * balance.sum().numerical)
-      << "all of it was let go";
-}
-
-/// What is stored above the new rest, (1 - share)^2 of it, is still there; the rest is lost in the next step.
-TEST(BendingSet, LosesTheEnergyThatItTakes) {
-  const Strip strip;
-  std::unique_ptr<TimeStep> stepper = strip.stepper();
-  const double before = stepper->readings().energies().bending;
-  stepper->take_set(kShare);
-  const Boundary held = strip.held_at(kBend);
-  Balance balance(std::move(stepper), strip.settings, 0.02);
-  balance.run(0.02, [&](double) -> const Boundary& { return held; });
-  const double left = (1.0 - kShare) * (1.0 - kShare) * before;
-  EXPECT_NEAR(balance.stepper().readings().energies().bending, left, 1e-9 * before);
-  EXPECT_NEAR(balance.sum().numerical, before - left, 1e-9 * before);
-  EXPECT_LT(std::abs(balance.gap()), balance.rounding());
-}
-
-/// A ring's worth of it, rolled about its own tangent by phi, resists with k_b kappa kappa_0 sin(phi) a length.
-TEST(BendingSet, AHeldBendResistsBeingRolled) {
-  const Strip strip;
-  std::unique_ptr<TimeStep> stepper = strip.stepper();
-  stepper->take_set(kShare);
-  Boundary held = strip.held_at(kBend);
-  const double phi = 0.7;
-  for (int j = 0; j < kEdges; ++j) held.fixed_twists.push_back({j, 0.0});
-  for (int step = 1; step <= 12; ++step) {  // and stands still, so that no drag is in the torque
-    for (FixedTwist& twist : held.fixed_twists) twist.angle = std::min(0.1 * step, 1.0) * phi;
-    ASSERT_TRUE(stepper->step(held, 0.02).accepted());
-  }
-  // Half of it from either node, whose edge is turned against its rest by phi, and the other edge, too.
-  const double expected =
-      strip.material.bending_stiffness / strip.material.radius * kShare * kBend * kBend * std::sin(phi);
-  for (int j = 4; j < kEdges - 4; ++j)
-    EXPECT_NEAR(std::abs(stepper->readings().reaction_torque(j)), expected, 0.01 * expected) << j;
 }
 
 /// It is unbent slowly: let go at once, its ends would swing back, and their inertia and drag bend the middle further.

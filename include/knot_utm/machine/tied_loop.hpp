@@ -57,7 +57,7 @@ class TiedLoop final : public Tying {
 
   TimeStep& stepper_;
   Grips& grips_;
-  double radius_, bending_set_;
+  double radius_;
   bool sets_to_marks_;
   double knot_distance_, end_to_end_;   // e and L as the pull is to begin [m]
   double set_end_ = 0.0;                // when a taut loop is at its marks; 0: nothing is being set [s]

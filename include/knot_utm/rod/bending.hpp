@@ -76,8 +76,4 @@ StencilGradient bending_gradient(const BendingInput& input, const Vec3& e, const
 StencilLocal bending(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                      const Directors& on_f);
 
-/// The rod takes a set: its natural curvatures become `fraction` of its present material curvatures. Throws
-/// InvalidInput where the state has no natural curvatures; zeros suffice.
-void take_bending_set(double fraction, RodState* state);
-
 }  // namespace knot_utm

@@ -78,7 +78,7 @@ struct RodState {
   Eigen::VectorXd reference_twist;  ///< m_ref of inner node i+1 [rad], N-2
 
   /// What the bending law remembers: kappa-bar of inner node i+1 on (m1, m2), the angle it turns by at rest [rad], N-2.
-  /// Empty: straight at rest for good. Zeros: straight, but may take a set (take_bending_set).
+  /// Empty: straight at rest for good. Zeros: straight until its law changes that.
   Eigen::Matrix2Xd natural_curvature;
   Eigen::VectorXd bending_own;  ///< and its own numbers (bending_law.hpp): kOwn of each of these nodes, node by node
 

@@ -73,10 +73,6 @@ class TimeStep {
   virtual void part(int edge) = 0;
   int parted_edge() const { return parted_edge_; }  ///< -1: none has
 
-  /// The rod takes a set between two steps (take_bending_set of rod/bending.hpp). The bending energy that this removes
-  /// is lost in the next step as `StepWork::numerical`.
-  void take_set(double fraction);
-
   /// Between two steps the edges of a rod of one material, without cuts, get these rest lengths [m], and its nodes
   /// these places, as if it were drawn so. Contacts still count arclengths and lengths as they were when the step was
   /// made. Stretching energy that this stores or frees goes to the next step's `StepWork::numerical`.

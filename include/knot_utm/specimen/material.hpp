@@ -20,7 +20,6 @@ struct Material : RodMaterial {
   std::optional<double> friction_couple;    ///< 0 or 1 [-]; unset: default_friction_couple
   double rolling_resistance = 0.0;          ///< mu_r of its contacts (RollingResistance) [-]
   double rolling_hysteresis = 0.0;          ///< alpha of a solid rod's contacts (growth_of_hysteresis) [-]
-  double bending_set = 0.0;                 ///< fraction of the bend in its tied knots that the rod keeps at rest [-]
   std::optional<double> contact_stiffness;  ///< K [N/m^2], of the pressure law; unset: default_contact_stiffness
   std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
   std::optional<double> breaking_force;     ///< F_b, tension at which it parts straight [N]; unset: it does not

@@ -124,12 +124,7 @@ def without_idle_keys(method):
     def without(section, *keys):
         return {key: value for key, value in section.items() if key not in keys}
 
-    def of_ropes(section):
-        return without(section, "bending_set") if not section.get("bending_set") else section
-
-    material, machine, physics = of_ropes(method["material"]), method["machine"], method.get("physics", {})
-    if "other_material" in method:
-        method = {**method, "other_material": of_ropes(method["other_material"])}
+    material, machine, physics = method["material"], method["machine"], method.get("physics", {})
     if not material.get("friction_couple") and isinstance(physics.get("friction"), dict):
         physics = {**physics, "friction": without(physics["friction"], "at")}
     if machine.get("roller_rotation", "fixed") != "turned":
