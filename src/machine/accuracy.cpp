@@ -139,7 +139,9 @@ RelativeErrors errors_of_hardly_closed(const RelativeErrors& errors) {
   out.break_in_bend = errors.break_in_bend;
   if (!errors.rolls) return out;
   out.rolls = true;
-  if (errors.plateau_force) out.plateau_force = kHardlyClosedPlateau * *errors.plateau_force;
+  if (errors.plateau_force)
+    out.plateau_force = std::max(*errors.plateau_force,
+                                 std::min(kHardlyClosedPlateau * *errors.plateau_force, kOppositeRollingPlateau));
   if (errors.lock_extension) out.lock_extension = kHardlyClosedLock * *errors.lock_extension;
   return out;
 }
@@ -173,11 +175,11 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   out.plateau_force =
       coarse *
       (opposite ? opposite_plateau : (rod.rolls ? kRollingPlateau * near_locking(material) : kPlateau) * slippery);
-  out.lock_extension = coarse * (opposite ? opposite_lock : rod.rolls && !solid ? kRollingLock : kLock);
-  if (rod.rolls && opposite) return out;  // its stiffness is one of a distribution, of which no fraction holds
-  out.locked_stiffness = of_strands * (solid       ? kSolidsStiffnessOfKnots * h / specimen.end_to_end
-                                       : rod.rolls ? kRollingStiffness * slippery
-                                                   : kRopesStiffness);
+  out.lock_extension = coarse * (opposite ? opposite_lock : kLock);
+  out.locked_stiffness = of_strands * (rod.rolls && opposite ? kOppositeRollingStiffness
+                                       : solid               ? kSolidsStiffnessOfKnots * h / specimen.end_to_end
+                                       : rod.rolls           ? kRollingStiffness * slippery
+                                                             : kRopesStiffness);
   return out;
 }
 

@@ -62,7 +62,7 @@ class Package(Sweeps):
         with self.assertRaisesRegex(AttributeError, r"it is a reading: \['peak_force'\]"):
             run.peak_force
         self.assertEqual(copy.copy(run).folder, run.folder)
-        self.assertRegex(repr(run), rf"^<Run {re.escape(run.folder)}: ended by break, largest load 2\.?5\d* ?k?N?.*, 0 warnings>$")
+        self.assertRegex(repr(run), rf"^<Run {re.escape(run.folder)}: ended by extension, largest load 3\d* N, 0 warnings>$")
 
     def is_drawn(self, run):
         pulled = run.curve[run.curve["phase"] == "pull"]
