@@ -12,7 +12,6 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
 
 import front  # noqa: E402
-import lengths  # noqa: E402
 import profiles  # noqa: E402
 import readings  # noqa: E402
 import references  # noqa: E402
@@ -159,23 +158,6 @@ class Studies(unittest.TestCase):
             rows = [[float(cell) for cell in line.split(",")] for line in file.read().split()[1:]]
         self.assertEqual(len(rows), 7)
         self.assertEqual({round(b[2] - a[2], 9) for a, b in zip(rows, rows[1:])}, {round(0.5 * scaling.ROOM, 9)})
-
-    def test_loops_are_compared_at_the_same_distances_and_loads(self):
-        run = runs.Run("/nowhere", 1.0, 0, "")
-        run.result = {"lock_extension": 10.0}
-        # Nothing slides over the first of 10 m; from there on the knots come nearer by 2 m each.
-        s = [float(k) for k in range(14)]
-        distance = [max(0.1 - 0.02 * max(0.0, x - 1.0), -0.08) for x in s]
-        load = [10.0 * (1.0 - d) for d in distance[:11]] + [20.0, 40.0, 80.0]
-        run.curve = {"phase": ["pull"] * 14, "extension": s, "knot_distance": distance, "load": load}
-        self.assertAlmostEqual(lengths.distance_at_lock(run), -0.08)
-        self.assertAlmostEqual(lengths.way_of_slack(run), 10.0 - 0.09)
-        self.assertAlmostEqual(lengths.force_at_distances(run), 10.0 * (1.0 - 0.055), places=3)
-        run.method = {"material": {"stretching_stiffness": 5.0}}
-        self.assertAlmostEqual(lengths.stretched_length(run, 80.0), 4.0 * 5.0 / 40.0)
-        self.assertIsNone(lengths.stretched_length(run, 100.0))
-        run.result = {}
-        self.assertIsNone(lengths.force_at_distances(run))
 
 
 class FakeRunner:
