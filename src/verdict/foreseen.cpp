@@ -212,8 +212,7 @@ constexpr const char* kTiedFast =
     "; ten times the default changes a sliding force by up to 8 %, so choose a lower program.tie.speed";
 
 constexpr double kPulledAsShipped = 1.04;  // [radii/s]
-/// At three times that the plateaus of nylon and polypropylene are the same to 0.4 % (scripts/bench sizes, five
-/// starts).
+/// At three times that the plateaus of nylon and polypropylene are the same to 0.4 % (five starts).
 constexpr double kPulledSlow = 5.0 * kPulledAsShipped;
 /// Ten times moved the plateau of nylon by 2.9 %, of polypropylene by 1.2 %.
 constexpr const char* kPulledFast =

@@ -17,7 +17,6 @@ import readings  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
 import scaling  # noqa: E402
-import sizes  # noqa: E402
 import specimens  # noqa: E402
 import tighten  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
@@ -177,31 +176,6 @@ class FakeRunner:
 
     def run_all(self, todo):
         return [self.run(*one) for one in todo]
-
-
-class Sizes(unittest.TestCase):
-    SHIPPED = {"radius": 0.003, "density": 900.0, "stretching_stiffness": 4e4, "bending_stiffness": 1e-4,
-               "twisting_stiffness": 8e-5, "friction_coefficient": 0.5, "tying_preload": 50.0}
-
-    def test_a_specimen_that_pulls_otherwise_or_takes_more_work_fails(self):
-        def table(**changed):
-            class Runner:
-                root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
-
-                def run(self, name, settings, method):
-                    rod = settings["material"]
-                    force = rod["bending_stiffness"] / rod["radius"] ** 2
-                    run = runs.Run("/nowhere", 1.0, 0, "")
-                    run.result = {"motion_pattern": "sliding", "true_plateau_force": 0.5 * force,
-                                  "newton_iterations": 3000, "drag_share": 1e-4, "inertia_share": 1e-5}
-                    if name.endswith("/3"):
-                        run.result.update({key: change * run.result[key] for key, change in changed.items()})
-                    return run
-            return sizes.of_sizes(Runner(), sizes.LOOP, "polypropylene", {}).failed()
-        self.assertEqual(table(), [])
-        self.assertEqual(len(table(true_plateau_force=1.02)), 1)
-        self.assertEqual(len(table(newton_iterations=1.3)), 1)
-        self.assertEqual(len(table(drag_share=20.0)), 1)
 
 
 class SpeedOverStarts(unittest.TestCase):
