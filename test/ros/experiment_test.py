@@ -27,6 +27,9 @@ class ExperimentTest(unittest.TestCase):
         recorder = Latest('recorder/status', RecorderStatus)
         status = Latest('utm/status', TestStatus)
         wait_for_connection('utm_node', 'utm/crosshead', 'experiment_node')
+        for publisher, topic in (('utm_node', 'utm/crosshead'), ('experiment_node', 'experiment/crosshead'),
+                                 ('experiment_node', 'experiment/load_cell')):
+            wait_for_connection(publisher, topic, rospy.get_name())
         start_test()
         self.assertEqual(status.wait('ended', lambda s: s.state == TestStatus.ENDED).ended_by, 'program')
         self.addCleanup(shutil.rmtree, recorder.wait('recorded', lambda r: r.complete).directory)
