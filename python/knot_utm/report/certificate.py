@@ -9,7 +9,7 @@ LIMITS = {
     "kDeepContact": 0.05,  # contact [of the radius]
     "kUnbalanced": 0.01,   # energies [of the largest]
     "kForcesDiffer": 0.01,  # forces on both grips [of the largest]
-    "kUnsure": 0.1,        # plateau force [of itself]
+    "kUnsure": 0.2,        # plateau force [of itself]
 }
 
 
