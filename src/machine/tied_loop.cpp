@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/record/sample.hpp"
@@ -22,7 +23,8 @@ constexpr double kSetTime = 1.0 / 3.0;  // in which that is done, at least [s]
 constexpr double kSliding = 4.0;        // times the crosshead's speed: that of the knots' marks meanwhile
 constexpr double kEndOfSetting = 1e-9;  // when no time is left of it [s]
 constexpr double kFarthest = 0.25;      // of e, further than which no release moves knots that hold
-constexpr double kOpened = 0.05;        // of e, as where the motion pattern says so (motion_pattern.cpp)
+constexpr double kOpenCoil = 3.0;  // radius from which a coil, 2 (R + h) wide, reaches into the straight strands [h]
+constexpr double kOpened = 0.05;   // of e, as where the motion pattern says so (motion_pattern.cpp)
 constexpr const char* kNoRoom =
     "mount: the loop as it was tied and released leaves no room for the rollers; choose a larger specimen.end_to_end, "
     "a smaller specimen.preload or a smaller machine.roller_diameter";
@@ -42,7 +44,8 @@ TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, co
     : stepper_(stepper),
       grips_(grips),
       radius_(material.radius),
-      sets_to_marks_(specimen.set_to_marks),
+      sets_to_marks_(specimen.set_to_marks &&
+                     coil_radius(material, tying_load(specimen, material)) < kOpenCoil * material.radius),
       knot_distance_(specimen.knot_distance),
       end_to_end_(specimen.end_to_end),
       rig_(centreline, stepper.rod(), tying_options(specimen, material, creep_speed)),
