@@ -60,7 +60,7 @@ class Table:
     CSV_HEADER = ["table", "quantity", "unit", "run", "value", "gate", "verdict"]
 
     def __init__(self, title, columns):
-        self.title, self.columns, self.rows = title, columns, []
+        self.title, self.columns, self.rows = title, [str(column) for column in columns], []
 
     def add(self, quantity, unit, values, gates=None, digits=".4g"):
         """`gates`: one for all runs, or one a run; None where a run has none."""
