@@ -260,6 +260,7 @@ ContactMotion EdgeContact::motion(const ContactPoint& contact, const Points& pos
   const Vec3 x =
       start.col(a) + at.t * (start.col(a + 1) - start.col(a)) - start.col(b) - at.u * (start.col(b + 1) - start.col(b));
   out.overlap_before = diameter_ - x.norm();
+  out.weight = out.weight_before = contact.weight;
   return out;
 }
 

@@ -65,6 +65,7 @@ struct FourPressures {
   Lanes slope;     // p'(D^) [N/m^2]
   Lanes pressure;  // of the tangent at the present overlap [N/m]
   Lanes turning;   // pressure in the terms in which n and z turn [N/m]
+  Lanes at;        // D^ [m]
 
   FourPressures() = default;
   template <typename Pressure>
@@ -74,9 +75,9 @@ struct FourPressures {
     // slope at the overlap itself.
     const double stiffens = normal.stiffens_at();
     const Lanes without = select(overlap < stiffens, overlap, constant<Lanes>(stiffens));
-    const Lanes tangent_at = select(prediction > 0.0, normal.overlap_at(prediction), without);
-    slope = normal.slope(tangent_at);
-    pressure = normal.pressure(tangent_at) + slope * (overlap - tangent_at);
+    at = select(prediction > 0.0, normal.overlap_at(prediction), without);
+    slope = normal.slope(at);
+    pressure = normal.pressure(at) + slope * (overlap - at);
     turning = how.predicts ? predicted_pressure(prediction, pressure) : pressure;
   }
 };

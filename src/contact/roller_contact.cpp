@@ -64,6 +64,7 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
   for (const ContactPoint& contact : contacts_) prediction_[index_of(contact)] = contact.prediction;
   contacts_.clear();
   surfaces_.clear();
+  soft_.clear();
   dt_ = dt;
   for (const auto& [roller, segment] : near_)
     if (beside(rollers[roller], position.col(segment)).x.norm() <= limit(rollers[roller], segment))
@@ -71,6 +72,7 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
   if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(laws_, dt, contacts_);
   if (turns_) set_couples(rolling_, contacts_, surfaces_);
+  if (soft()) add_thinning(laws_, contacts_, surfaces_, soft_);
 }
 
 bool RollerContact::reaches_into_cut(int segment) const {
@@ -103,6 +105,14 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     contact.x = there.x;
     contact.d = contact.x.norm();
     contact.overlap = roller.radius + radius(segment) - contact.d;
+    SoftPoint soft_point;
+    double stretch = 1.0;
+    if (soft()) {
+      const double u = kIntegrationPoints[point], rest = (1.0 - u) * rest_length_[segment - 1] + u * rest_length_[segment];
+      stretch = combine(SegmentWeights(u).derivative, position, segment).norm() / rest;
+      soft_point = SoftPoint::of(radius(segment), stretch, 0.0, 1.0);
+      contact.overlap = soft_point.sum - soft_point.scale * (contact.d - roller.radius);
+    }
     contact.pair = pair_of(segment);
     contact.begins = laws_[contact.pair].normal.begin();
     contact.prediction = prediction_[memory];
@@ -113,6 +123,10 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     contact.axis = there.axis;
     contact.n = contact.x / contact.d;
     contact.weight = 0.5 * voronoi_[segment];
+    if (soft()) {
+      contact.weight *= stretch / soft_point.scale;
+      soft_.push_back(soft_point);
+    }
     const bool rubs = laws_[contact.pair].friction.on();
     if (rubs) contact.memory = memory_[memory];
     contact.slip = contact.memory.slip - (roller.centre - start_[number].centre);
@@ -134,7 +148,7 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
 double RollerContact::add_surface(const ContactPoint& contact, const Roller& roller, const Points& position,
                                   const Points& start) {
   SurfacePoint& surface = surfaces_.emplace_back();
-  if (!laws_[contact.pair].friction.on()) return 0.0;
+  if (!laws_[contact.pair].friction.on() && !soft()) return 0.0;
   const double u = kIntegrationPoints[contact.point];
   const SegmentWeights weights(u);
   std::copy_n(weights.derivative, 3, surface.d_a);
@@ -146,7 +160,7 @@ double RollerContact::add_surface(const ContactPoint& contact, const Roller& rol
     surface.spin_a += surface.s_a[j] * turns_->turn[edge];
   }
   const double h = radius(contact.a0 + 1);
-  surface.lever = couple_ * h / (roller.radius + h);
+  surface.lever = soft() ? 1.0 - roller.radius / contact.d : couple_ * h / (roller.radius + h);
   surface.turned = turned_[static_cast<std::size_t>(contact.roller)];
   return surface.lever;
 }
@@ -197,6 +211,11 @@ ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, 
   const Vec3 place = combine(contact.c, start, contact.a0 + 1);
   const Vec3 x = beside(start_[static_cast<std::size_t>(contact.roller)], place).x;
   out.overlap_before = contact.overlap + contact.d - x.norm();
+  out.weight = out.weight_before = contact.weight;
+  if (soft()) {
+    const auto number = static_cast<std::size_t>(&contact - contacts_.data());
+    add_thinning(contact, surfaces_[number], soft_[number], x.norm(), out);
+  }
   return out;
 }
 

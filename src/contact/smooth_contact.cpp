@@ -18,6 +18,7 @@ static_assert(2.0 * kFarSinceSearch < kReachMargin);
 constexpr double kSharpest = 2.0;  // turn of the centreline at a node that is no longer resolved [rad]
 constexpr double kSameFoot = 1.0;  // arclength within which a foot is that of the last step [h]
 constexpr double kDeepest = 0.5;   // overlap of a contact that may begin [fraction of radius]
+constexpr double kDeepestSoft = 1.2;  // the same of sections that give
 constexpr double kFading = 0.25;   // way to the end of the spline on which a foot loses its weighting factor [radii]
 // Least G that a foot's motion is linearised with [|b'|^2]. Newton's method needs the foot's own G, since a couple
 // moves along the strand with the foot. Friction on the centrelines hardly feels it, and keeps the bits it always had.
@@ -76,6 +77,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   first_evaluation_ = false;
   contacts_.clear();
   surfaces_.clear();
+  soft_.clear();
   tracked_.clear();
   recalled_.assign(iterate_.entries.size(), 0);
   dt_ = dt;
@@ -90,10 +92,12 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   find_feet(position, segments);
   for (std::size_t i = 0; i < search_.feet().size();) i = follow(i);
   for (Tracked& foot : tracked_) {
+    if (soft()) set_soft(foot);
     if (foot.memory.weighting < 0.0) {
       foot.memory.weighting = std::min(weighting(search_.feet()[foot.foot], position), largest_weighting(foot.memory));
       foot.memory.offset = offset_at(search_.feet()[foot.foot], position);
-      foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * distance_[foot.pair] && began_inside(foot);
+      const double deepest = (soft() ? kDeepestSoft : kDeepest) * 0.5 * distance_[foot.pair];
+      foot.memory.inside = !first_step_ && overlap(foot) > deepest && began_inside(foot);
       if (turns_ && !first_step_ && overlap(foot) > 0.0) foot.memory.weighting = 0.0;  // smooth_contact.hpp
     }
     if (takes_part(foot)) add_contact(foot);
@@ -101,6 +105,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(laws_, dt, contacts_);
   if (turns_) set_couples(rolling_, contacts_, surfaces_);
+  if (soft()) add_thinning(laws_, contacts_, surfaces_, soft_);
 }
 
 bool SmoothContact::near_last_search() const {
@@ -186,7 +191,24 @@ void SmoothContact::recall(std::size_t row, std::size_t first) {
 }
 
 double SmoothContact::overlap(const Tracked& foot) const {
-  return distance_[foot.pair] - search_.feet()[foot.foot].x[3] + foot.memory.offset;
+  const double distance = search_.feet()[foot.foot].x[3], offset = foot.memory.offset;
+  if (soft()) return foot.soft.sum - foot.soft.scale * (distance - offset);
+  return distance_[foot.pair] - distance + offset;
+}
+
+double SmoothContact::stretch(int segment, double u) const {
+  const SegmentParabola& c = search_.parabola(segment);
+  const Lanes along = c.t + u * c.k;
+  return std::sqrt(dot(along, along)) / ((1.0 - u) * rest_length_[segment - 1] + u * rest_length_[segment]);
+}
+
+void SmoothContact::set_soft(Tracked& tracked) const {
+  const FootSearch::Foot& foot = search_.feet()[tracked.foot];
+  const int segment = segment_of(foot.point);
+  tracked.soft = SoftPoint::of(radius_[is_other(segment)], stretch(segment, kIntegrationPoints[foot.point % 2]),
+                               radius_[is_other(foot.segment)], stretch(foot.segment, foot.u));
+  const double before = rest_length_[foot.segment - 1], grows = rest_length_[foot.segment] - before;
+  tracked.soft.rest_growth = grows / (before + foot.u * grows);
 }
 
 bool SmoothContact::began_inside(const Tracked& tracked) const {
@@ -199,7 +221,8 @@ bool SmoothContact::began_inside(const Tracked& tracked) const {
     x -= wa.value[k] * moved_[static_cast<std::size_t>(segment - 1 + k)];
     x += wb.value[k] * moved_[static_cast<std::size_t>(foot.segment - 1 + k)];
   }
-  return to_vec3(x).norm() < distance_[tracked.pair] + tracked.memory.offset;
+  const double touching = soft() ? tracked.soft.radii() : distance_[tracked.pair];
+  return to_vec3(x).norm() < touching + tracked.memory.offset;
 }
 
 bool SmoothContact::takes_part(const Tracked& foot) const {
@@ -233,6 +256,10 @@ void SmoothContact::add_contact(Tracked& tracked) {
   contact.begins = laws_[contact.pair].normal.begin();
   contact.weighting = tracked.memory.weighting;
   contact.weight = 0.5 * voronoi_[segment] * contact.weighting;
+  if (soft()) {
+    soft_.push_back(tracked.soft);
+    contact.weight *= stretch(segment, u_a) / tracked.soft.scale;
+  }
   contact.prediction = tracked.memory.pressure;
   contact.memory = tracked.memory.friction;
   contact.z_old = tracked.memory.z;
@@ -244,14 +271,14 @@ void SmoothContact::add_contact(Tracked& tracked) {
   // At a minimum G >= 0; it vanishes where the foot is about to jump, and omega follows it there within 0.05 s.
   const double least = turns_ ? kLeastG : kLeastGOnCentrelines;
   contact.inverse_g = 1.0 / std::max(length2 - dot(foot.x, c.k), least * length2);
-  if (contact.active() && laws_[contact.pair].friction.on()) set_slip(contact);
+  if (contact.active() && (laws_[contact.pair].friction.on() || soft())) set_slip(contact);
   if (turns_) add_surface(contact, search_.parabola(segment), c, u);
 }
 
 void SmoothContact::add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b,
                                 double u_b) {
   SurfacePoint& surface = surfaces_.emplace_back();
-  if (!contact.active() || !laws_[contact.pair].friction.on()) return;
+  if (!contact.active() || !(laws_[contact.pair].friction.on() || soft())) return;
   const double u_a = kIntegrationPoints[contact.point];
   const SegmentWeights weights(u_a);
   const auto moved = [&](int node) -> const Lanes& { return moved_[static_cast<std::size_t>(node)]; };
@@ -312,7 +339,13 @@ ContactMotion SmoothContact::motion(const ContactPoint& contact, const Points& p
   const Vec3 x = contact.x - out.slip;
   const double uphill = x.dot(contact.db - turn);
   const double d2 = x.squaredNorm() - uphill * uphill * contact.inverse_g;
-  out.overlap_before = contact.overlap + contact.d - std::sqrt(std::max(d2, 0.0));
+  const double before = std::sqrt(std::max(d2, 0.0));
+  out.overlap_before = contact.overlap + contact.d - before;
+  out.weight = out.weight_before = contact.weight;
+  if (soft()) {
+    const auto number = static_cast<std::size_t>(&contact - contacts_.data());
+    add_thinning(contact, surfaces_[number], soft_[number], before, out);
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "four_contacts.hpp"
 #include "four_surfaces.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
+#include "knot_utm/contact/soft_section.hpp"
 #include "knot_utm/contact/surface_contact.hpp"
 
 namespace knot_utm {
@@ -51,14 +52,62 @@ Lanes turned_from(const FourVectors& old, const FourVectors& z) {
   return turned_from(square_root(dot(apart, apart)), dot(old, old));
 }
 
+/// Sections that keep their radius, which costs nothing.
+struct RoundSections {
+  static constexpr bool kSoft = false;
+};
+
+/// Four contacts between sections that give (SoftPoint), with the pressure law of a tangent: of k D, e_0 is a parabola.
+struct SoftSections {
+  static constexpr bool kSoft = true;
+  Lanes scale, share_a, share_b, apart, rest_growth;  // apart: Z_0 - k D
+  Lanes both, both_slope, energy;                     // S, dS/d(kD) and e_0 of the tangent
+  Lanes pressure, weight;                             // p_0 of it, w/k^2
+  Lanes thins_a, thins_b;                             // R of the tangent
+  Lanes turning_a, turning_b;                         // R of the terms in which a^ and w change
+
+  SoftSections(const NormalLaw& normal, const FourPressures& pressures, const Contacts4& contacts,
+               const std::array<const SoftPoint*, 4>& soft)
+      : pressure(pressures.pressure) {
+    const Four<const ContactPoint> of(contacts);
+    const auto lanes = [&](double SoftPoint::*number) {
+      return Lanes{soft[0]->*number, soft[1]->*number, soft[2]->*number, soft[3]->*number};
+    };
+    scale = lanes(&SoftPoint::scale);
+    share_a = lanes(&SoftPoint::share_a);
+    share_b = lanes(&SoftPoint::share_b);
+    rest_growth = lanes(&SoftPoint::rest_growth);
+    weight = of(&ContactPoint::weight) / scale;
+    const Lanes sum = lanes(&SoftPoint::sum), overlap = of(&ContactPoint::overlap), beyond = overlap - pressures.at;
+    apart = sum - overlap;
+    Lanes energy_at;
+    for (int i = 0; i < 4; ++i) energy_at[i] = normal.energy(pressures.at[i]);
+    const Lanes pressure_at = pressure - pressures.slope * beyond;
+    energy = energy_at + beyond * (pressure_at + 0.5 * pressures.slope * beyond);
+    both = energy + 0.5 * pressure * apart;
+    both_slope = 0.5 * (pressure + pressures.slope * apart);
+    thins_a = weight * (share_a * both - energy);
+    thins_b = weight * share_b * both;
+    const Lanes none = {}, predicted = of(&ContactPoint::prediction);
+    const Lanes both_at = energy_at + 0.5 * pressure_at * (sum - pressures.at);
+    turning_a = select(predicted > none, weight * (share_a * both_at - energy_at), thins_a);
+    turning_b = select(predicted > none, weight * share_b * both_at, thins_b);
+  }
+
+  /// dR_a and dR_b with k D.
+  Lanes slope_a() const { return weight * (share_a * both_slope - pressure); }
+  Lanes slope_b() const { return weight * share_b * both_slope; }
+};
+
 /// Four contacts at the point at which they are linearised; symbols as in SurfacePoint and ContactPoint.
-template <typename Law, typename Feet, typename Levers = EvenLevers>
+template <typename Law, typename Feet, typename Levers = EvenLevers, typename Sections = RoundSections>
 class FourSurfaces : private Levers {
  public:
   FourSurfaces(const FourPressures& pressures, const Law& law, const RollingResistance& rolling, double dt,
                const ContactLinearisation& how, const std::array<const ContactPoint*, 4>& contacts,
-               const Points4& surfaces, const Feet& feet, const Levers& levers = {})
+               const Points4& surfaces, const Feet& feet, const Levers& levers = {}, const Sections& sections = {})
       : Levers(levers),
+        sections_(sections),
         pressures_(pressures),
         feet_(feet),
         a_(Section::of_a(surfaces)),
@@ -91,7 +140,7 @@ class FourSurfaces : private Levers {
     const Lanes weight = of(&ContactPoint::weight);
     turning_ = weight * pressures_.turning;
     stiffness_ = turning_ * friction_.stiffness;
-    pressing_ = weight * pressures_.slope * (n_ - friction_.by_pressure);
+    pressing_ = weight * pressures_.slope * (n_ - friction_.by_pressure);  // of the overlap
     force_ = weight * pressures_.pressure * (n_ - friction_.coefficient * friction_.z);
     m_ = cross(lever_ * x_, force_);
     if (rolling.on()) resist(rolling, contacts, surfaces, how, weight);
@@ -99,8 +148,13 @@ class FourSurfaces : private Levers {
 
   void model(SurfaceModel* models) const {
     const FourVectors m_a = m_ - couple_, m_b = this->times_q(m_) + couple_;
-    const Parted forces(force_), on_a(cross(a_.over, m_a), -1.0 * dot(a_.over, m_a)),
-        on_b(cross(b_.over, m_b), -1.0 * dot(on_roller_ ? axis_ : b_.over, on_roller_ ? couple_ : m_b));
+    FourVectors along_a = cross(a_.over, m_a), along_b = cross(b_.over, m_b);
+    if constexpr (Sections::kSoft) {
+      along_a += sections_.thins_a * a_.over;
+      along_b += sections_.thins_b * b_.over;
+    }
+    const Parted forces(force_), on_a(along_a, -1.0 * dot(a_.over, m_a)),
+        on_b(along_b, -1.0 * dot(on_roller_ ? axis_ : b_.over, on_roller_ ? couple_ : m_b));
     for (std::size_t i = 0; i < 4; ++i) {
       models[i].pressure = pressures_.pressure[static_cast<int>(i)];
       models[i].slope = pressures_.slope[static_cast<int>(i)];
@@ -116,11 +170,16 @@ class FourSurfaces : private Levers {
     const auto turned = [&](const Section::Change& a, const Section::Change& b) {
       return sections_change(by_rotation, by_twirl, by_rolling, a, b);
     };
-    Response by_foot_a, by_foot;
+    Response by_foot_a, by_foot, longer_a, longer_b;
+    if constexpr (Sections::kSoft) {
+      longer_a = longer(sections_.share_a, true);
+      if (!on_roller_) longer_b = longer(sections_.share_b, false);
+    }
     if constexpr (Feet::kTwo) by_foot_a = moved(da_, a_.turn);
     if (!on_roller_) {
       by_foot = moved(-1.0 * db_, -1.0 * b_.turn);
       by_foot += turned(Section::Change(), b_.change(bend_b_, bend_turn_b_, spin_slope_b_));
+      if constexpr (Sections::kSoft) by_foot.add(dot(b_.over, bend_b_) - sections_.rest_growth, longer_b);
     }
     const auto add_feet = [&](Response response, const FourVectors& shift, const FourVectors& turn_a,
                               const FourVectors& turn_b, int number) {
@@ -137,12 +196,15 @@ class FourSurfaces : private Levers {
       add_feet(moved(unit - dot(axis_, unit) * axis_, unit), unit, none, none, SurfaceModel::kShift + i);
       Response turns_a = turned(a_.change(unit, unit, still), Section::Change());
       if (resists_) add_couple(turns_a, swung(unit));
+      if constexpr (Sections::kSoft) turns_a.add(dot(a_.over, unit), longer_a);
       if constexpr (Feet::kTwo)
         add_feet(turns_a, none, unit, none, SurfaceModel::kTurnA + i);
       else
         write(turns_a, still, still, SurfaceModel::kTurnA + i, models);
       if (on_roller_) continue;
-      add_feet(turned(Section::Change(), b_.change(unit, unit, still)), none, none, unit, SurfaceModel::kTurnB + i);
+      Response turns_b = turned(Section::Change(), b_.change(unit, unit, still));
+      if constexpr (Sections::kSoft) turns_b.add(dot(b_.over, unit), longer_b);
+      add_feet(turns_b, none, none, unit, SurfaceModel::kTurnB + i);
     }
     write(turned(a_.spun(), Section::Change()), still, still, SurfaceModel::kSpinA, models);
     if (on_roller_) {
@@ -207,18 +269,49 @@ class FourSurfaces : private Levers {
     response.torque_b += dot(on_roller_ ? axis_ : b_.over, dc);
   }
 
+  /// How the arm lambda x of friction changes with the gap. On a roller, sections that give touch it at its own radius r,
+  /// so that x less the arm is r n.
+  FourVectors arm(const FourVectors& dx) const {
+    if constexpr (Sections::kSoft)
+      if (on_roller_) return lever_ * dx + ((1.0 - lever_) * dot(n_, dx)) * n_;
+    return lever_ * dx;
+  }
+
   /// To a gap that changes by dx, and with it the slip by `slid_by` and all that turns with n; the sections stay.
   Response moved(const FourVectors& dx, const FourVectors& slid_by) const {
     const Lanes nearer = -1.0 * dot(n_, dx);
+    Lanes pressed = nearer;
+    if constexpr (Sections::kSoft) pressed = sections_.scale * nearer;
     const FourVectors dn = over_d_ * (dx + nearer * n_);
     // Slip: d(xi + alpha n x xi + u)
-    FourVectors dr = slid_by - cross(sweeping_, lever_ * dx) +
+    FourVectors dr = slid_by - cross(sweeping_, arm(dx)) +
                      (carried_ * dot(dn, rotation_)) * cross(n_, remembered_) + alpha_ * cross(dn, remembered_);
-    if (on_roller_) dr -= cross(axis_, turned_ * dx);
+    if (on_roller_) dr -= cross(axis_, turned_ * (Sections::kSoft ? dx - dot(n_, dx) * n_ : dx));
     const FourVectors slid = dr - dot(n_, dr) * n_ - away_ * dn - dot(r_, dn) * n_;
-    const FourVectors dg = nearer * pressing_ + turning_ * dn - stiffness_ * friction_.slope_times(slid);
-    Response out = responds(dg, cross(lever_ * dx, force_) + cross(lever_ * x_, dg));
-    if (resists_) add_couple(out, nearer * couple_pressing_);
+    const FourVectors dg = pressed * pressing_ + turning_ * dn - stiffness_ * friction_.slope_times(slid);
+    Response out = responds(dg, cross(arm(dx), force_) + cross(lever_ * x_, dg));
+    if (resists_) add_couple(out, pressed * couple_pressing_);
+    if constexpr (Sections::kSoft) squeeze(out, pressed);
+    return out;
+  }
+
+  /// R, as k D grows by so much.
+  void squeeze(Response& out, const Lanes& pressed) const {
+    out.on_a += (pressed * sections_.slope_a()) * a_.over;
+    out.on_b += (pressed * sections_.slope_b()) * b_.over;
+  }
+
+  /// To a strand of the share chi that grows longer, by log lambda. That of the point bears on more of its length.
+  Response longer(const Lanes& share, bool is_a) const {
+    const Lanes wider = -0.5 * share, pressed = wider * sections_.apart, heavier = wider + (is_a ? 1.0 : 0.0);
+    const FourVectors dg = pressed * pressing_ + (heavier * turning_) * (n_ - friction_.coefficient * friction_.z);
+    Response out = responds(dg, cross(lever_ * x_, dg));
+    if (resists_) add_couple(out, pressed * couple_pressing_ + heavier * couple_);
+    squeeze(out, pressed);
+    // chi_a changes against chi_b, and w/k^2 as heavier + wider says.
+    const Lanes passed = (is_a ? -0.5 : 0.5) * sections_.share_a * sections_.share_b * sections_.weight * sections_.both;
+    out.on_a += ((heavier + wider) * sections_.turning_a + passed) * a_.over;
+    out.on_b += ((heavier + wider) * sections_.turning_b - passed) * b_.over;
     return out;
   }
 
@@ -244,6 +337,10 @@ class FourSurfaces : private Levers {
     Response out;
     out.on_a = cross(a.over, m_a);
     out.on_b = cross(b.over, m_b);
+    if constexpr (Sections::kSoft) {
+      out.on_a += sections_.turning_a * a.over;
+      out.on_b += sections_.turning_b * b.over;
+    }
     out.torque_a = dot(a.over, m_a);
     out.torque_b = dot(b.over, m_b);
     if (resists_) out.add(dot(line_, a.rotation - b.rotation), by_rolling);
@@ -262,6 +359,7 @@ class FourSurfaces : private Levers {
       models[i].by[number] = {forces[i], all_a[i], all_b[i], foot_a[static_cast<int>(i)], foot[static_cast<int>(i)]};
   }
 
+  Sections sections_;
   FourPressures pressures_;
   Feet feet_;
   Section a_, b_;
@@ -312,13 +410,22 @@ std::size_t linearise_next(const FrictionOf& friction, const std::vector<Contact
 
 std::size_t linearise(const ContactLaws& laws, const RollingLaws& rolling, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-                      std::size_t from, SurfaceModels& models) {
+                      const std::vector<SoftPoint>& soft, std::size_t from, SurfaceModels& models) {
   const auto friction = [&](int pair) -> const Friction& { return laws[pair].friction; };
   return linearise_next(
       friction, contacts, surfaces, from, models, [&](const auto& law, const Contacts4& four, const Points4& points) {
         const Four<const ContactPoint> of(four);
         const OneFoot foot{of(&ContactPoint::inverse_g)};
-        const FourPressures pressures(laws[four[0]->pair].normal, how, of);
+        const NormalLaw& normal = laws[four[0]->pair].normal;
+        const FourPressures pressures(normal, how, of);
+        if (!soft.empty()) {
+          std::array<const SoftPoint*, 4> giving;
+          for (std::size_t i = 0; i < 4; ++i) giving[i] = &soft[number_of(four[i], contacts)];
+          FourSurfaces(pressures, law, rolling[four[0]->pair], dt, how, four, points, foot, UnevenLevers(points),
+                       SoftSections(normal, pressures, four, giving))
+              .model(models.model);
+          return;
+        }
         const auto fill = [&](const auto& levers) {
           FourSurfaces(pressures, law, rolling[four[0]->pair], dt, how, four, points, foot, levers).model(models.model);
         };

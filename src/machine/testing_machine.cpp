@@ -162,7 +162,8 @@ struct TestingMachine::Impl {
         break;
     }
     return state.curved_at_rest() || rod.natural_twist.size() > 0 ||
-           ((grips.hold_frames() || friction_rolls(material, machine, physics)) && !knot_of(specimen).about().straight);
+           ((grips.hold_frames() || material.is_soft() || friction_rolls(material, machine, physics)) &&
+            !knot_of(specimen).about().straight);
   }
 
   /// When and where the crosshead and the upper clamp were.

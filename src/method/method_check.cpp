@@ -89,6 +89,18 @@ void check_rolling(const Method& m, const Material& material, const std::string&
              "in a solid rod, whose stretching_stiffness says how wide its contacts are");
 }
 
+/// A section gives where the material says how: one elastic solid, whose surfaces meet and whose twist is solved for.
+void check_section(const Method& m, const Material& material, const std::string& section) {
+  if (!material.is_soft()) return;
+  const std::string key = section + "section";
+  if (!is_solid(material))
+    throw InvalidInput(key, "soft", "round where stretching_stiffness is far from 4 bending_stiffness/radius^2, that of a solid rod");
+  if (friction_couple(material, m.physics) == 0.0)
+    throw InvalidInput(key, "soft", "round where " + section + "friction_couple is 0 or friction.at centreline");
+  if (m.physics.contact_law == ContactLaw::kEdge) throw InvalidInput(key, "soft", "round with physics.contact.law: edge");
+  if (m.physics.twist == TwistMode::kOff) throw InvalidInput(key, "soft", "round with physics.twist: off");
+}
+
 /// Softer in twist than any rod or rope: a slip of a unit, with which strands would spin in steps without end.
 constexpr double kSoftestInTwist = 0.01 * (1.0 - 1e-12);  // k_t over k_b, less what rounds
 
@@ -123,7 +135,10 @@ void check_other_material(const Method& m) {
   same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
   if (m.physics.contact_law == ContactLaw::kEdge)
     throw InvalidInput("physics.contact.law", "edge", "smooth where there is an other_material");
+  const auto section_of = [](const Material& of) { return fields::kSections[static_cast<std::size_t>(of.section)]; };
+  same("section", section_of(other), section_of(own));
   check_rolling(m, other, "other_material.");
+  check_section(m, other, "other_material.");
   check_laws(other, "other_material.");
 }
 
@@ -177,6 +192,7 @@ void check_effects(const Method& m) {
              "with material.breaking_force");
 
   check_rolling(m, m.material, "material.");
+  check_section(m, m.material, "material.");
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
   check_laws(m.material, "material.");
 }

@@ -64,6 +64,9 @@ inline void specimen(Fields& f, SpecimenOptions& o) {
   f.optional_number("refinement", o.refinement, Range{1.0, 8.0, "-"}, "auto");
 }
 
+/// The names of CrossSection, in its order.
+inline constexpr std::array kSections{"round", "soft"};
+
 /// `name` is that of the file unless it is given.
 inline void material(Fields& f, Material& o) {
   f.text("name", o.name);
@@ -73,6 +76,7 @@ inline void material(Fields& f, Material& o) {
   f.required_number("bending_stiffness", o.bending_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("friction_coefficient", o.friction_coefficient, Range{0.0, 5.0, "-"});
+  f.choice("section", o.section, kSections);
   f.optional_number("friction_couple", o.friction_couple, Range{0.0, 1.0, "-", true}, "auto");
   f.number("rolling_resistance", o.rolling_resistance, Range{0.0, 1.0, "-"});
   f.number("rolling_hysteresis", o.rolling_hysteresis, Range{0.0, 1.0, "-"});

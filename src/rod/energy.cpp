@@ -3,6 +3,7 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
+#include "knot_utm/rod/thinned.hpp"
 
 namespace knot_utm {
 
@@ -24,7 +25,8 @@ double isotropic_bending_energy(const RodProperties& rod, const Points& x) {
   double sum = 0.0;
   for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i) {
     if (ends_at_cut(rod, i)) continue;
-    sum += isotropic_bending_gradient(rod.material_at(i).bending_stiffness, rod.voronoi_length[i],
+    const double left = rod.material.is_soft() ? thinned(rod, x, i).bending : 1.0;
+    sum += isotropic_bending_gradient(left * rod.material_at(i).bending_stiffness, rod.voronoi_length[i],
                                       x.col(i) - x.col(i - 1), x.col(i + 1) - x.col(i))
                .energy;
   }
@@ -40,10 +42,11 @@ InnerNode inner_node(const RodProperties& rod, const RodState& state, Eigen::Ind
   node.on_e = material_directors(node.e.normalized(), state.reference_director.col(i - 1), state.twist[i - 1]);
   node.on_f = material_directors(node.f.normalized(), state.reference_director.col(i), state.twist[i]);
   node.twist = state.twist[i] - state.twist[i - 1] + state.reference_twist[i - 1];
-  node.bending.k_b = rod.material_at(i).bending_stiffness;
+  const Thinned left = rod.material.is_soft() ? thinned(rod, state.position, i) : Thinned();
+  node.bending.k_b = left.bending * rod.material_at(i).bending_stiffness;
   node.bending.voronoi_length = rod.voronoi_length[i];
   if (state.curved_at_rest()) node.bending.natural_curvature = state.natural_curvature.col(i - 1);
-  node.twisting.k_t = rod.material_at(i).twisting_stiffness;
+  node.twisting.k_t = left.twisting * rod.material_at(i).twisting_stiffness;
   node.twisting.voronoi_length = rod.voronoi_length[i];
   if (rod.natural_twist.size() > 0) node.twisting.natural_twist = rod.natural_twist[i - 1];
   return node;

@@ -112,6 +112,8 @@ void RodProperties::state(Archive& archive) {
                      material.radius > 0.0 && std::isfinite(material.radius);
   archive.require(solid, "rod", "one without a length, a radius or a mass");
   archive_laws(archive, laws);
+  const bool soft = archive.optional_section("SOFT", material.is_soft());
+  material.section = soft ? CrossSection::kSoft : CrossSection::kRound;
   if (!archive.optional_section("OTHR", other_material.has_value())) return other_material.reset();
   if (archive.loads()) other_material.emplace();
   archive(*other_material);

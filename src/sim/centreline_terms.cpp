@@ -6,6 +6,7 @@
 #include "axes.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
+#include "knot_utm/rod/thinned.hpp"
 
 namespace knot_utm {
 
@@ -48,6 +49,11 @@ void CentrelineTerms::part(int edge) {
 }
 
 void CentrelineTerms::begin(const StepStart& start, bool predicts) {
+  if (bends_ && rod_.material.is_soft()) {
+    take_lengths();
+    for (std::size_t i = 1; i < tangent_.size(); ++i)
+      bending_stiffness_[i] *= thinned(rod_, start.state.position, static_cast<Eigen::Index>(i)).bending;
+  }
   before_ = StretchedBefore(start.state, start.dt);
   predicts_ = predicts;
   if (!predicts) return;

@@ -83,6 +83,11 @@ class ContactTerm {
     for (ContactPoint& contact : contacts_.contacts()) {
       if (!contact.active()) continue;
       const LinearPressure& p = pressures_[n++];
+      if constexpr (Contacts::kSoftens)
+        if (contacts_.soft()) {
+          contact.prediction = p.pressure + factor * p.slope * overlap_change(contact, change);
+          continue;
+        }
       Lanes moved = {};
       for (int k = 0; k < 3; ++k) {
         moved += contact.c[k] * change[at(contact.a0 + k)];
@@ -95,14 +100,14 @@ class ContactTerm {
   void account(const SolvedStep& step, StepAccount& account) const {
     for (const ContactPoint& contact : points()) {
       const ContactMotion motion = contacts_.motion(contact, step.end, step.state.position);
-      const double now = contact.weight * contacts_.energy(contact.pair, contact.overlap);
-      const double before = contact.weight * contacts_.energy(contact.pair, motion.overlap_before);
+      const double now = motion.weight * contacts_.energy(contact.pair, contact.overlap);
+      const double before = motion.weight_before * contacts_.energy(contact.pair, motion.overlap_before);
       account.energies.contact += now;
       account.work.reweighting -= before;
       account.work.numerical += before - now;
       if (!contact.touches()) continue;
       const double force = contact.weight * contact.pressure;
-      account.work.numerical -= force * contact.n.dot(motion.slip);
+      account.work.numerical -= force * contact.n.dot(motion.slip) + motion.thinning;
       account.work.friction += contact.mu * force * contact.z.dot(motion.slip + motion.rolling);
       if constexpr (D == 4)
         if (contacts_.at_surface())
@@ -126,6 +131,24 @@ class ContactTerm {
  private:
   using Model = typename Contacts::Model;
 
+  /// How the overlap of a contact between sections that give changes with the unknowns.
+  double overlap_change(const ContactPoint& contact, const std::vector<Lanes>& change) const {
+    const auto number = static_cast<std::size_t>(&contact - points().data());
+    const SurfacePoint& surface = contacts_.surfaces()[number];
+    Lanes shift = {}, turn_a = {}, turn_b = {};
+    for (int k = 0; k < 3; ++k) {
+      const Lanes& a = change[at(contact.a0 + k)];
+      shift += contact.c[k] * a;
+      turn_a += surface.d_a[k] * a;
+      if (contact.on_roller()) continue;
+      const Lanes& b = change[at(contact.b0 + k)];
+      shift += contact.c[3 + k] * b;
+      turn_b += contact.beta[3 + k] * b;
+    }
+    return knot_utm::overlap_change(contact, surface, contacts_.soft_points()[number], to_vec3(shift), to_vec3(turn_a),
+                                    to_vec3(turn_b));
+  }
+
   /// The pressure of the linear model of a contact, and its slope.
   struct LinearPressure {
     double pressure, slope;  // at the present overlap [N/m], and per overlap [N/m^2]
@@ -145,7 +168,7 @@ class ContactTerm {
       add_force(contact, model.force - to_lanes(contact.force), system.right);
       add_couples(contact, surface, model.on_a - surface.on_a, model.on_b - surface.on_b, system.right);
       system.matrix.add(contact, surface, model, *system.spins, pressures_.size());
-      if constexpr (kOnRollers) system.turns.add(contact, surface, model, *system.spins);
+      if constexpr (kOnRollers) system.turns.add(contact, surface, model, *system.spins, contacts_.soft());
       pressures_.push_back({model.pressure, model.slope});
     });
   }

@@ -8,6 +8,7 @@
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod_laws.hpp"
+#include "knot_utm/rod/thinned.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 
 namespace knot_utm {
@@ -36,6 +37,7 @@ void FrameBending::begin(const RodState& start, double dt) {
   for (int i = 1; i < static_cast<int>(nodes_.size()); ++i) {
     BendingNode& node = nodes_[at(i)];
     node.k_b = rod_.material_at(i).bending_stiffness;
+    if (rod_.material.is_soft()) node.k_b *= thinned(rod_, start.position, i).bending;
     node.voronoi_length = rod_.voronoi_length[i];
     node.natural = start.natural_curvature.col(i - 1);
     node.dt = dt;

@@ -9,6 +9,7 @@
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/thinned.hpp"
 
 namespace knot_utm {
 
@@ -147,6 +148,10 @@ void FrameTerms::begin(const StepStart& step) {
   dt_ = step.dt;
   if (curved_) bending_.begin(start, dt_);
   const int edges = static_cast<int>(rod_.edges());
+  if (rod_.material.is_soft()) {
+    take_lengths();
+    for (int i = 1; i < edges; ++i) stiffness_[at(i)] *= thinned(rod_, start.position, i).twisting;
+  }
   for (int j = 0; j < edges; ++j) {
     start_tangent_[at(j)] = to_lanes(Vec3((start.position.col(j + 1) - start.position.col(j)).normalized()));
     angle_[at(j)] = start.twist[j] + dt_ * start.twist_rate[j];
@@ -276,8 +281,7 @@ void FrameTerms::set_turn(std::size_t j, double turned) {
 }
 
 TwistingInput FrameTerms::twisting_input(int i) const {
-  const double whole = stiffness_[at(i)] > 0.0 ? 1.0 : 0.0;
-  return {whole * rod_.material_at(i).twisting_stiffness, rod_.voronoi_length[i],
+  return {stiffness_[at(i)] * rod_.voronoi_length[i], rod_.voronoi_length[i],
           rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0};
 }
 

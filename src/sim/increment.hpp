@@ -50,7 +50,8 @@ struct Equation {
         centreline(rod, !state.curved_at_rest()),
         frames(rod, settings),
         strands(strand_contact(rod, settings)),
-        rollers(RollerContact(rod, settings.pressure_law, settings.roller_friction, settings.motion_limit)),
+        rollers(RollerContact(rod, rod.material.is_soft() ? settings.pressure_law.on_rigid() : settings.pressure_law,
+                              settings.roller_friction, settings.motion_limit)),
         held(static_cast<std::size_t>(rod.nodes())),
         norm(settings),
         matrix(static_cast<int>(rod.nodes())),
@@ -68,10 +69,16 @@ struct Equation {
           rolling.of[1] = settings.others->rolling_between;
           rolling.of[2] = settings.others->rolling_own;
         }
-        if (settings.friction.on() || (settings.others && strands_of_others_rub(*settings.others)))
+        const bool soft = rod.material.is_soft();
+        if (soft || settings.friction.on() || (settings.others && strands_of_others_rub(*settings.others)))
           strands.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
-        if (settings.roller_friction.on() || (settings.others && settings.others->on_rollers.friction.on()))
+        if (soft || settings.roller_friction.on() || (settings.others && settings.others->on_rollers.friction.on()))
           rollers.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
+        if constexpr (std::is_same_v<StrandContact, SmoothContact>)
+          if (soft) {
+            strands.contacts().soften(rod.rest_length);
+            rollers.contacts().soften(rod.rest_length);
+          }
       }
   }
 

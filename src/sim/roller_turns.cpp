@@ -71,11 +71,13 @@ void RollerTurns::add(const ContactPoint& contact, const RollerModel& model) {
 }
 
 void RollerTurns::add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
-                      const SectionTurns& turns) {
+                      const SectionTurns& turns, bool soft) {
   Border* border = border_of(contact);
   if (border == nullptr) return;
   const Vec3 g = to_vec3(model.force), increment = surface_increment(contact, surface.lever);
-  const Lanes s = to_lanes(increment), pushed = to_lanes(Vec3((1.0 - surface.lever) * g.cross(contact.axis)));
+  Vec3 push = (1.0 - surface.lever) * g.cross(contact.axis);
+  if (soft) push -= contact.n.dot(push) * contact.n;
+  const Lanes s = to_lanes(increment), pushed = to_lanes(push);
   const SurfaceModel::Response& by_turn = model.by[SurfaceModel::kTurned];
   const double spins[3] = {surface.s_a[0], surface.s_a[1], 0.0};
   const auto spin = spin_of_nodes(turns.pull, contact.a0, surface.s_a);

@@ -156,6 +156,28 @@ struct OnARing : OnARoller {
   OnARing(Wound& wound, const Friction& friction) : OnARoller(wound, friction, 12.0 * kRadius) {}
 };
 
+/// Their sections give; edges of unlike lengths are a little stretched or compressed.
+template <typename Kind>
+struct WithSoftSections : Kind {
+  using Kind::Kind;
+  void evaluate() {
+    Eigen::VectorXd rest(this->scene.rod.edges());
+    for (Eigen::Index j = 0; j < rest.size(); ++j) rest[j] = (0.95 + 0.04 * static_cast<double>(j * j % 7)) * kEdge;
+    this->contact.soften(rest);
+    Kind::evaluate();
+  }
+  /// The same with strands that are evenly stretched, the first one by a twentieth.
+  void evaluate_evenly() {
+    Eigen::VectorXd rest = Eigen::VectorXd::Constant(this->scene.rod.edges(), 1.05 * kEdge);
+    rest.head(kHalf + 1).setConstant(kEdge / 1.05);
+    this->contact.soften(rest);
+    Kind::evaluate();
+  }
+};
+using Soft = WithSoftSections<Smooth>;
+using SoftOfTwoMaterials = WithSoftSections<OfTwoMaterials>;
+using SoftOnARoller = WithSoftSections<OnARoller>;
+
 template <typename Kind>
 class Surface : public testing::Test {
  protected:
@@ -250,7 +272,8 @@ class Surface : public testing::Test {
   }
 };
 
-using Kinds = testing::Types<Smooth, Edges, OnARoller, OnARing, OfTwoMaterials>;
+using Kinds =
+    testing::Types<Smooth, Edges, OnARoller, OnARing, OfTwoMaterials, Soft, SoftOfTwoMaterials, SoftOnARoller>;
 TYPED_TEST_SUITE(Surface, Kinds);
 
 TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWhereItSlides) {
@@ -320,9 +343,10 @@ TEST_F(SurfaceWhereAFootIsAboutToJump, JacobianIsTheDerivativeOfTheForces) {
     expect_exact(MemoryFriction{0.4, presliding * kRadius}, 1.0, RollingResistance{0.3, kRadius, 1e-3 * kRadius}, 1e-9);
 }
 
-TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
+template <typename Kind>
+void expect_exact_border() {
   Wound scene;
-  OnARoller kind(scene, MemoryFriction{0.4, 0.02 * kRadius});
+  Kind kind(scene, MemoryFriction{0.4, 0.02 * kRadius});
   kind.contact.act_at_surface(0.8, scene.turns, RollingResistance{0.3, kRadius, 0.05 * kRadius});
   const auto evaluated = [&](const Eigen::VectorXd& unknowns) {
     scene.set(unknowns.head(4 * scene.nodes()));
@@ -350,7 +374,7 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   RollerTurns border_of;
   border_of.begin({free}, kind.contact, static_cast<int>(scene.nodes()), kStep);
   linearise_surfaces(kind.contact, {}, kStep, [&](std::size_t i, const SurfaceModel& model) {
-    border_of.add(kind.contact.contacts()[i], kind.contact.surfaces()[i], model, scene.turns);
+    border_of.add(kind.contact.contacts()[i], kind.contact.surfaces()[i], model, scene.turns, kind.contact.soft());
   });
   const RollerTurns::Border& border = border_of.border(0);
 
@@ -386,6 +410,63 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   EXPECT_NEAR(border.diagonal, by_turn[at.size() - 1], 2e-6 * std::abs(border.diagonal));
 }
 
+TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
+  expect_exact_border<OnARoller>();
+  expect_exact_border<SoftOnARoller>();
+}
+
+/// The forces of soft sections without friction are the derivative of their energy where strands cross that are straight
+/// and evenly stretched, so that feet do not move along a cone; and on a roller.
+template <typename Kind>
+void expect_forces_of_energy() {
+  Wound scene;
+  if constexpr (!std::is_base_of_v<OnARoller, Kind>)
+    for (int i = 0; i < kHalf; ++i)
+      scene.start.col(kHalf + kDetour + i) << 1.9 * kRadius, 0.8 * kEdge * (i - 7), kEdge * (7.0 + 0.6 * (i - 7));
+  scene.position = scene.start;
+  scene.set_lengths();
+  Kind kind(scene, MemoryFriction{0.0, kRadius});
+  kind.contact.act_at_surface(1.0, scene.turns);
+  const auto energy = [&](const Eigen::VectorXd& position) {
+    scene.position = Eigen::Map<const Points>(position.data(), 3, scene.nodes());
+    scene.set_lengths();
+    kind.evaluate_evenly();
+    double sum = 0.0;
+    for (const ContactPoint& contact : kind.contact.contacts())
+      sum += kind.contact.motion(contact, scene.position, scene.start).weight *
+             kind.contact.energy(contact.pair, contact.overlap);
+    return sum;
+  };
+  const Eigen::VectorXd at = Eigen::Map<Eigen::VectorXd>(scene.position.data(), scene.position.size());
+  ASSERT_GT(energy(at), 0.0);
+  std::vector<Lanes> force(static_cast<std::size_t>(scene.nodes()));
+  for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
+    const ContactPoint& contact = kind.contact.contacts()[i];
+    for (int k = 0; k < 3; ++k) {
+      force[static_cast<std::size_t>(contact.a0 + k)] += contact.c[k] * to_lanes(contact.force);
+      if (!contact.on_roller())
+        force[static_cast<std::size_t>(contact.b0 + k)] += contact.c[3 + k] * to_lanes(contact.force);
+    }
+    const SurfacePoint& surface = kind.contact.surfaces()[i];
+    add_couples(contact, surface, surface.on_a, surface.on_b, force);
+  }
+  double largest = 0.0, apart = 0.0;
+  for (Eigen::Index j = 0; j < at.size(); ++j) {
+    const double step = 1e-6 * kRadius;
+    const Eigen::VectorXd shift = step * Eigen::VectorXd::Unit(at.size(), j);
+    const double numeric = -(energy(at + shift) - energy(at - shift)) / (2.0 * step);
+    const double own = force[static_cast<std::size_t>(j / 3)][static_cast<int>(j % 3)];
+    largest = std::max(largest, std::abs(numeric));
+    apart = std::max(apart, std::abs(own - numeric));
+  }
+  EXPECT_LT(apart, 1e-5 * largest);
+}
+
+TEST(SoftSections, ForcesAreTheDerivativeOfTheEnergy) {
+  expect_forces_of_energy<Soft>();
+  expect_forces_of_energy<SoftOnARoller>();
+}
+
 /// The work of all forces and torques on what nodes and spins did in the step is that of g on the slip, less what
 /// resistance to rolling takes up.
 TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
@@ -398,7 +479,7 @@ TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
   for (const ContactPoint& contact : kind.contact.contacts()) {
     if (!contact.touches()) continue;
     const ContactMotion motion = kind.contact.motion(contact, this->scene.position, this->scene.start);
-    slip += contact.force.dot(motion.slip + motion.rolling);
+    slip += contact.force.dot(motion.slip + motion.rolling) + motion.thinning;
     gross += contact.force.norm() * motion.rolling.norm();
     slip -= rolling_loss(contact,
                          kind.contact.surfaces()[static_cast<std::size_t>(&contact - kind.contact.contacts().data())]);

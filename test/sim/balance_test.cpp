@@ -82,6 +82,7 @@ struct Scene {
   double friction;
   double couple = 0.0;  // of friction at the surface
   Turns turns = Turns::kNot;
+  bool soft = false;  // sections
 
   bool curved() const { return kind == Kind::kCurved || kind == Kind::kRelaxing; }
 
@@ -92,7 +93,8 @@ struct Scene {
            (couple > 0.0 ? "AtTheSurface" : "") +
            (turns == Turns::kFreely   ? "ThatIsFree"
             : turns == Turns::kDriven ? "ThatIsDriven"
-                                      : "");
+                                      : "") +
+           (soft ? "OfSoftSections" : "");
   }
 };
 
@@ -108,6 +110,10 @@ struct Running {
     Material material = braided_rope();
     if (scene.curved()) material.stretching_stiffness = 1e3;
     material.twisting_stiffness = material.bending_stiffness;
+    if (scene.soft) {
+      material.section = CrossSection::kSoft;
+      material.stretching_stiffness = 40.0 * material.bending_stiffness / std::pow(material.radius, 2.0);
+    }
     StepSettings settings = closed_form_settings(material);
     settings.contact_law = scene.law;
     settings.gravity = Vec3(0.5, 0.0, -kGravity);
@@ -211,8 +217,10 @@ TEST_P(BalanceOf, EverySceneClosesStepByStep) {
   const Energies energies = books.stepper().readings().energies();
   const ElasticEnergy elastic = elastic_energy(books.stepper().rod(), books.stepper().state());
   EXPECT_NEAR(energies.stretching, elastic.stretching, 1e-9 * energies.total());
-  EXPECT_NEAR(energies.bending, elastic.bending, 1e-9 * energies.total());
-  EXPECT_NEAR(energies.twisting, elastic.twisting, 1e-9 * energies.total());
+  // Bends and twists go by the stretch at the step's beginning.
+  const double lag = GetParam().soft ? 1e-3 : 1e-9;
+  EXPECT_NEAR(energies.bending, elastic.bending, lag * energies.total());
+  EXPECT_NEAR(energies.twisting, elastic.twisting, lag * energies.total());
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -228,7 +236,10 @@ INSTANTIATE_TEST_SUITE_P(
         Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kFreely},
         Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kDriven},
         Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely},
-        Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven}),
+        Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven},
+        Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 1.0, Turns::kNot, true},
+        Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely, true},
+        Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven, true}),
     [](const auto& scene) { return scene.param.name(); });
 
 }  // namespace

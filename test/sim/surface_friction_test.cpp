@@ -240,7 +240,9 @@ struct SurfaceCapstan {
   int last = 0;
   double time = 0.0;
 
-  SurfaceCapstan(double eta, double t1, double edges_a_radian, double rolling_resistance = 0.0) {
+  /// `flattened`: by how much of eta T1 presses it against the shaft; 0: hardly, with a section that keeps its shape.
+  SurfaceCapstan(double eta, double t1, double edges_a_radian, double rolling_resistance = 0.0,
+                 double flattened = 0.0) {
     edge = 1.0 / edges_a_radian;
     const double tail = 1.5 + 7.0 / std::sqrt(t1);
     const int tails = static_cast<int>(std::ceil(tail / edge)), wrapped = static_cast<int>(std::lround(kWrap / edge));
@@ -251,6 +253,7 @@ struct SurfaceCapstan {
     material.bending_stiffness = 1.0;
     material.twisting_stiffness = 1.0;
     material.stretching_stiffness = 1e4 * t1;
+    if (flattened > 0.0) material.section = CrossSection::kSoft;
     const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(last, edge));
     const double half = 0.5 * kWrap;
     const auto place = [&](double angle) { return Vec3(0.0, std::sin(angle), std::cos(angle)); };
@@ -270,6 +273,10 @@ struct SurfaceCapstan {
     settings.roller_friction = MemoryFriction{kFriction, 1e-3};
     settings.friction_couple = 1.0;
     settings.rolling = {rolling_resistance, eta, 1e-3};
+    settings.overlap_limit = 0.05 + 2.0 * flattened * eta;
+    // Of a law that goes with the fifth power, so that the overlap hardly changes along the wrap.
+    if (flattened > 0.0)
+      settings.pressure_law = NormalLaw{0.5e-4 * t1 / (flattened * eta), 1e-3, 0.2 * flattened * eta};
     settings.spin_inertia = false;
     stepper = TimeStep::make(rod, state, settings);
     Roller roller;
@@ -346,6 +353,27 @@ TEST(R15Capstan, DoesNotDependOnResistanceToRolling) {
                  surface_exponent(kSlips, kEta), with, 0.02);
     EXPECT_NEAR(with, without, 0.01 * without);
   }
+}
+
+/// A section that is flattened by D touches nearer to its middle, at eta = (rho - R)/rho. A strand that slides on is
+/// flattened further as its tension grows, D as T^1/5 by this law, which takes p D': mu eta x^2 + (1 - D/(5 rho)) x = f.
+TEST(R15Capstan, TensionGrowsByTheShorterLeverOfAFlattenedSection) {
+  constexpr double kEta = 0.5, kShaft = 1.0 - kEta;
+  SurfaceCapstan scene(kEta, 3e4, 32.0, 0.0, 0.2);
+  const double exponent = scene.exponent();
+  double sum = 0.0, n = 0.0;
+  for (int i = 0; i <= scene.last; ++i) {
+    const Vec3 place = scene.stepper->state().position.col(i);
+    if (place.norm() > 1.1 || std::abs(std::atan2(place[1], place[2])) > 0.9) continue;
+    sum += place.norm();
+    n += 1.0;
+  }
+  const double rho = sum / n;
+  EXPECT_LT(rho, 1.0 - 0.15 * kEta);
+  const double lever = SurfaceCapstan::kFriction * (rho - kShaft) / rho, f = SurfaceCapstan::kFriction - lever,
+               left = 1.0 - 0.2 * (1.0 - rho) / rho;
+  hold_against("R15 capstan of a flattened section: exponent per radian",
+               2.0 * f / (left + std::sqrt(left * left + 4.0 * lever * f)), exponent, 0.03);
 }
 
 /// As the load grows, the rod first touches the shaft at a point and then along a band. Between them the force ratio

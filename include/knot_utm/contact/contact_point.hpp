@@ -86,6 +86,9 @@ struct ContactMotion {
   Vec3 rolling = Vec3::Zero();  ///< what the sections' turn adds for points of their surfaces (surface_contact.hpp) [m]
   double passed_on = 0.0;       ///< fraction of friction's couple about the gap that the sections take [-]
   double overlap_before = 0.0;  ///< D of point a at the step's beginning [m]
+  double weight = 0.0;          ///< of the energy e(D) now, and at the step's beginning [m]
+  double weight_before = 0.0;
+  double thinning = 0.0;  ///< work of R (SoftPoint) [J]
 };
 
 /// The linear model of a contact that Newton's method solves with. Its pressure is the tangent of the pressure law,

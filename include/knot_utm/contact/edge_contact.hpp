@@ -52,6 +52,7 @@ EdgePressure pressure_of(const EdgeLaw& normal, const ContactLinearisation& how,
 class EdgeContact {
  public:
   using Model = EdgeContactModel;
+  static constexpr bool kSoftens = false;  // whether sections may give
 
   EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
 

@@ -27,6 +27,9 @@ struct NormalLaw {
 
   void state(Archive& archive) { archive(stiffness, tolerance, stiffening); }
 
+  /// Of one such strand on a body that does not give: it alone is flattened by what two would share, p(2 D).
+  NormalLaw on_rigid() const { return {2.0 * stiffness, 0.5 * tolerance, 0.5 * stiffening}; }
+
   /// Overlap at which the pressure begins, below zero [m].
   double begin() const { return -0.5 * tolerance; }
   double stiffens_at() const { return stiffening; }

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "knot_utm/contact/surface_contact.hpp"
+#include "knot_utm/contact/soft_section.hpp"
 #include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
@@ -74,6 +74,7 @@ inline Vec3 carried_along(const ContactPoint& contact) { return contact.turned *
 class RollerContact {
  public:
   using Model = RollerModel;
+  static constexpr bool kSoftens = true;  // whether sections may give
 
   /// `farthest`: the largest motion of a node in an accepted step [m]. Segments that are further from all rollers when
   /// a step begins are left out of that step.
@@ -89,6 +90,8 @@ class RollerContact {
     turns_ = &turns;
   }
   bool at_surface() const { return turns_ != nullptr; }
+  void soften(const Eigen::VectorXd& rest_length) { rest_length_ = rest_length; }
+  bool soft() const { return rest_length_.size() > 0; }
 
   /// Rotation of a roller in this step [rad]: the prescribed one, or that of the present iterate where it is free.
   double turned(int roller) const { return turned_[static_cast<std::size_t>(roller)]; }
@@ -109,6 +112,7 @@ class RollerContact {
   std::vector<ContactPoint>& contacts() { return contacts_; }
   /// Where friction acts at the surface: one for each contact.
   const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
+  const std::vector<SoftPoint>& soft_points() const { return soft_; }
 
   /// The consistent linearisation of the active contacts, in order; unused models may follow.
   void linearise(const ContactLinearisation& how, double dt, std::vector<RollerModel>& models) const {
@@ -116,7 +120,7 @@ class RollerContact {
   }
   /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).
   std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
-    return knot_utm::linearise(laws_, rolling_, dt, how, contacts_, surfaces_, from, models);
+    return knot_utm::linearise(laws_, rolling_, dt, how, contacts_, surfaces_, soft_, from, models);
   }
 
   /// From now on the rod is cut at this edge, too, and segments that reach into it touch nothing.
@@ -175,6 +179,8 @@ class RollerContact {
   double couple_ = 0.0;                  // eta: fraction of friction's couple that a section transmits
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
+  Eigen::VectorXd rest_length_;  // of edges, where sections give
+  std::vector<SoftPoint> soft_;
   RollingLaws rolling_;
   std::vector<double> prediction_, committed_prediction_;  // of the pressure, < 0: none; indexed as memory_
   std::vector<FrictionMemory> memory_;  // of roller r at point q of segment i: [(r segments + i) 2 + q]

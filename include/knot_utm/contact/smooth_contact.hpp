@@ -7,7 +7,7 @@
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/foot_search.hpp"
-#include "knot_utm/contact/surface_contact.hpp"
+#include "knot_utm/contact/soft_section.hpp"
 #include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
@@ -34,6 +34,7 @@ namespace knot_utm {
 class SmoothContact {
  public:
   using Model = ContactModel;
+  static constexpr bool kSoftens = true;  // whether sections may give
 
   /// `catch_up`: relaxation time with which omega and o follow the shape [s].
   SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
@@ -54,6 +55,9 @@ class SmoothContact {
     turns_ = &turns;
   }
   bool at_surface() const { return turns_ != nullptr; }
+  /// From now on sections give (SoftPoint), beside friction at the surfaces.
+  void soften(const Eigen::VectorXd& rest_length) { rest_length_ = rest_length; }
+  bool soft() const { return rest_length_.size() > 0; }
 
   /// From now on the rod is cut at this edge, too.
   void part(int edge) { candidates_.part(edge); }
@@ -69,6 +73,8 @@ class SmoothContact {
   std::vector<ContactPoint>& contacts() { return contacts_; }
   /// Where friction acts at the surface: one for each contact.
   const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
+  /// Where sections give: one for each contact.
+  const std::vector<SoftPoint>& soft_points() const { return soft_; }
 
   /// The consistent linearisation of the active contacts, in order; unused models may follow.
   void linearise(const ContactLinearisation& how, double dt, std::vector<ContactModel>& models) const {
@@ -76,7 +82,7 @@ class SmoothContact {
   }
   /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).
   std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
-    return knot_utm::linearise(laws_, rolling_, dt, how, contacts_, surfaces_, from, models);
+    return knot_utm::linearise(laws_, rolling_, dt, how, contacts_, surfaces_, soft_, from, models);
   }
 
   /// The motion of one of `contacts()` in this step. The overlap at the beginning neglects the third order in the
@@ -121,6 +127,7 @@ class SmoothContact {
     std::size_t foot = 0;         // number of it in search_
     std::size_t contact = kNone;  // number of it; kNone where it is left out
     int pair = 0;                 // of materials (ContactLaws)
+    SoftPoint soft;
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
@@ -144,6 +151,9 @@ class SmoothContact {
   std::size_t follow(std::size_t foot);
   /// Gives the feet of a point, which are tracked from `first` on, their memories from the last iterate.
   void recall(std::size_t row, std::size_t first);
+  /// What thinning makes of a foot and its point, and how much longer than at rest the point's strand is.
+  void set_soft(Tracked& foot) const;
+  double stretch(int segment, double u) const;
   /// The overlap of a foot and its point [m]
   double overlap(const Tracked& foot) const;
   /// Whether the foot and its point already overlapped when the step began.
@@ -188,6 +198,8 @@ class SmoothContact {
   double couple_ = 0.0;                  // eta of SurfacePoint
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
+  Eigen::VectorXd rest_length_;  // of edges, where sections give
+  std::vector<SoftPoint> soft_;
   RollingLaws rolling_;
   MemoryList accepted_;          // of the last accepted step
   std::vector<char> recalled_;   // of each entry of iterate_: assigned to a foot

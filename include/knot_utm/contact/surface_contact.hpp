@@ -9,6 +9,8 @@
 
 namespace knot_utm {
 
+struct SoftPoint;
+
 /// Rotations of the edges about their own tangents (spins) in this step. With e_j the edge, s_j the spin that Newton's
 /// method solves for and lean_j of frame_terms.hpp, |e_j| psi_j changes by |e_j| (ds_j - pull_j . de_j).
 struct SectionTurns {
@@ -176,10 +178,10 @@ struct SurfaceModels {
 
 /// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
 /// four active contacts of one pair of materials from number `from` on, or as many as follow each other. `surfaces`:
-/// one for each of `contacts`. Returns the number from which to go on.
+/// one for each of `contacts`; `soft`: as many, or none where sections are round. Returns the number from which to go on.
 std::size_t linearise(const ContactLaws& laws, const RollingLaws& rolling, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-                      std::size_t from, SurfaceModels& models);
+                      const std::vector<SoftPoint>& soft, std::size_t from, SurfaceModels& models);
 
 /// The same between edges, which have two feet each.
 std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingLaws& rolling, double dt,

@@ -33,7 +33,7 @@ class RollerTurns {
 
   void add(const ContactPoint& contact, const RollerModel& model);
   void add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
-           const SectionTurns& turns);
+           const SectionTurns& turns, bool soft = false);
   /// Marks the rows of the rod's matrix that prescribe an unknown: those whose lane of `keep` is 0.
   void hold(int node, const Lanes& keep);
 
