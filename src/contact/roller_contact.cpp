@@ -108,7 +108,8 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     SoftPoint soft_point;
     double stretch = 1.0;
     if (soft()) {
-      const double u = kIntegrationPoints[point], rest = (1.0 - u) * rest_length_[segment - 1] + u * rest_length_[segment];
+      const Eigen::VectorXd& lengths = *rest_length_;
+      const double u = kIntegrationPoints[point], rest = (1.0 - u) * lengths[segment - 1] + u * lengths[segment];
       stretch = combine(SegmentWeights(u).derivative, position, segment).norm() / rest;
       soft_point = SoftPoint::of(radius(segment), stretch, 0.0, 1.0);
       contact.overlap = soft_point.sum - soft_point.scale * (contact.d - roller.radius);

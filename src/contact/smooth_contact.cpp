@@ -199,7 +199,7 @@ double SmoothContact::overlap(const Tracked& foot) const {
 double SmoothContact::stretch(int segment, double u) const {
   const SegmentParabola& c = search_.parabola(segment);
   const Lanes along = c.t + u * c.k;
-  return std::sqrt(dot(along, along)) / ((1.0 - u) * rest_length_[segment - 1] + u * rest_length_[segment]);
+  return std::sqrt(dot(along, along)) / ((1.0 - u) * (*rest_length_)[segment - 1] + u * (*rest_length_)[segment]);
 }
 
 void SmoothContact::set_soft(Tracked& tracked) const {
@@ -207,7 +207,7 @@ void SmoothContact::set_soft(Tracked& tracked) const {
   const int segment = segment_of(foot.point);
   tracked.soft = SoftPoint::of(radius_[is_other(segment)], stretch(segment, kIntegrationPoints[foot.point % 2]),
                                radius_[is_other(foot.segment)], stretch(foot.segment, foot.u));
-  const double before = rest_length_[foot.segment - 1], grows = rest_length_[foot.segment] - before;
+  const double before = (*rest_length_)[foot.segment - 1], grows = (*rest_length_)[foot.segment] - before;
   tracked.soft.rest_growth = grows / (before + foot.u * grows);
 }
 

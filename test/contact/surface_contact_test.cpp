@@ -159,16 +159,17 @@ struct OnARing : OnARoller {
 /// Their sections give; edges of unlike lengths are a little stretched or compressed.
 template <typename Kind>
 struct WithSoftSections : Kind {
+  Eigen::VectorXd rest;
   using Kind::Kind;
   void evaluate() {
-    Eigen::VectorXd rest(this->scene.rod.edges());
+    rest.resize(this->scene.rod.edges());
     for (Eigen::Index j = 0; j < rest.size(); ++j) rest[j] = (0.95 + 0.04 * static_cast<double>(j * j % 7)) * kEdge;
     this->contact.soften(rest);
     Kind::evaluate();
   }
   /// The same with strands that are evenly stretched, the first one by a twentieth.
   void evaluate_evenly() {
-    Eigen::VectorXd rest = Eigen::VectorXd::Constant(this->scene.rod.edges(), 1.05 * kEdge);
+    rest.setConstant(this->scene.rod.edges(), 1.05 * kEdge);
     rest.head(kHalf + 1).setConstant(kEdge / 1.05);
     this->contact.soften(rest);
     Kind::evaluate();

@@ -90,8 +90,8 @@ class RollerContact {
     turns_ = &turns;
   }
   bool at_surface() const { return turns_ != nullptr; }
-  void soften(const Eigen::VectorXd& rest_length) { rest_length_ = rest_length; }
-  bool soft() const { return rest_length_.size() > 0; }
+  void soften(const Eigen::VectorXd& rest_length) { rest_length_ = &rest_length; }
+  bool soft() const { return rest_length_ != nullptr; }
 
   /// Rotation of a roller in this step [rad]: the prescribed one, or that of the present iterate where it is free.
   double turned(int roller) const { return turned_[static_cast<std::size_t>(roller)]; }
@@ -179,7 +179,7 @@ class RollerContact {
   double couple_ = 0.0;                  // eta: fraction of friction's couple that a section transmits
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
-  Eigen::VectorXd rest_length_;  // of edges, where sections give
+  const Eigen::VectorXd* rest_length_ = nullptr;  // of edges, where sections give
   std::vector<SoftPoint> soft_;
   RollingLaws rolling_;
   std::vector<double> prediction_, committed_prediction_;  // of the pressure, < 0: none; indexed as memory_

@@ -55,9 +55,10 @@ class SmoothContact {
     turns_ = &turns;
   }
   bool at_surface() const { return turns_ != nullptr; }
-  /// From now on sections give (SoftPoint), beside friction at the surfaces.
-  void soften(const Eigen::VectorXd& rest_length) { rest_length_ = rest_length; }
-  bool soft() const { return rest_length_.size() > 0; }
+  /// From now on sections give (SoftPoint), beside friction at the surfaces. The lengths of edges at rest must outlive
+  /// this object, which reads them anew each time.
+  void soften(const Eigen::VectorXd& rest_length) { rest_length_ = &rest_length; }
+  bool soft() const { return rest_length_ != nullptr; }
 
   /// From now on the rod is cut at this edge, too.
   void part(int edge) { candidates_.part(edge); }
@@ -198,7 +199,7 @@ class SmoothContact {
   double couple_ = 0.0;                  // eta of SurfacePoint
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
-  Eigen::VectorXd rest_length_;  // of edges, where sections give
+  const Eigen::VectorXd* rest_length_ = nullptr;  // of edges, where sections give
   std::vector<SoftPoint> soft_;
   RollingLaws rolling_;
   MemoryList accepted_;          // of the last accepted step
