@@ -27,8 +27,8 @@ void add_thinning(const ContactLaws& laws, const std::vector<ContactPoint>& cont
   }
 }
 
-double overlap_change(const ContactPoint& contact, const SurfacePoint& surface, const SoftPoint& soft, const Vec3& shift,
-                      const Vec3& turn_a, const Vec3& turn_b) {
+double overlap_change(const ContactPoint& contact, const SurfacePoint& surface, const SoftPoint& soft,
+                      const Vec3& shift, const Vec3& turn_a, const Vec3& turn_b) {
   double longer = soft.share_a * over(surface.along_a).dot(turn_a);
   if (!contact.on_roller()) {
     const double foot = contact.inverse_g * (contact.db.dot(shift) + contact.x.dot(turn_b));

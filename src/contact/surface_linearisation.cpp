@@ -269,8 +269,8 @@ class FourSurfaces : private Levers {
     response.torque_b += dot(on_roller_ ? axis_ : b_.over, dc);
   }
 
-  /// How the arm lambda x of friction changes with the gap. On a roller, sections that give touch it at its own radius r,
-  /// so that x less the arm is r n.
+  /// How the arm lambda x of friction changes with the gap. On a roller, sections that give touch it at its own radius
+  /// r, so that x less the arm is r n.
   FourVectors arm(const FourVectors& dx) const {
     if constexpr (Sections::kSoft)
       if (on_roller_) return lever_ * dx + ((1.0 - lever_) * dot(n_, dx)) * n_;
@@ -284,8 +284,8 @@ class FourSurfaces : private Levers {
     if constexpr (Sections::kSoft) pressed = sections_.scale * nearer;
     const FourVectors dn = over_d_ * (dx + nearer * n_);
     // Slip: d(xi + alpha n x xi + u)
-    FourVectors dr = slid_by - cross(sweeping_, arm(dx)) +
-                     (carried_ * dot(dn, rotation_)) * cross(n_, remembered_) + alpha_ * cross(dn, remembered_);
+    FourVectors dr = slid_by - cross(sweeping_, arm(dx)) + (carried_ * dot(dn, rotation_)) * cross(n_, remembered_) +
+                     alpha_ * cross(dn, remembered_);
     if (on_roller_) dr -= cross(axis_, turned_ * (Sections::kSoft ? dx - dot(n_, dx) * n_ : dx));
     const FourVectors slid = dr - dot(n_, dr) * n_ - away_ * dn - dot(r_, dn) * n_;
     const FourVectors dg = pressed * pressing_ + turning_ * dn - stiffness_ * friction_.slope_times(slid);
@@ -309,7 +309,8 @@ class FourSurfaces : private Levers {
     if (resists_) add_couple(out, pressed * couple_pressing_ + heavier * couple_);
     squeeze(out, pressed);
     // chi_a changes against chi_b, and w/k^2 as heavier + wider says.
-    const Lanes passed = (is_a ? -0.5 : 0.5) * sections_.share_a * sections_.share_b * sections_.weight * sections_.both;
+    const Lanes passed =
+        (is_a ? -0.5 : 0.5) * sections_.share_a * sections_.share_b * sections_.weight * sections_.both;
     out.on_a += ((heavier + wider) * sections_.turning_a + passed) * a_.over;
     out.on_b += ((heavier + wider) * sections_.turning_b - passed) * b_.over;
     return out;

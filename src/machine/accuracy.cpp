@@ -84,10 +84,10 @@ double near_locking(const Material& material) {
   return 1.0 + near * near;
 }
 
-/// Whether friction and bends go together as in the studies: friction on centrelines with elastic bends, or the whole
-/// couple of friction at the surface with fibres that rub.
+/// Whether sections are round, and friction and bends go together as in the studies: friction on centrelines with
+/// elastic bends, or the whole couple of friction at the surface with fibres that rub.
 bool studied_section(const Material& material, const PhysicsOptions& physics) {
-  return BendingRegistry::entry(material.bending.law).studied &&
+  return !material.is_soft() && BendingRegistry::entry(material.bending.law).studied &&
          (friction_couple(material, physics) > 0.0) == remembers_bends(material);
 }
 

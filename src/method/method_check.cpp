@@ -19,6 +19,7 @@
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
+#include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "method_reader.hpp"
@@ -93,11 +94,20 @@ void check_rolling(const Method& m, const Material& material, const std::string&
 void check_section(const Method& m, const Material& material, const std::string& section) {
   if (!material.is_soft()) return;
   const std::string key = section + "section";
-  if (!is_solid(material))
-    throw InvalidInput(key, "soft", "round where stretching_stiffness is far from 4 bending_stiffness/radius^2, that of a solid rod");
+  const double h = material.radius,
+               ratio = material.stretching_stiffness * h * h / material.bending_stiffness;  // 4 of a solid rod
+  constexpr double kLeast = 2.0, kMost = 8.0;
+  if (!(ratio >= kLeast && ratio <= kMost))
+    throw InvalidInput::sentence(key, "soft",
+                                 key + " is soft, but stretching_stiffness radius^2/bending_stiffness is " +
+                                     short_number(ratio) + ", and must be " + short_number(kLeast) + " to " +
+                                     short_number(kMost) + ", near the 4 of a solid rod");
+  if (remembers(stretching_law_of(material)))
+    throw InvalidInput(key, "soft", "round with stretching_law: viscoelastic");
   if (friction_couple(material, m.physics) == 0.0)
-    throw InvalidInput(key, "soft", "round where " + section + "friction_couple is 0 or friction.at centreline");
-  if (m.physics.contact_law == ContactLaw::kEdge) throw InvalidInput(key, "soft", "round with physics.contact.law: edge");
+    throw InvalidInput(key, "soft", "round where " + section + "friction_couple is 0 or friction.at is centreline");
+  if (m.physics.contact_law == ContactLaw::kEdge)
+    throw InvalidInput(key, "soft", "round with physics.contact.law: edge");
   if (m.physics.twist == TwistMode::kOff) throw InvalidInput(key, "soft", "round with physics.twist: off");
 }
 

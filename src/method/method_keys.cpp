@@ -110,6 +110,7 @@ constexpr Label kLabels[] = {
     {"specimen.refinement", "Refinement within the knots"},
     {"material.rolling_resistance", "Resistance of contacts to rolling"},
     {"material.rolling_hysteresis", "Work lost as a soft contact rolls"},
+    {"material.section", "Cross-section: round, or soft: flattened and thinned"},
     {"material.friction_couple", "Friction's couple: 1 at the surface, 0 on the centreline"},
     {"material.hardening", "Share of the bending stiffness that does not yield"},
     {"material.friction_moment", "Friction moment of a bent rope"},

@@ -201,7 +201,7 @@ void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::WARN, "did not come to rest in time");
   } else if (sample_.knot_type == KnotType::kCrossed) {
     status.summary(DiagnosticStatus::ERROR, "the rod ran through itself");
-  } else if (sample_.max_penetration > kDeepContact) {
+  } else if (sample_.max_penetration > deepest_contact(method_.material)) {
     status.summaryf(DiagnosticStatus::WARN, "strands are pressed into each other by %.3g of the radius",
                     sample_.max_penetration);
   } else if (rejected > kManyRejected * tried) {

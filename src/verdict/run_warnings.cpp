@@ -67,9 +67,10 @@ class Warnings {
   void of_the_physics() {
     if (results_.knot_type == KnotType::kCrossed)
       say("the rod ran through itself at " + short_number(results_.untangled_at.value_or(Sample::kNone)) + " s");
-    if (results_.max_penetration > kDeepContact)
+    const double deepest = deepest_contact(facts_.material);
+    if (results_.max_penetration > deepest)
       say("strands are pressed into each other by up to " + short_number(results_.max_penetration) +
-          " radii, where a contact is right up to " + short_number(kDeepContact));
+          " radii, where a contact is right up to " + short_number(deepest));
     if (results_.energy_balance_error > kUnbalanced)
       say("the energies and the work differ by " + short_number(*results_.energy_balance_error) +
           " of the largest of them: choose a smaller physics.residual");

@@ -416,8 +416,8 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   expect_exact_border<SoftOnARoller>();
 }
 
-/// The forces of soft sections without friction are the derivative of their energy where strands cross that are straight
-/// and evenly stretched, so that feet do not move along a cone; and on a roller.
+/// The forces of soft sections without friction are the derivative of their energy where strands cross that are
+/// straight and evenly stretched, so that feet do not move along a cone; and on a roller.
 template <typename Kind>
 void expect_forces_of_energy() {
   Wound scene;

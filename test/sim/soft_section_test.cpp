@@ -1,14 +1,15 @@
 // Sections that are flattened and grow thin: forces, stiffnesses and torques against closed forms.
 
+#include "knot_utm/contact/soft_section.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "knot_utm/contact/soft_section.hpp"
+#include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/thinned.hpp"
 #include "knot_utm/sim/time_step.hpp"
-#include "knot_utm/rod/frames.hpp"
 #include "reference.hpp"
 #include "rod/own_laws.hpp"
 #include "sim/scenes.hpp"
@@ -29,8 +30,8 @@ Material rubber() {
   return out;
 }
 
-/// Two straight strands cross at right angles, pressed together by what they overlap, the first one stretched; all nodes
-/// are held. Each strand bears half of the pressure at its own points, over its present length.
+/// Two straight strands cross at right angles, pressed together by what they overlap, the first one stretched; all
+/// nodes are held. Each strand bears half of the pressure at its own points, over its present length.
 TEST(R18SoftSections, TwoCrossedStrandsBearTheIntegralOfTheirPressure) {
   constexpr int kStrand = 120;
   constexpr double kEdge = 0.05 * kRadius, kStretch = 1.6, kHeight = 1.3 * kRadius;
@@ -99,8 +100,8 @@ struct Stretched {
   }
 };
 
-/// A small load P across the tip of a beam that bears T: its tip moves by P/T (L - tanh(q L)/q), q^2 = T/B, with B = k_b
-/// for the linear law, whose section shrinks as its fibres stiffen, and B = k_b W''/k_s of any.
+/// A small load P across the tip of a beam that bears T: its tip moves by P/T (L - tanh(q L)/q), q^2 = T/B, with B =
+/// k_b for the linear law, whose section shrinks as its fibres stiffen, and B = k_b W''/k_s of any.
 TEST(R18SoftSections, AStretchedCantileverBendsByItsThinnerSection) {
   for (const bool rubbery : {false, true}) {
     Stretched scene(1.5, rubbery);
@@ -110,9 +111,10 @@ TEST(R18SoftSections, AStretchedCantileverBendsByItsThinnerSection) {
     const double softer = respond(scene.rod, 0, {1.0, 1.0, scene.stretch}).slope,
                  q = std::sqrt(scene.tension() / (softer * scene.rod.material.bending_stiffness)),
                  length = scene.stretch * Stretched::kEdge * (Stretched::kEdges - 0.5);
-    hold_against(rubbery ? "R18 stretched cantilever of rubber: deflection [m]" : "R18 stretched cantilever: deflection [m]",
-                 across / scene.tension() * (length - std::tanh(q * length) / q),
-                 scene.stepper->state().position(2, Stretched::kEdges), 1e-3);
+    hold_against(
+        rubbery ? "R18 stretched cantilever of rubber: deflection [m]" : "R18 stretched cantilever: deflection [m]",
+        across / scene.tension() * (length - std::tanh(q * length) / q),
+        scene.stepper->state().position(2, Stretched::kEdges), 1e-3);
   }
 }
 

@@ -356,7 +356,8 @@ TEST(R15Capstan, DoesNotDependOnResistanceToRolling) {
 }
 
 /// A section that is flattened by D touches nearer to its middle, at eta = (rho - R)/rho. A strand that slides on is
-/// flattened further as its tension grows, D as T^1/5 by this law, which takes p D': mu eta x^2 + (1 - D/(5 rho)) x = f.
+/// flattened further as its tension grows, D as T^1/5 by this law, which takes p D': mu eta x^2 + (1 - D/(5 rho)) x =
+/// f.
 TEST(R15Capstan, TensionGrowsByTheShorterLeverOfAFlattenedSection) {
   constexpr double kEta = 0.5, kShaft = 1.0 - kEta;
   SurfaceCapstan scene(kEta, 3e4, 32.0, 0.0, 0.2);

@@ -18,15 +18,15 @@ namespace knot_utm {
 ///
 ///     p = p_0(k D)/k,   E = w e,   e = e_0(k D)/k^2,   D = Z - d,   w per present length: w_0 lambda_a.
 ///
-/// ContactPoint::overlap is k D, `pressure` p_0, `weight` w/k, so that weight times pressure is the force. On a roller Z
-/// is h_a alone. A contact squeezes the strands thin: with chi_a = h_a/Z and S = e_0 + p_0 (Z_0 - k D)/2,
+/// ContactPoint::overlap is k D, `pressure` p_0, `weight` w/k, so that weight times pressure is the force. On a roller
+/// Z is h_a alone. A contact squeezes the strands thin: with chi_a = h_a/Z and S = e_0 + p_0 (Z_0 - k D)/2,
 ///
 ///     -dE/dlog lambda_a = R_a = w/k^2 (chi_a S - e_0),    -dE/dlog lambda_b = R_b = w/k^2 chi_b S   [J]
 ///
 /// act as forces R_a a^ on the derivative a' of the centreline (a^ = a'/|a'|^2), beside what SurfacePoint has. h_b
-/// belongs to the foot; what its slope along the strand would add to friction is left out, and counts as numerical work.
-/// Surfaces meet half way between the centrelines, whatever the stretch of either.
-/// Source: our own; a bar that keeps its volume, and Lindley 1967 for the flattening (normal_law in step_settings.cpp).
+/// belongs to the foot; what its slope along the strand would add to friction is left out, and counts as numerical
+/// work. Surfaces meet half way between the centrelines, whatever the stretch of either.
+/// Source: our own; the flattening by bench/rubber_cylinder.py.
 struct SoftPoint {
   double scale = 1.0;                   ///< k [-]
   double share_a = 0.5, share_b = 0.5;  ///< chi [-]; on a roller 1 and 0
@@ -52,8 +52,8 @@ void add_thinning(const ContactLaws& laws, const std::vector<ContactPoint>& cont
                   std::vector<SurfacePoint>& surfaces, std::vector<SoftPoint>& soft);
 
 /// How k D changes as the gap changes by S, a' by V_a and b' by V_b.
-double overlap_change(const ContactPoint& contact, const SurfacePoint& surface, const SoftPoint& soft, const Vec3& shift,
-                      const Vec3& turn_a, const Vec3& turn_b);
+double overlap_change(const ContactPoint& contact, const SurfacePoint& surface, const SoftPoint& soft,
+                      const Vec3& shift, const Vec3& turn_a, const Vec3& turn_b);
 
 /// Completes the motion of a contact whose gap was `before` [m] at the beginning of the step: its energy then and now,
 /// and the work of R.

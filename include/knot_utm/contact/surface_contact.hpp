@@ -178,7 +178,8 @@ struct SurfaceModels {
 
 /// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
 /// four active contacts of one pair of materials from number `from` on, or as many as follow each other. `surfaces`:
-/// one for each of `contacts`; `soft`: as many, or none where sections are round. Returns the number from which to go on.
+/// one for each of `contacts`; `soft`: as many, or none where sections are round. Returns the number from which to go
+/// on.
 std::size_t linearise(const ContactLaws& laws, const RollingLaws& rolling, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       const std::vector<SoftPoint>& soft, std::size_t from, SurfaceModels& models);

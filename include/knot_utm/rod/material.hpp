@@ -12,22 +12,22 @@ namespace knot_utm {
 enum class StretchingLaw : std::size_t {};
 /// Number of a bending law in its registry (bending_laws.hpp).
 enum class BendingLaw : std::size_t {};
-/// Round ones keep their shape and their radius. Soft ones are flattened where strands press on each other, and grow thin
-/// as the rod is stretched (contact/soft_section.hpp).
+/// Round ones keep their shape and their radius. Soft ones are flattened where strands press on each other, and grow
+/// thin as the rod is stretched (contact/soft_section.hpp).
 enum class CrossSection { kRound, kSoft };
 
 /// What a rod of circular cross-section is made of. The three stiffnesses are independent: a braided rope
 /// bends 10^3 to 10^4 times softer than a solid rod of the same stretching stiffness.
 struct RodMaterial {
-  double radius = 0.0;                   ///< h [m]
-  double density = 0.0;                  ///< rho [kg/m^3]
-  double stretching_stiffness = 0.0;     ///< k_s [N]
-  double bending_stiffness = 0.0;        ///< k_b [N m^2]
-  double twisting_stiffness = 0.0;       ///< k_t [N m^2]
+  double radius = 0.0;                          ///< h [m]
+  double density = 0.0;                         ///< rho [kg/m^3]
+  double stretching_stiffness = 0.0;            ///< k_s [N]
+  double bending_stiffness = 0.0;               ///< k_b [N m^2]
+  double twisting_stiffness = 0.0;              ///< k_t [N m^2]
   CrossSection section = CrossSection::kRound;  ///< what contacts make of it
-  LawOptions<StretchingLaw> stretching;  ///< stretching_law and the keys of that law
-  LawOptions<BendingLaw> bending;        ///< bending_law and the keys of that law
-  std::optional<double> yield_strain;    ///< eps_y of its outermost fibre (plastic_bending.hpp) [-]; unset: none
+  LawOptions<StretchingLaw> stretching;         ///< stretching_law and the keys of that law
+  LawOptions<BendingLaw> bending;               ///< bending_law and the keys of that law
+  std::optional<double> yield_strain;           ///< eps_y of its outermost fibre (plastic_bending.hpp) [-]; unset: none
 
   bool is_soft() const { return section == CrossSection::kSoft; }
 

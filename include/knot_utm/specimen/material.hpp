@@ -59,10 +59,10 @@ inline double default_preload(const Material& material) {
 }
 
 /// Contact stiffness K of `auto` [N/m^2]: the material's own, else 300 k_b/h^4. Strands that are pressed together by
-/// the force k_b/h^2 over a length h of rod then overlap by h/300. Soft sections have 0.7 E, E = k_s/(pi h^2).
+/// the force k_b/h^2 over a length h of rod then overlap by h/300. Soft sections have 0.77 E, E = k_s/(pi h^2).
 inline double default_contact_stiffness(const Material& material) {
   const double h2 = material.radius * material.radius;
-  const double own = material.is_soft() ? 0.7 * material.stretching_stiffness / (M_PI * h2)
+  const double own = material.is_soft() ? 0.77 * material.stretching_stiffness / (M_PI * h2)
                                         : 300.0 * material.bending_stiffness / (h2 * h2);
   return material.contact_stiffness.value_or(own);
 }

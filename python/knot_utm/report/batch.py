@@ -49,7 +49,7 @@ class Tested:
         self.number, self.pull = number, (pull["extension"], pull["load"])
         self.largest = largest_load(run)
         self.warnings = all_in_units(run.result.get("warnings") or [], run.units)
-        self.checks = certificate(run.result, run.has_knot())
+        self.checks = certificate(run.result, run.has_knot(), run.is_soft())
         self.asked = specification_checks(run.method, run.result, run.units)
         self.version, self.given, self.not_predicted = run.result.get("version"), run.given_strength(), run.not_predicted()
 

@@ -7,6 +7,7 @@ from knot_utm.report.quantities import is_number, number, quantity_of
 
 LIMITS = {
     "kDeepContact": 0.05,  # contact [of the radius]
+    "kDeepSoftContact": 1.0,  # the same of sections that give
     "kUnbalanced": 0.01,   # energies [of the largest]
     "kForcesDiffer": 0.01,  # forces on both grips [of the largest]
     "kUnsure": 0.2,        # plateau force [of itself]
@@ -32,18 +33,19 @@ def so_it_is(words, key, is_so):
     return Check(words, [key], "" if is_so is None else "yes" if is_so else "no", "yes", is_so)
 
 
-def certificate(result, has_knot=True):
+def certificate(result, has_knot=True, soft=False):
     """What is known of this test."""
-    return [check for check in checks_of(result, has_knot) if check.value]
+    return [check for check in checks_of(result, has_knot, soft) if check.value]
 
 
-def checks_of(result, has_knot=True):
+def checks_of(result, has_knot=True, soft=False):
     value, ended_by, moved, jump = result.get, result.get("ended_by"), result.get("not_equilibrated"), jumped(result)
     return [
         so_it_is("The physics solved every time step", "ended_by", None if ended_by is None else ended_by != "solver"),
         so_it_is("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved") if has_knot else None),
         so_it_is("The specimen was at rest as its pull began", "not_equilibrated", None if moved is None else not moved),
-        at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"), LIMITS["kDeepContact"]),
+        at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"),
+                LIMITS["kDeepSoftContact" if soft else "kDeepContact"]),
         so_it_is("No knot jumped open", "jump_force", None if jump is None else not jump),
         *(at_most(quantity_of(key).label, key, value(key), LIMITS[limit])
           for key, limit in (("energy_balance_error", "kUnbalanced"), ("force_balance_error", "kForcesDiffer"))),

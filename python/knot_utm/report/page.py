@@ -58,7 +58,7 @@ def report_on_run(folder, command, version):
     run = Run(folder)
     marks = marks_of(run)
     largest = largest_load(run)
-    checks = certificate(run.result, run.has_knot())
+    checks = certificate(run.result, run.has_knot(), run.is_soft())
     asked = specification_checks(run.method, run.result, run.units)
     words, good = verdict(checks)
     results, unmeasured, untold = results_table(run, words_of_largest(largest))

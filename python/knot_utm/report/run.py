@@ -82,6 +82,10 @@ class Run:
         """Radius of the thickest rope [m]."""
         return max(self.method[of]["radius"] for of in ("material", "other_material") if of in self.method)
 
+    def is_soft(self):
+        """Whether the rod's sections give."""
+        return (self.method.get("material") or {}).get("section") == "soft"
+
     def has_knot(self):
         return self.reasons.get("knot_efficiency") != "there is no knot"
 

@@ -190,7 +190,7 @@ class ShippedStudies(unittest.TestCase):
     RESULTS = {"preload": ("plateau_force",), "speed": ("plateau_force",), "groups": ("plateau_force",),
                "does_not_matter": ("plateau_force",), "motion_patterns": ("motion_pattern", "load", "knot_distance"),
                "untangling": ("motion_pattern", "knot_distance"), "pattern_map": ("motion_pattern",),
-               "rope_laws": ("plateau_force",), "silicone_laws": ("motion_pattern",),
+               "rope_laws": ("plateau_force",), "silicone_laws": ("motion_pattern",), "soft_sections": ("motion_pattern",),
                "sensitivities": ("plateau_force",)}
 
     def test_all_are_drawn(self):
