@@ -16,11 +16,11 @@ namespace knot_utm {
 namespace {
 
 Results pulled(const std::string& preload) {
-  const Method method = load_method(
-      KNOT_UTM_SOURCE_DIR "/config/tighten.yaml",
-      {"material=pink_vps", "material.section=soft", "material.stretching_law=neo_hookean",
-       "material.friction_moment=0.02", "material.rolling_resistance=0", "material.rolling_hysteresis=0.2",
-       "specimen.preload=" + preload, "program.pull.until.extension=0.06"});
+  const Method method =
+      load_method(KNOT_UTM_SOURCE_DIR "/config/tighten.yaml",
+                  {"material=pink_vps", "material.section=soft", "material.stretching_law=neo_hookean",
+                   "material.friction_moment=0.02", "material.rolling_resistance=0", "material.rolling_hysteresis=0.2",
+                   "specimen.preload=" + preload, "program.pull.until.extension=0.06"});
   TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
   ProgramRunner program = make_program(method, bench.longest_step());
   std::vector<Sample> samples;
@@ -30,8 +30,8 @@ Results pulled(const std::string& preload) {
   return analyse(samples, samples, program.ended_by(), rollers_hold(method.specimen, method.machine));
 }
 
-/// The source paper's picture: loose knots slide at little force, tight ones hold while the rod is stretched. As tightly
-/// tied, knots of round sections slide at 0.04 N.
+/// The source paper's picture: loose knots slide at little force, tight ones hold while the rod is stretched. As
+/// tightly tied, knots of round sections slide at 0.04 N.
 TEST(SoftSilicone, LooseKnotsSlideAndTightOnesStretch) {
   const Results loose = pulled("0.215"), tight = pulled("1.7");  // 0.5 and 3.95 k_b/h^2
   EXPECT_EQ(loose.motion_pattern, MotionPattern::kSliding);
