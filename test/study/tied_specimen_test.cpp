@@ -240,13 +240,12 @@ std::vector<std::string> other_values(const std::string& now) {
   std::vector<std::string> values;
   if (const std::optional<double> number = parse_number(now))
     for (const double factor : {1.0009, 0.9991, 1.1, 0.9, 2.0}) values.push_back(format_yaml_number(*number * factor));
-  values.insert(values.end(),
-                {"1",       "2",          "3",           "0.5",        "0.01",          "100",
-                 "true",    "false",      "on",          "off",        "opposite",      "free",
-                 "follow",  "edge",       "smoothed",    "centreline", "fine",          "nodes",
-                 "elastic", "frictional", "neo_hookean", "20N",        "[0, 0, -9.81]", "multiple_fisherman",
-                 "lbf",     "mm",         "in",          "words",      "2020-01-01",    "tension",
-                 "0"});
+  values.insert(
+      values.end(),
+      {"1",    "2",     "3",        "0.5",        "0.01",        "100",     "true",          "false",
+       "on",   "off",   "opposite", "free",       "follow",      "edge",    "smoothed",      "centreline",
+       "fine", "nodes", "elastic",  "frictional", "neo_hookean", "20N",     "[0, 0, -9.81]", "multiple_fisherman",
+       "lbf",  "mm",    "in",       "words",      "2020-01-01",  "tension", "soft",          "0"});
   return values;
 }
 
