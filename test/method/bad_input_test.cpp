@@ -159,7 +159,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"material.twisting_law=linear", "material.twisting_law is no key", "", "the keys of material are"},
       {"physics.friction.at=skin", "physics.friction.at", "skin", "surface or centreline"},
       {"material.section=square", "material.section", "square", "round or soft"},
-      {"material={section: soft}", "material.section", "1.72e+04", "near the 4 of a solid rod"},
+      {"material.section=soft", "material.section", "17200", "near the 4 of a solid rod"},
       {"material.friction_couple=0.5", "material.friction_couple", "0.5", "must be 0, 1, or auto"},
       {"material.friction_couple=1.5", "material.friction_couple", "1.5", "must be 0, 1, or auto"},
       {"material.friction_couple=all", "material.friction_couple", "all", "must be 0, 1, or auto"},
