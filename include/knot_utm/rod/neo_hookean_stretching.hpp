@@ -16,8 +16,8 @@ struct RodMaterial;
 ///     dT/dlambda = k_s/3 (1 + 2 lambda^-3)
 ///
 /// Pulled, it softens to a third of k_s; compressed, it stiffens. Rubber follows it up to a strain of about 50 %. The
-/// bar grows thinner in its tension alone: contacts keep the radius at rest, and bending and twisting their
-/// stiffnesses. Source: Treloar 1975, chapter 4; Ogden 1997, chapter 4.
+/// bar grows thinner in its tension alone, unless material.section is soft: contacts keep the radius at rest, and
+/// bending and twisting their stiffnesses. Source: Treloar 1975, chapter 4; Ogden 1997, chapter 4.
 struct NeoHookeanStretching {
   static constexpr const char* kName = "neo_hookean";
   static constexpr NoKeys kKeys{};
