@@ -14,8 +14,7 @@ constexpr double kFullResidual = 0.1;        // of the longest step, below which
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
 constexpr double kNewtonCap = 0.2;           // farthest that an iteration moves a node [h]
 constexpr double kMotionLimit = 0.8;         // farthest that a step may move one: then no strand passes another [h]
-constexpr double kOverlapLimit = 0.5;        // deepest contact that a step may begin or end with [h]
-constexpr double kSoftOverlapLimit = 1.2;    // the same of soft sections [h]
+constexpr double kOverlapLimit = 0.5;        // deepest contact of round sections that a step may begin or end with [h]
 constexpr double kCandidateMargin = 1.0;     // gap up to which pairs of segments are watched between searches [h]
 constexpr int kMostIterations = 12;          // of Newton's method in a step
 // Way over which a rolling contact springs before it bears all of its couple [mu_r h]. Where the half that is left
@@ -121,7 +120,7 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   const double thin = thinnest(material);
   out.newton_cap = kNewtonCap * thin;
   out.motion_limit = kMotionLimit * thin;
-  out.overlap_limit = (material.is_soft() ? kSoftOverlapLimit : kOverlapLimit) * thin;
+  out.overlap_limit = (material.is_soft() ? kDeepestSoft : kOverlapLimit) * thin;
   out.candidate_margin = kCandidateMargin * thin;
   out.max_iterations = kMostIterations;
   return out;

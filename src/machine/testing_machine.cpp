@@ -126,7 +126,7 @@ struct TestingMachine::Impl {
     if (!centreline.free.empty()) free_ends.emplace(centreline, stepper->rod());
     if (!centreline.read.empty()) knot_readings.emplace(centreline, stepper->rod());
     if (type_is_followed(specimen)) {
-      watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
+      watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), centreline.closed, material.core_radius(),
                     centreline.points, centreline.windings());
     }
     if (can_part(material)) breaks.emplace(material, *stepper, kNearBreak * options.longest);

@@ -49,7 +49,7 @@ TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, co
       knot_distance_(specimen.knot_distance),
       end_to_end_(specimen.end_to_end),
       rig_(centreline, stepper.rod(), tying_options(specimen, material, creep_speed)),
-      touch_(rig_.standing_nodes(), material.radius, centreline.windings()),
+      touch_(rig_.standing_nodes(), material.core_radius(), centreline.windings()),
       take_up_(kTautLoad * specimen_scales(material).force, material.radius) {}
 
 void TiedLoop::enter(const Command& command, const Place& now) {

@@ -288,7 +288,7 @@ LoopTopology::PassedOver LoopTopology::passed_over(const Reading& known, const R
   PassedOver out{};
   for (std::size_t k = 0; k < 2; ++k) {
     if (found.overhand_determinant[k] == known.overhand_determinant[k]) continue;
-    for (int passed = 1; passed <= OverhandStrand::own_rises(windings_) && out[k] == 0; ++passed) {
+    for (int passed = 1; passed <= std::max(1, OverhandStrand::own_rises(windings_)) && out[k] == 0; ++passed) {
       const OverhandStrand strand = follow(points, axis, k, passed);
       if (determinant_of_overhand(points, strand, axis) == known.overhand_determinant[k]) out[k] = passed;
     }

@@ -19,7 +19,8 @@ OverhandStrand OverhandStrand::follow(const Points& points, std::size_t k, Eigen
   strand.begin = strand.top = standing;
   strand.cut = strand.end = k == 0 ? 0 : points.cols() - 1;
   double lowest = height(standing), highest = lowest, bottom = lowest, leaving = 0.0;
-  int aslant = own_rises(windings);  // that may still come
+  const int rises = std::max(own_rises(windings), passed_over);  // of the coil
+  int aslant = rises;                                            // that may still come
   enum { kRising, kFalling, kLeaving } part = kRising;
   for (Eigen::Index i = standing; i != strand.end + step; i += step) {
     const double z = height(i);
@@ -56,7 +57,7 @@ OverhandStrand OverhandStrand::follow(const Points& points, std::size_t k, Eigen
       }
     }
   }
-  strand.coil_found = part == kLeaving || aslant < own_rises(windings);
+  strand.coil_found = part == kLeaving || aslant < rises;
   strand.level = std::max(highest + radius, height(strand.cut));
   return strand;
 }

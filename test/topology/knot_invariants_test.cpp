@@ -195,6 +195,26 @@ TEST_P(K7_Loop, KeepsItWhileATailSwings) {
       expect_fisherman(read(with_bent_tail(bend, away + heading)));
 }
 
+/// Spheres about a coil turn, the inner ones by the whole angle and those far away not at all: no strand passes
+/// another.
+TEST_P(K7_Loop, KeepsItWhileACoilTilts) {
+  const double h = shape.radius;
+  const Vec3 middle = line.points.col(node(line.knots[1].coil_middle));
+  const LoopTopology::Reading start = read(line.points);
+  for (double heading = 0.0; heading < 6.0; heading += 1.0)
+    for (double tilt = 0.1; tilt < 1.35; tilt += 0.1) {
+      const Vec3 about(std::cos(heading), std::sin(heading), 0.0);
+      Points points = line.points;
+      for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        const Vec3 arm = points.col(i) - middle;
+        const double share = std::clamp(2.0 - arm.norm() / (12.0 * h), 0.0, 1.0);
+        points.col(i) = middle + Eigen::AngleAxisd(tilt * share, about) * arm;
+      }
+      SCOPED_TRACE("tilted by " + std::to_string(tilt) + " about " + std::to_string(heading));
+      EXPECT_TRUE(LoopTopology(topology).read_as(start, points, Vec3::UnitZ()).same_knot(start));
+    }
+}
+
 TEST_P(K7_Loop, KeepsItWhileATailOrAWholeKnotWindsAroundTheOtherStrand) {
   shape.tail = 0.1;
   shape.knot_distance = 0.15;

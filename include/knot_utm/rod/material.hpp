@@ -16,6 +16,9 @@ enum class BendingLaw : std::size_t {};
 /// thin as the rod is stretched (contact/soft_section.hpp).
 enum class CrossSection { kRound, kSoft };
 
+/// Deepest overlap of a contact of soft sections that a step may begin or end with [fraction of radius].
+inline constexpr double kDeepestSoft = 1.2;
+
 /// What a rod of circular cross-section is made of. The three stiffnesses are independent: a braided rope
 /// bends 10^3 to 10^4 times softer than a solid rod of the same stretching stiffness.
 struct RodMaterial {
@@ -30,6 +33,8 @@ struct RodMaterial {
   std::optional<double> yield_strain;           ///< eps_y of its outermost fibre (plastic_bending.hpp) [-]; unset: none
 
   bool is_soft() const { return section == CrossSection::kSoft; }
+  /// Half of the least distance of two strands' centrelines [m]: h, or what soft sections leave of it.
+  double core_radius() const { return is_soft() ? radius * (1.0 - 0.5 * kDeepestSoft) : radius; }
 
   /// What a time step takes from it: radius, density and stiffnesses. Its laws have been made (RodLaws).
   void state(Archive& archive);

@@ -12,10 +12,11 @@ namespace knot_utm {
 /// Follows whether a specimen is still the knot that it began as.
 ///
 /// No strand can pass another one, and no end can slip out of a coil, before some node has moved by about the rod's
-/// radius h. So the topology is read again only once a node has moved by h since the last reading: a test at rest costs
-/// nothing, and one that jumps is read at every answer. The type of a loop is that of its last reading. Near a roller a
-/// reading may be wrong, and so it is judged together with the load (MotionPatternTracker). Any other rod that has lost
-/// its knot once, or has run through itself, keeps that result.
+/// radius h, or by what contacts leave of soft sections (RodMaterial::core_radius). So the topology is read again only
+/// once a node has moved by h since the last reading: a test at rest costs nothing, and one that jumps is read at every
+/// answer. The type of a loop is that of its last reading. Near a roller a reading may be wrong, and so it is judged
+/// together with the load (MotionPatternTracker). Any other rod that has lost its knot once, or has run through itself,
+/// keeps that result.
 ///
 /// A rod that began without a knot keeps its type: there is none that could be lost.
 ///

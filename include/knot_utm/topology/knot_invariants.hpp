@@ -71,7 +71,7 @@ class LoopTopology {
   /// The same for a rod that was the knot `known`. Where the overhands are still the same and the whole is not, a tail
   /// may have gone around further than could be followed, as when a knot springs open; a free end can do so without
   /// undoing the knot. Then up to two more turns of each tail, either way, are tried, and kept where they give `known`.
-  /// So are rises of a coil whose windings lie aslant (OverhandStrand).
+  /// So are rises of a coil that lies aslant, or whose windings do (OverhandStrand).
   Reading read_as(const Reading& known, const Points& points, const Vec3& load_axis);
 
   /// Saves or loads the angles theta of both tails.

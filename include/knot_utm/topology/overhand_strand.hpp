@@ -15,7 +15,7 @@ namespace knot_utm {
 /// plus h belong to the coil. The tail is the first rise that ends higher, or the last rise there is. A rise of the
 /// coil may even end higher: a caller who knows the knot can have rises passed over however high they are. A single
 /// winding has no other one to lie aslant on. It has no rises of its own, because otherwise a tail that turns back low
-/// would be followed too far.
+/// would be followed too far; but the whole coil may lie aslant, and then a caller has one rise passed over.
 struct OverhandStrand {
   Eigen::Index begin = 0;   ///< node of the standing part from which it was followed: on this side of the roller
   Eigen::Index top = 0;     ///< node of the coil's outermost point, where the strand turns back
@@ -29,7 +29,7 @@ struct OverhandStrand {
   /// `standing`: a node in the standing part of the lower knot (k = 0), tied into the rod's first end, or of the upper
   /// (k = 1), tied into its last. That node may have gone around the roller behind the other knot; the strand is then
   /// followed down from it to where it rises again. `axis`: unit, from the lower grip to the upper one. `radius`: h
-  /// [m]. `windings`: n. `passed_over`: number of rises that belong to the coil in any case, at most own_rises.
+  /// [m]. `windings`: n. `passed_over`: number of rises that belong to the coil in any case.
   static OverhandStrand follow(const Points& points, std::size_t k, Eigen::Index standing, const Vec3& axis,
                                double radius, int windings = 1, int passed_over = 0);
 };
