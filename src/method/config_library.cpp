@@ -18,8 +18,9 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The keys that shipped materials have gained after release 1.
-constexpr std::array kSinceFirstRelease{"bending_law",        "friction_moment",    "stick_ratio",    "compaction",
-                                        "rolling_resistance", "rolling_hysteresis", "friction_couple"};
+constexpr std::array kSinceFirstRelease{"bending_law",        "friction_moment", "stick_ratio",
+                                        "compaction",         "stretching_law",  "rolling_resistance",
+                                        "rolling_hysteresis", "friction_couple", "section"};
 
 bool comes_with_the_package(const fs::path& folder) {
   const std::vector<std::string> shipped = shipped_folders();

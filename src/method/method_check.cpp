@@ -93,22 +93,8 @@ void check_rolling(const Method& m, const Material& material, const std::string&
 /// A section gives where the material says how: one elastic solid, whose surfaces meet and whose twist is solved for.
 void check_section(const Method& m, const Material& material, const std::string& section) {
   if (!material.is_soft()) return;
-  const std::string key = section + "section";
-  const double h = material.radius,
-               ratio = material.stretching_stiffness * h * h / material.bending_stiffness;  // 4 of a solid rod
-  constexpr double kLeast = 2.0, kMost = 8.0;
-  if (!(ratio >= kLeast && ratio <= kMost))
-    throw InvalidInput::sentence(key, "soft",
-                                 key + " is soft, but stretching_stiffness radius^2/bending_stiffness is " +
-                                     short_number(ratio) + ", and must be " + short_number(kLeast) + " to " +
-                                     short_number(kMost) + ", near the 4 of a solid rod");
-  if (remembers(stretching_law_of(material)))
-    throw InvalidInput(key, "soft", "round with stretching_law: viscoelastic");
-  if (friction_couple(material, m.physics) == 0.0)
-    throw InvalidInput(key, "soft", "round where " + section + "friction_couple is 0 or friction.at is centreline");
-  if (m.physics.contact_law == ContactLaw::kEdge)
-    throw InvalidInput(key, "soft", "round with physics.contact.law: edge");
-  if (m.physics.twist == TwistMode::kOff) throw InvalidInput(key, "soft", "round with physics.twist: off");
+  if (const std::optional<NeedsRound> needs = needs_round(material, m.physics, section))
+    throw InvalidInput(section + "section", "soft", "round " + needs->where);
 }
 
 /// Softer in twist than any rod or rope: a slip of a unit, with which strands would spin in steps without end.

@@ -47,7 +47,38 @@ void drop_keys_of_former_laws(const std::string& section, const Source& by, Mate
   drop_keys_of_former_law<BreakingRegistry>(section + "breaking.", "law", by, material.breaking);
 }
 
+/// Makes a section round where a choice nearer to the user needs that.
+void drop_soft_section(const std::string& section, const Source& by, Material& material, Method& method) {
+  if (!material.is_soft()) return;
+  const std::optional<NeedsRound> needs = needs_round(material, method.physics, section);
+  const std::string key = section + "section";
+  const auto nearer = [&](const std::string& other) { return by(key) < by(other); };
+  if (!needs || std::none_of(needs->keys.begin(), needs->keys.end(), nearer)) return;
+  method.overruled.push_back(key + " is soft, but must be round " + needs->where + ": it is taken as round");
+  material.section = CrossSection::kRound;
+}
+
 }  // namespace
+
+std::optional<NeedsRound> needs_round(const Material& material, const PhysicsOptions& physics,
+                                      const std::string& section) {
+  const double h = material.radius,
+               ratio = material.stretching_stiffness * h * h / material.bending_stiffness;  // 4 of a solid rod
+  constexpr double kLeast = 2.0, kMost = 8.0;
+  if (!(ratio >= kLeast && ratio <= kMost))
+    return NeedsRound{"where stretching_stiffness radius^2/bending_stiffness is " + short_number(ratio) + ", not " +
+                          short_number(kLeast) + " to " + short_number(kMost) + ", near the 4 of a solid rod",
+                      {section + "stretching_stiffness", section + "bending_stiffness", section + "radius"}};
+  if (remembers(stretching_law_of(material)))
+    return NeedsRound{"with stretching_law: viscoelastic", {section + "stretching_law"}};
+  if (friction_couple(material, physics) == 0.0)
+    return NeedsRound{"where " + section + "friction_couple is 0 or friction.at is centreline",
+                      {section + "friction_couple", "physics.friction.at"}};
+  if (physics.contact_law == ContactLaw::kEdge)
+    return NeedsRound{"with physics.contact.law: edge", {"physics.contact.law"}};
+  if (physics.twist == TwistMode::kOff) return NeedsRound{"with physics.twist: off", {"physics.twist"}};
+  return std::nullopt;
+}
 
 std::string what_rolling_takes(const Material& material, const PhysicsOptions& physics, const std::string& section) {
   return friction_couple(material, physics) > 0.0
@@ -68,6 +99,9 @@ void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>
   if (material.other)
     change_other(material, [&](Material& other) { drop_keys_of_former_laws("other_material.", by, other); });
   drop_keys_of_former_law<FrictionRegistry>("physics.friction.", "law", by, method.physics.friction);
+  drop_soft_section("material.", by, material, method);
+  if (material.other)
+    change_other(material, [&](Material& other) { drop_soft_section("other_material.", by, other, method); });
   if (friction_rolls(material, method.machine, method.physics)) return;
   const auto drop_rolling = [&](const std::string& section, Material& of) {
     const GivenBy rolls = std::max({by(section + "friction_couple"), by(section + "friction_coefficient"),

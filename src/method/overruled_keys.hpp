@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,14 +11,23 @@
 namespace knot_utm {
 
 /// Takes away the keys of a material and of friction that a choice nearer to the user has left without effect: what a
-/// material's file says of its own bending law where an override chooses another one, and its resistance to rolling
-/// where the method or an override has strands that do not roll or rub, which `overruled` then says. Who gives both in
-/// one place has them refused (check_method). `given`: the method's map before the overrides.
+/// material's file says of its own bending law where an override chooses another one; its resistance to rolling where
+/// the method or an override has strands that do not roll or rub; its soft section where one needs a round one. The
+/// last two are told in `overruled`. Who gives both in one place has them refused (check_method). `given`: the method's
+/// map before the overrides.
 void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>& overrides, Method& method);
 
 /// What `rolling_resistance` of this material takes to have an effect, and lacks. `section`: that of the material, with
 /// a dot.
 std::string what_rolling_takes(const Material& material, const PhysicsOptions& physics, const std::string& section);
+
+/// What a soft section of this material does not go with, and the keys that say so.
+struct NeedsRound {
+  std::string where;
+  std::vector<std::string> keys;
+};
+std::optional<NeedsRound> needs_round(const Material& material, const PhysicsOptions& physics,
+                                      const std::string& section);
 
 /// A law has the plain values of its own keys that were not given. Keys of other laws, which have no effect, go.
 void keep_own_keys(Method& method);
