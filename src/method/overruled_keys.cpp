@@ -47,15 +47,29 @@ void drop_keys_of_former_laws(const std::string& section, const Source& by, Mate
   drop_keys_of_former_law<BreakingRegistry>(section + "breaking.", "law", by, material.breaking);
 }
 
+void take_as_round(const std::string& key, const std::string& where, Material& material, Method& method) {
+  method.overruled.push_back(key + " is soft, but must be round " + where + ": it is taken as round");
+  material.section = CrossSection::kRound;
+}
+
 /// Makes a section round where a choice nearer to the user needs that.
 void drop_soft_section(const std::string& section, const Source& by, Material& material, Method& method) {
   if (!material.is_soft()) return;
-  const std::optional<NeedsRound> needs = needs_round(material, method.physics, section);
   const std::string key = section + "section";
   const auto nearer = [&](const std::string& other) { return by(key) < by(other); };
-  if (!needs || std::none_of(needs->keys.begin(), needs->keys.end(), nearer)) return;
-  method.overruled.push_back(key + " is soft, but must be round " + needs->where + ": it is taken as round");
-  material.section = CrossSection::kRound;
+  const std::optional<NeedsRound> needs = needs_round(material, method.physics, section);
+  if (needs && std::any_of(needs->keys.begin(), needs->keys.end(), nearer))
+    take_as_round(key, needs->where, material, method);
+}
+
+/// Two ropes have sections of one kind: a soft one that only its material's file asks for is round beside a round one.
+void drop_soft_beside_round(const Source& by, Material& material, Method& method) {
+  if (material.is_soft() == material.other->is_soft()) return;
+  const std::string key = material.is_soft() ? "material.section" : "other_material.section";
+  if (by(key) != GivenBy::kOther) return;
+  const auto drop = [&](Material& soft) { take_as_round(key, "beside a rope that is round", soft, method); };
+  if (material.is_soft()) return drop(material);
+  change_other(material, drop);
 }
 
 }  // namespace
@@ -76,7 +90,6 @@ std::optional<NeedsRound> needs_round(const Material& material, const PhysicsOpt
                       {section + "friction_couple", "physics.friction.at"}};
   if (physics.contact_law == ContactLaw::kEdge)
     return NeedsRound{"with physics.contact.law: edge", {"physics.contact.law"}};
-  if (physics.twist == TwistMode::kOff) return NeedsRound{"with physics.twist: off", {"physics.twist"}};
   return std::nullopt;
 }
 
@@ -100,8 +113,10 @@ void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>
     change_other(material, [&](Material& other) { drop_keys_of_former_laws("other_material.", by, other); });
   drop_keys_of_former_law<FrictionRegistry>("physics.friction.", "law", by, method.physics.friction);
   drop_soft_section("material.", by, material, method);
-  if (material.other)
+  if (material.other) {
     change_other(material, [&](Material& other) { drop_soft_section("other_material.", by, other, method); });
+    drop_soft_beside_round(by, material, method);
+  }
   if (friction_rolls(material, method.machine, method.physics)) return;
   const auto drop_rolling = [&](const std::string& section, Material& of) {
     const GivenBy rolls = std::max({by(section + "friction_couple"), by(section + "friction_coefficient"),

@@ -116,7 +116,8 @@ TEST(OtherMaterial, BothRopesAreLighterByTheSameFactor) {
 /// The rope that gives way more takes more of the work of rolling, of which it loses its own share.
 TEST(OtherMaterial, TheirContactResistsRollingAsItsTwoHalvesDo) {
   const Method method = sheet_bend({"material=pink_vps", "other_material=pink_vps", "other_material.radius=0.001",
-                                    "material.rolling_hysteresis=0.1", "other_material.rolling_resistance=0.3"});
+                                    "material.rolling_resistance=0.1", "material.rolling_hysteresis=0.1",
+                                    "other_material.rolling_resistance=0.3", "other_material.rolling_hysteresis=0"});
   const Material &one = method.material, &other = *method.material.other;
   const StepSettings settings = step_settings(method.specimen, one, method.machine, method.physics);
   const RollingResistance &between = settings.others->rolling_between, &own = settings.others->rolling_own;
@@ -133,6 +134,10 @@ TEST(OtherMaterial, TheirContactResistsRollingAsItsTwoHalvesDo) {
   EXPECT_DOUBLE_EQ(same.radius, settings.rolling.radius);
   EXPECT_NEAR(same.growth, settings.rolling.growth, 1e-15 + 1e-12 * same.growth);
   EXPECT_GT(same.growth, 0.0);
+  EXPECT_THAT(
+      method.overruled,
+      testing::ElementsAre(HasSubstr("other_material.section is soft, but must be round where stretching"),
+                           HasSubstr("material.section is soft, but must be round beside a rope that is round")));
   // Beside a rigid one, the soft one takes all the work.
   Material rigid = one;
   rigid.contact_stiffness = 1e13;
