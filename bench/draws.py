@@ -101,6 +101,9 @@ class Draw:
                             compaction=self.log_uniform("compaction", 1e-4, 1e-2))
         if rolls and self.random.random() < 0.5:
             material["rolling_resistance"] = self.log_uniform("rolling_resistance", 0.01, 0.5)
+        if rolls and self.settings["physics.contact.law"] == "smooth" and self.random.random() < 0.5:  # a silicone
+            material.update(section="soft", stretching_law="neo_hookean", stretching_stiffness=significant(4.0 * self.force))
+            self.keep("stretching", 4.0)
         if self.settings["physics.friction.law"] == "memory" and self.random.random() < 0.3:
             self.settings.update({"physics.friction.law": self.keep("friction.law", "rate"),
                                   "physics.friction.rate": self.log_uniform("rate", 0.01, 0.3),

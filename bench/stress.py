@@ -12,7 +12,7 @@ from draws import METHODS, PAPER_RADIUS, PAPER_SPEED, Draw
 from table import Report, Table, at_most
 
 CPU_LIMIT = 300         # [s] of CPU time; more is a hang
-DEEP = 0.5              # [h] overlap that counts as tunnelling
+DEEP = {"round": 0.5, "soft": 1.2}  # [h] overlap that counts as tunnelling
 SHELL_SIGNAL = 128      # a shell's exit code for a command that a signal ended, less the signal
 
 # Worst first: a run is what comes first of these.
@@ -20,7 +20,7 @@ STATUS = {
     "crash": "ended by a signal, or without an exit code that it may have",
     "hang": f"still running after {CPU_LIMIT} s of CPU time",
     "nan": "a result or a curve has a number that is none",
-    "tunnelled": f"the rod ran through itself, or strands overlap by more than {DEEP} h",
+    "tunnelled": f"the rod ran through itself, or strands overlap by more than {DEEP['round']} h (soft ones {DEEP['soft']} h)",
     "mute": "exit 1 without a result, or refused by anything but one line",
     "solver": "the physics gave up; what was measured is written with the reason",
     "refused": "the input cannot be tested; one line says why",
@@ -83,7 +83,7 @@ def classify(run):
     if wrong:
         return "nan", wrong
     crossed = [line for line in run.value("warnings") or [] if "ran through itself" in line]
-    if crossed or (run.value("max_penetration") or 0.0) > DEEP:
+    if crossed or (run.value("max_penetration") or 0.0) > DEEP[run.method["material"].get("section", "round")]:
         return "tunnelled", crossed[0] if crossed else f"strands overlap by {run.value('max_penetration')} h"
     if run.exit_code == 1 and run.value("ended_by") != "untangled":
         return "solver", run.value("reason") or ""
