@@ -29,7 +29,8 @@ def pressed(runner, rope, settings, tension, factor):
         return None
     shape = last_shape(read_curve(os.path.join(run.folder, "shapes.csv")))
     between = strands_on_strands(os.path.join(run.folder, "samples.csv"), shape["time"][0])
-    return tension_of(shape) / scale, post_force(shape, float(material["stretching_stiffness"]), between) / scale
+    stretch = stretch_of(shape["tension"][:-1] / float(material["stretching_stiffness"]), run.method["material"].get("stretching_law"))
+    return tension_of(shape) / scale, post_force(shape, stretch, between) / scale
 
 
 def scale_of(runner, material):
@@ -56,9 +57,15 @@ def tension_of(shape):
     return (shape["tension"][0] + shape["tension"][-2]) / 2
 
 
-def post_force(shape, stretching_stiffness, between):
+def stretch_of(pull, law):
+    """Of edges under `pull`, their tension over k_s, by the law's name."""
+    stretch = np.linspace(0.5, 10.0, 10001)
+    return np.interp(pull, (stretch - stretch ** -2) / 3, stretch) if law == "neo_hookean" else 1 + pull
+
+
+def post_force(shape, stretch, between):
     """Sum of normal forces on the post. Nodes bear their contacts per length at rest: the rod's with itself on both strands."""
-    edges = np.linalg.norm(np.diff([shape[axis] for axis in "xyz"], axis=1), axis=0) / (1 + shape["tension"][:-1] / stretching_stiffness)
+    edges = np.linalg.norm(np.diff([shape[axis] for axis in "xyz"], axis=1), axis=0) / stretch
     lengths = (np.append(edges, 0.0) + np.append(0.0, edges)) / 2
     return float(lengths @ shape["contact_force"]) - 2 * between
 

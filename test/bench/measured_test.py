@@ -186,7 +186,9 @@ class Hitches(unittest.TestCase):
         # Four edges of 0.1 m at rest, drawn out to 0.15 m by half their stiffness: 6 N/m presses on 0.4 m, of which 2 * 0.5 N is theirs.
         shape = {"x": np.linspace(0.0, 0.6, 5), "y": np.zeros(5), "z": np.zeros(5), "tension": np.array([2.0, 2.0, 2.0, 2.0, math.nan]),
                  "contact_force": np.full(5, 6.0)}
-        self.assertAlmostEqual(hitches.post_force(shape, 4.0, 0.5), 6.0 * 0.4 - 2 * 0.5, places=14)
+        stretch = hitches.stretch_of(shape["tension"][:-1] / 4.0, "linear")
+        self.assertAlmostEqual(hitches.post_force(shape, stretch, 0.5), 6.0 * 0.4 - 2 * 0.5, places=14)
+        self.assertAlmostEqual(hitches.stretch_of((2.0 - 0.25) / 3, "neo_hookean"), 2.0, places=5)
         self.assertEqual(hitches.tension_of(shape), 2.0)
 
     def test_an_exponent_is_fitted_to_all_pre_loads(self):
