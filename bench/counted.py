@@ -42,7 +42,7 @@ def loop(material, checked):
 TESTS = {
     "nylon": loop("nylon", 6),
     "polypropylene": loop("polypropylene", 2),
-    "pink_vps": loop("pink_vps", 1),
+    "pink_vps": loop("pink_vps", 3),
     "green_vps": loop("green_vps", 2),
     "open overhand": CountedTest("bench/open_overhand.yaml", {"program.2.pull.until": {"extension": 0.3}}, ("specimen.length", 1.0), 2),
     "capstan": CountedTest("config/capstan.yaml", {}, ("specimen.wrap", 2.0 * math.pi), 1),
