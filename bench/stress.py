@@ -83,7 +83,7 @@ def classify(run):
     if wrong:
         return "nan", wrong
     crossed = [line for line in run.value("warnings") or [] if "ran through itself" in line]
-    if crossed or (run.value("max_penetration") or 0.0) > DEEP[run.method["material"].get("section", "round")]:
+    if crossed or (run.value("max_penetration") or 0.0) > DEEP[run.method.get("material", {}).get("section", "round")]:
         return "tunnelled", crossed[0] if crossed else f"strands overlap by {run.value('max_penetration')} h"
     if run.exit_code == 1 and run.value("ended_by") != "untangled":
         return "solver", run.value("reason") or ""
