@@ -15,10 +15,10 @@ namespace {
 // less than the reach of the search exceeds the distance of contact.
 constexpr double kFarSinceSearch = 0.1;
 static_assert(2.0 * kFarSinceSearch < kReachMargin);
-constexpr double kSharpest = 2.0;     // turn of the centreline at a node that is no longer resolved [rad]
-constexpr double kSameFoot = 1.0;     // arclength within which a foot is that of the last step [h]
-constexpr double kDeepest = 0.5;      // overlap of a contact of round sections that may begin [fraction of radius]
-constexpr double kFading = 0.25;      // way to the end of the spline on which a foot loses its weighting factor [radii]
+constexpr double kSharpest = 2.0;  // turn of the centreline at a node that is no longer resolved [rad]
+constexpr double kSameFoot = 1.0;  // arclength within which a foot is that of the last step [h]
+constexpr double kDeepest = 0.5;   // overlap of a contact of round sections that may begin [fraction of radius]
+constexpr double kFading = 0.25;   // way to the end of the spline on which a foot loses its weighting factor [radii]
 // Least G that a foot's motion is linearised with [|b'|^2]. Newton's method needs the foot's own G, since a couple
 // moves along the strand with the foot. Friction on the centrelines hardly feels it, and keeps the bits it always had.
 constexpr double kLeastG = 1e-6, kLeastGOnCentrelines = 1e-3;
