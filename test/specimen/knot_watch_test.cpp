@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "knot_utm/rod/material.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 
@@ -60,6 +61,25 @@ TEST(KnotWatch, AClosedRodIsJoinedWhereItsEndsMeet) {
   unknot.row(2).setLinSpaced(0.0, 0.5);
   unknot.col(100) = unknot.col(0);
   EXPECT_EQ(watch.follow(unknot), KnotType::kChanged);
+}
+
+/// Thin, flattened strands make coils that are shorter than round strands could: space is pressed together about one.
+TEST(KnotWatch, ACoilOfSoftStrandsIsFollowedByWhatTheyLeaveOfTheirRadius) {
+  const Centreline line = fisherman_loop({});
+  const std::vector<int> standing{line.nearest_node(line.knots[0].standing_begin),
+                                  line.nearest_node(line.knots[1].standing_begin)};
+  const double middle = line.points(2, line.nearest_node(line.knots[1].coil_middle));
+  Points points = line.points;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double up = (points(2, i) - middle) / kRadius, far = std::abs(up);
+    const double pressed = far < 5.0 ? 0.2 * far : far < 15.0 ? 1.0 + 1.4 * (far - 5.0) : far;
+    points(2, i) = middle + kRadius * std::copysign(pressed, up);
+  }
+  RodMaterial soft;
+  soft.radius = kRadius;
+  EXPECT_EQ(KnotWatch(standing, false, soft.core_radius(), line.points).follow(points), KnotType::kChanged);
+  soft.section = CrossSection::kSoft;
+  EXPECT_EQ(KnotWatch(standing, false, soft.core_radius(), line.points).follow(points), KnotType::kKept);
 }
 
 TEST(KnotWatch, ATailThatSlipsOutOfItsCoilUnties) {
