@@ -84,11 +84,16 @@ double near_locking(const Material& material) {
   return 1.0 + near * near;
 }
 
-/// Whether sections are round, and friction and bends go together as in the studies: friction on centrelines with
-/// elastic bends, or the whole couple of friction at the surface with fibres that rub.
+/// Whether friction and bends go together as in the studies: friction on centrelines with elastic bends, or the whole
+/// couple of friction at the surface with fibres that rub.
 bool studied_section(const Material& material, const PhysicsOptions& physics) {
-  return !material.is_soft() && BendingRegistry::entry(material.bending.law).studied &&
+  return BendingRegistry::entry(material.bending.law).studied &&
          (friction_couple(material, physics) > 0.0) == remembers_bends(material);
+}
+
+/// Round sections were studied with a linear law, soft ones with rubber's.
+bool studied_stretching(const Material& material) {
+  return StretchingRegistry::entry(material.stretching.law).studied != material.is_soft();
 }
 
 /// The error over that at `normal` with edges of one radius. It grows with the square of the edge length, as the method
@@ -136,6 +141,11 @@ bool hardly_closed(double plateau_force, const Material& material) {
 
 RelativeErrors errors_of_hardly_closed(const RelativeErrors& errors) {
   RelativeErrors out;
+  if (errors.soft) {
+    out = errors;
+    if (out.plateau_force) *out.plateau_force *= kSoftHardlyClosed;
+    return out;
+  }
   out.break_in_bend = errors.break_in_bend;
   if (!errors.rolls) return out;
   out.rolls = true;
@@ -150,7 +160,7 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
                                const PhysicsOptions& physics) {
   const ErrorStudy study = knot_of(specimen).about().error_study;
   RelativeErrors out;
-  if (!StretchingRegistry::entry(material.stretching.law).studied) return out;
+  if (!studied_stretching(material)) return out;
   if (study == ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
   out.break_in_bend = error_of_break_in_bend(specimen, material, physics);
   const bool studied = specimen.to_be_tied && physics.contact_law == ContactLaw::kSmooth &&
@@ -158,7 +168,8 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
   const Answer rod = answer(physics, specimen, material);
-  if (study == ErrorStudy::kDrawnKnot && !material.other)
+  const bool soft = material.is_soft();
+  if (study == ErrorStudy::kDrawnKnot && !material.other && !soft)
     out.largest_load = coarseness(tolerances(physics, specimen, material), of(Accuracy::kNormal, rod), edge) *
                        (is_solid(material) ? kDrawnInSolid : kDrawnInRope);
   if (study != ErrorStudy::kFisherman || machine.roller_friction != 0.0 || !rollers_hold(specimen, machine)) return out;
@@ -170,13 +181,16 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
                of_strands = coarseness(own, of(Accuracy::kNormal, physics, specimen, material), edge);
   const double slippery = std::max(1.0, kSlippery / std::max(material.friction_coefficient, kLeastFriction));
   out.rolls = rod.rolls;
+  out.soft = soft;
   const double opposite_plateau = rod.rolls ? kOppositeRollingPlateau : kOppositePlateau,
                opposite_lock = rod.rolls ? kOppositeRollingLock : kOppositeLock;
-  out.plateau_force =
-      coarse *
-      (opposite ? opposite_plateau : (rod.rolls ? kRollingPlateau * near_locking(material) : kPlateau) * slippery);
-  out.lock_extension = coarse * (opposite ? opposite_lock : kLock);
+  out.plateau_force = coarse * (soft        ? kSoftPlateau
+                                : opposite  ? opposite_plateau
+                                : rod.rolls ? kRollingPlateau * near_locking(material) * slippery
+                                            : kPlateau * slippery);
+  out.lock_extension = coarse * (soft ? kSoftLock : opposite ? opposite_lock : kLock);
   out.locked_stiffness = of_strands * (rod.rolls && opposite ? kOppositeRollingStiffness
+                                       : soft                ? kSoftStiffness
                                        : solid               ? kSolidsStiffnessOfKnots * h / specimen.end_to_end
                                        : rod.rolls           ? kRollingStiffness * slippery
                                                              : kRopesStiffness);

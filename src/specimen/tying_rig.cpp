@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -24,13 +25,18 @@ constexpr double kHalfTightWinding = 1.0;
 
 // While the loop is put on, it moves as a whole: waves of so many radii relax in about a tenth of the settling time.
 constexpr double kPuttingOnWave = 73.0;
-constexpr double kLongest = 2.0;  // that strands may become as the knots are set to their marks, or half as long [-]
+constexpr double kLongest = 2.0;          // that strands may become as the knots are set to their marks [-]
+constexpr double kShortest = 0.2;         // edge of such a strand, over the shortest one in the knots [-]
 constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
 
 }  // namespace
 
 TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options)
-    : options_(options), radius_(rod.material.radius), settling_(rod.material), rest_(options.rest) {
+    : options_(options),
+      radius_(rod.material.radius),
+      shortest_edge_(kShortest * rod.rest_length.minCoeff()),
+      settling_(rod.material),
+      rest_(options.rest) {
   const double h = rod.material.radius;
   const int nodes = static_cast<int>(rod.nodes());
   const Points& x = centreline.points;
@@ -126,7 +132,6 @@ TyingRig::Laid TyingRig::longer(double apart, double beyond, const RodProperties
   const double z[] = {knot_middle(0, rod, state).z(), knot_middle(1, rod, state).z()}, up = z[0] < z[1] ? 1.0 : -1.0;
   const double low = std::min(z[0], z[1]) + kStandingFromKnot * radius_,
                high = std::max(z[0], z[1]) - kStandingFromKnot * radius_;
-  const double of_second = high > low ? 0.5 * up * apart : 0.0;  // nothing is straight between knots that are so near
   const int first = knots_[0].standing_node, last = knots_[1].standing_node;
   // Of an edge: 0 and 1 in either strand between the knots, 2 beyond the knots, 3 in a knot.
   const auto piece = [&](int edge) {
@@ -135,11 +140,19 @@ TyingRig::Laid TyingRig::longer(double apart, double beyond, const RodProperties
     const double middle = 0.5 * (x(2, edge) + x(2, edge + 1));
     return middle < low || middle > high ? std::size_t{3} : std::size_t{edge < outside.first ? 0U : 1U};
   };
-  std::array<double, 4> length{};
-  for (int i = first; i < last; ++i) length[piece(i)] += rod.rest_length[i];
+  std::array<double, 4> length{}, shortest;
+  shortest.fill(std::numeric_limits<double>::infinity());
+  for (int i = first; i < last; ++i) {
+    length[piece(i)] += rod.rest_length[i];
+    shortest[piece(i)] = std::min(shortest[piece(i)], rod.rest_length[i]);
+  }
+  const auto spare = [&](std::size_t of) { return length[of] * std::max(1.0 - shortest_edge_ / shortest[of], 0.0); };
+  apart = std::max(apart, -std::min(spare(0), spare(1)));
+  beyond = std::max(beyond, -spare(2));
+  const double of_second = high > low ? 0.5 * up * apart : 0.0;  // nothing is straight between knots that are so near
   const auto factor = [&](std::size_t of) {
     if (of == 3 || !(length[of] > 0.0)) return 1.0;
-    return std::clamp(1.0 + (of == 2 ? beyond : apart) / length[of], 1.0 / kLongest, kLongest);
+    return std::min(1.0 + (of == 2 ? beyond : apart) / length[of], kLongest);
   };
   Laid out{rod.rest_length, x};
   for (int i = 0; i < static_cast<int>(rod.edges()); ++i) out.rest_length[i] *= factor(piece(i));

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/neo_hookean_stretching.hpp"
 #include "knot_utm/rod/thinned.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "reference.hpp"
@@ -70,6 +71,110 @@ TEST(R18SoftSections, TwoCrossedStrandsBearTheIntegralOfTheirPressure) {
     expected += 2.0 * ds * settings.pressure_law.pressure(scale * (radii - apart)) / scale * kHeight / apart;
   }
   hold_against("R18 crossed strands, one thinner by stretch: force [N]", expected, -force, 0.01);
+}
+
+/// A strand of rubber along x is drawn between two fixed cylinders that are nearer than it is thick, at a steady speed.
+/// It is flattened by both, and grows longer and thinner within by its tension. With Phi = W(lambda) + lambda E(x,
+/// lambda), E the energy of contact per present length, the balance of material forces is
+///     d/dx (lambda W' - W + lambda^2 dE/dlambda) = mu p lambda,   p = -2 dE/dD cos(beta) of both cylinders along x.
+struct NarrowHole {
+  static constexpr int kEdges = 120;
+  static constexpr double kEdge = 0.15 * kRadius, kShaft = 8.0 * kRadius, kHalf = 0.55 * kRadius, kSpeed = 1e-3;
+  RodProperties rod;
+  NormalLaw law;
+  double stretch = 1.0, time = 0.0, mu;
+  Boundary boundary;
+  std::unique_ptr<TimeStep> stepper;
+
+  NarrowHole(double mu_, double load_) : mu(mu_) {
+    const Material material = rubber();
+    const double load = load_ * material.stretching_stiffness;
+    rod = make_rod(material, Eigen::VectorXd::Constant(kEdges, kEdge));
+    set_law(rod, StretchingLaws(NeoHookeanStretching()));
+    while (respond(rod, 0, {material.stretching_stiffness, 1.0, stretch}).tension < load) stretch += 1e-6;
+    RodState state = straight_state(rod);
+    state.position *= stretch;
+    state.position.row(0).array() -= 4.0 * kRadius;
+    initialise_frames(&state);
+    StepSettings settings = closed_form_settings(material);
+    const double modulus = material.stretching_stiffness / (M_PI * kRadius * kRadius);
+    settings.pressure_law = NormalLaw{0.77 * modulus, 1e-3 * kRadius, 0.8 * kRadius};
+    law = settings.pressure_law.on_rigid();
+    settings.roller_friction = MemoryFriction{mu, 1e-3 * kRadius};
+    settings.friction_couple = 1.0;
+    settings.overlap_limit = kRadius;
+    settings.drag = 1e-3;
+    settings.residual = 1e-6;
+    stepper = TimeStep::make(rod, state, settings);
+    for (const double side : {-1.0, 1.0}) {
+      Roller roller;
+      roller.axis = Vec3::UnitZ();
+      roller.centre = Vec3(0.0, side * (kShaft + kHalf), 0.0);
+      roller.radius = kShaft;
+      boundary.rollers.push_back(roller);
+    }
+    boundary.forces = {{0, Vec3(-load, 0.0, 0.0)}};
+    boundary.fixed_nodes = {{kEdges, state.position.col(kEdges)}};
+  }
+
+  /// Mean force at the end that is pulled, over the way of an edge, once it has moved by `way` [N].
+  double pull(double way) {
+    constexpr int kReadings = 8;
+    const double passed = kEdge * stretch / kReadings;
+    move_by(way);
+    double sum = 0.0;
+    for (int reading = 0; reading < kReadings; ++reading) {
+      move_by(passed);
+      sum += stepper->readings().reaction(kEdges)[0];
+    }
+    return sum / kReadings;
+  }
+  void move_by(double way) {
+    StepControl::Options options;
+    options.longest = options.first = 0.1 * kEdge / kSpeed;
+    options.motion = options.slip = 1e3;
+    const Vec3 from = boundary.fixed_nodes[0].position;
+    const double begin = time;
+    run_to(begin + way / kSpeed, *stepper, time, options, [&](double to) -> const Boundary& {
+      boundary.fixed_nodes[0].position = from + Vec3(kSpeed * (to - begin), 0.0, 0.0);
+      return boundary;
+    });
+  }
+
+  double energy(double x, double l) const {
+    const double k = std::sqrt(l);
+    return 2.0 * law.energy(k * squeezed(x, l)) / (k * k);
+  }
+  double squeezed(double x, double l) const {
+    return kRadius / std::sqrt(l) - (std::hypot(x, kShaft + kHalf) - kShaft);
+  }
+  /// lambda W' - W + lambda^2 dE/dlambda
+  double material_force(double x, double l) const {
+    constexpr double kStep = 1e-6;
+    const auto own = respond(rod, 0, {rod.material.stretching_stiffness, 1.0, l});
+    return l * own.tension - own.energy + l * l * (energy(x, l + kStep) - energy(x, l - kStep)) / (2.0 * kStep);
+  }
+  double expected() const {
+    const double dx = 1e-3 * kRadius;
+    double l = stretch, force = material_force(-4.0 * kRadius, l);
+    for (double x = -4.0 * kRadius; x < 4.0 * kRadius; x += dx) {
+      const double cosine = (kShaft + kHalf) / std::hypot(x, kShaft + kHalf), k = std::sqrt(l);
+      force += dx * mu * 2.0 * law.pressure(k * squeezed(x, l)) / k * cosine * l;
+      for (int i = 0; i < 3; ++i) {
+        const double slope = (material_force(x + dx, l + 1e-5) - material_force(x + dx, l - 1e-5)) / 2e-5;
+        l -= (material_force(x + dx, l) - force) / slope;
+      }
+    }
+    return respond(rod, 0, {rod.material.stretching_stiffness, 1.0, l}).tension;
+  }
+};
+
+TEST(R18SoftSections, AStrandIsDrawnThroughAHoleNarrowerThanIt) {
+  for (const double mu : {0.0, 0.3, 0.6}) {
+    NarrowHole scene(mu, 0.1);
+    hold_against(formatted("R18 strand through a narrower hole, friction %.1f: force [N]", mu), scene.expected(),
+                 scene.pull(6.0 * kRadius), 2e-3);
+  }
 }
 
 /// A rod along x that is stretched by `stretch`, clamped by its first edge, and free to turn elsewhere.

@@ -31,6 +31,7 @@ struct RelativeErrors {
   std::optional<double> lock_extension;
   std::optional<double> locked_stiffness;
   bool rolls = false;  ///< strands roll on each other: then knots that are hardly closed were studied, too
+  bool soft = false;   ///< sections give
   std::optional<double> break_in_bend{};  ///< of the load at which a knot parts where its bend helps to part it
   std::optional<double> largest_load{};   ///< of a knot that a file describes
 };
@@ -40,17 +41,17 @@ struct RelativeErrors {
 /// (`scripts/bench readings`). It depends on the handedness of the knots, on friction and, for rods that stretch, on
 /// the length of the loop. Other edges and tolerances raise or lower it. The contribution of the edges is proportional
 /// to the square of their length. Those of contact tolerance, presliding displacement, longest step and residual are
-/// proportional to their values. Two kinds of sections were studied: elastic ones with friction on the centrelines, and
-/// ones whose fibres rub with friction's whole couple. A loop of the second kind with knots of opposite hands has no
-/// error of its stiffness, which is one of a wide distribution. Of knots that files describe, their largest load was
-/// studied in the same way (`scripts/bench knots`), in one material at a time.
+/// proportional to their values. Three kinds of sections were studied: elastic ones with friction on the centrelines,
+/// ones whose fibres rub with friction's whole couple, and soft ones of rubber. Of knots that files describe, their
+/// largest load was studied in the same way (`scripts/bench knots`), in one material at a time.
 RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                                const PhysicsOptions& physics);
 
 /// Whether knots slide under so small a force [N] that they are hardly closed. What the mesh then does to the readings
 /// is known only where strands roll (errors_of_hardly_closed).
 bool hardly_closed(double plateau_force, const Material& material);
-/// The errors of such knots: larger ones of plateau and lock where strands roll, and none otherwise.
+/// The errors of such knots: larger ones of plateau and lock where strands roll, a smaller one of the plateau where
+/// their sections give, and none otherwise.
 RelativeErrors errors_of_hardly_closed(const RelativeErrors& errors);
 
 }  // namespace knot_utm

@@ -99,8 +99,9 @@ class TyingRig {
     Points position;              ///< [m]
   };
   /// A loop whose two strands between the knots are longer by `apart`, as far as they can be, and whose rod beyond both
-  /// knots is longer by `beyond` [m]. Lengths change where strands run straight, or around the rollers. Knots and
-  /// tails move along z as they are, and the rod beyond them along its own way, so that little is stretched.
+  /// knots is longer by `beyond` [m]. Where a strand is to be shorter than it can be, its knots stay apart. Lengths
+  /// change where strands run straight, or around the rollers. Knots and tails move along z as they are, and the rod
+  /// beyond them along its own way, so that little is stretched.
   Laid longer(double apart, double beyond, const RodProperties& rod, const RodState& state) const;
 
   /// Fraction of the time of putting the loop on that is left.
@@ -146,7 +147,8 @@ class TyingRig {
   void enter(Stage stage, double time);
 
   Options options_;
-  double radius_;  // h [m]
+  double radius_;         // h [m]
+  double shortest_edge_;  // that setting to the marks leaves [m]
   Settling settling_;
   double putting_on_drag_;  // [N s/m^2]
   std::vector<Knot> knots_;
