@@ -1,13 +1,14 @@
 """Whether the error that a run gives beside a reading holds what a finer run finds, over loops drawn at random, which nobody tuned
 anything on."""
 import os
+import sys
 
 import plots
 from draws import PAPER_RADIUS, Draw, significant
 from runs import divide, known, median
 from table import Report, Table, at_least, at_most
 
-MATERIALS = []                     # each test draws its own
+MATERIALS = ["limp braid", "stiff braid", "cable", "solid"]  # kinds of rod; each test draws its own, or soft ones alone
 SEED, COUNT = 19, 40
 HALVED = {True: 4.0, False: 4.5}   # twice the refinement of a rope at `normal`, whose strands roll or not
 PRESLIDING = {True: 1.25e-3, False: 5e-4}  # [h] a quarter of a rope's at `normal`
@@ -28,15 +29,20 @@ FIBRES = {"friction_moment": (0.03, 0.12), "stick_ratio": (5.0, 40.0), "compacti
 TWISTING = {True: (0.15, 0.4), False: (2 / 3, 2 / 3)}  # k_t/k_b of a rope, and of a solid rod with Poisson's ratio 1/2
 HYSTERESIS = {"friction_moment": (0.01, 0.03), "stick_ratio": (4.0, 20.0), "rolling_hysteresis": (0.1, 0.3)}  # of solids
 SIZES = [0.0005, PAPER_RADIUS, 0.016]  # radii of a thread, of the paper's ropes and of a hawser [m]
-RODS = {"limp braid": (1e4, 5e4), "stiff braid": (1e3, 1e4), "cable": (10.0, 1e3), "solid": (4.0, 4.0)}  # k_s h^2/k_b
+RODS = {"limp braid": (1e4, 5e4), "stiff braid": (1e3, 1e4), "cable": (10.0, 1e3), "solid": (4.0, 4.0),
+        "soft": (4.0, 4.0)}  # k_s h^2/k_b; soft: a solid rod that always rolls
 PRELOAD = {True: (0.5, 4.0), False: (2.0, 50.0)}  # of a solid rod, and of a rope [k_b/h^2]
 DISTANCE = (0.11, 0.19)                # e for the paper's radius [m]
 LONGEST_LOOP = 2.0                     # L for the paper's radius [m]
 CLEARANCE = 26.0                       # L - e by which coils clear rollers of the default size [h]
 
 
-def report(runner, _, seed=SEED, count=COUNT):
-    draws = [Stranger(seed, number) for number in range(count)]
+def report(runner, kinds, seed=SEED, count=COUNT):
+    unknown = [kind for kind in kinds if kind not in RODS]
+    if unknown:
+        print(f"scripts/bench: readings draws {', '.join(RODS)}, but no {unknown[0]}", file=sys.stderr)
+        sys.exit(2)
+    draws = [Stranger(seed, number, kinds) for number in range(count)]
     todo = [(f"{draw.seed}/{draw.number}/{name}", {**draw.settings, **settings}) for draw in draws
             for name, settings in (("normal", {}), ("fine", fine_run(draw)))]
     done = runner.run_all(todo, cpu_limit=CPU_LIMIT)
@@ -69,19 +75,24 @@ def fine_run(draw):
 class Stranger(Draw):
     """A loop. Sections of solid rods are soft where friction is at the surface."""
 
+    def __init__(self, seed, number, kinds=tuple(MATERIALS)):
+        self.kinds = list(kinds)
+        super().__init__(seed, number)
+
     def draw(self):
-        rod = self.choice("rod", list(RODS))
+        rod = self.choice("rod", self.kinds)
         h = self.radius = self.choice("radius", SIZES)
+        solid, soft = rod in ("solid", "soft"), rod == "soft"
         stretching = self.log_uniform("stretching", *RODS[rod])
         force = self.force = self.log_uniform("bending_force", 0.1, 20.0)
-        low, high = PRELOAD[rod == "solid"]
+        low, high = PRELOAD[solid]
         self.preload = self.log_uniform("preload", low, min(high, stretching))
         friction = self.uniform("friction_coefficient", 0.2, 0.9)
         bending = significant(force * h ** 2)
         self.settings["material"] = {
             "radius": h, "density": self.uniform("density", 800.0, 1400.0),
             "stretching_stiffness": significant(stretching * force), "bending_stiffness": bending,
-            "twisting_stiffness": significant(bending * self.uniform("twisting", *TWISTING[rod != "solid"])),
+            "twisting_stiffness": significant(bending * self.uniform("twisting", *TWISTING[not solid])),
             "friction_coefficient": friction}
         scale = h / PAPER_RADIUS
         distance = self.uniform("knot_distance", *DISTANCE)
@@ -92,14 +103,14 @@ class Stranger(Draw):
             "specimen.knot_distance": significant(distance * scale),
             "specimen.end_to_end": significant(length * scale),
         })
-        if rod == "solid":
+        if solid:
             self.values["stretching"] = 4.0
-        self.draw_section(HYSTERESIS if rod == "solid" else FIBRES)
-        if rod == "solid" and self.rolls:
+        self.draw_section(HYSTERESIS if solid else FIBRES, always=soft)
+        if solid and self.rolls:
             self.settings["material"].update(section="soft", stretching_law="neo_hookean")
 
-    def draw_section(self, laws):
-        self.rolls = self.keep("rolls", self.random.random() < ROLLS)
+    def draw_section(self, laws, always):
+        self.rolls = self.keep("rolls", self.random.random() < ROLLS or always)
         drawn = {key: self.log_uniform(key, *ends) for key, ends in laws.items()}
         self.settings["material"].update(
             {"friction_couple": 1.0, "bending_law": "frictional", **drawn} if self.rolls else {"friction_couple": 0.0})
