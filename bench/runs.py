@@ -41,16 +41,15 @@ class Runner:
             return list(pool.map(lambda place, one: made_of(place, runner.run(*one, cpu_limit=cpu_limit)),
                                  range(len(todo)), todo))
 
-    def run(self, name, settings, method=METHOD, more=(), cpu_limit=None, under=()):
+    def run(self, name, settings, method=METHOD, more=(), cpu_limit=None):
         """`settings`: dotted key -> value, on top of which come those of the command line; `more`: further words of it.
-        `under`: a program that runs it, with its words.
         `cpu_limit` [s]: more, and the run is ended by SIGXCPU, however busy the machine."""
         words = words_of(settings, self.overrides) + list(more)
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
         # Relative to the root, so that no message names a folder of this machine.
-        command = [*under, os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root), *words]
+        command = [os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root), *words]
         self.say(f"{name}: {os.path.basename(self.tool)} {method} {shlex.join(words)}")
         process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True, env=without_cache(),
                                    preexec_fn=lambda: confine(self.core, cpu_limit))
@@ -67,17 +66,6 @@ class Runner:
         """Of several runs, whose readings are the same, the one of the least CPU time: what other work adds is no part of it."""
         return min((self.run(name, settings, method) for _ in range(times)), key=lambda run: run.cpu_time)
 
-    def bench_tool(self, tool, arguments):
-        """What a small executable beside tensile_test prints as YAML."""
-        path = os.path.join(os.path.dirname(os.path.abspath(self.tool)), tool)
-        if not os.access(path, os.X_OK):
-            sys.exit(f"scripts/bench: {tool} is not built; configure with -DKNOT_UTM_BENCH=ON")
-        command = [path] + [str(word) for word in arguments]
-        self.say(" ".join([tool] + command[1:]))
-        done = subprocess.run(SHELLS_CHILD + command, cwd=self.root, stdout=subprocess.PIPE, text=True, check=False,
-                              preexec_fn=lambda: confine(self.core))
-        return (yaml.safe_load(done.stdout) or {}) if done.returncode == 0 else {}
-
     def say(self, line):
         if self.verbose:
             print(line, file=sys.stderr, flush=True)
@@ -88,14 +76,14 @@ def without_cache():
     return {**os.environ, "KNOT_UTM_CACHE_LIMIT": "0"}
 
 
-def confine(core, cpu_limit=None):
+def confine(core, cpu_limit):
     if core is not None:
         os.sched_setaffinity(0, {core})
     if cpu_limit is not None:
         resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
 
 
-def words_of(settings, overrides=()):
+def words_of(settings, overrides):
     """Of a command line; JSON is YAML too."""
     settings = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + list(overrides)
     return [word for setting in settings for word in ("--set", setting)]

@@ -12,11 +12,9 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
 
 import front  # noqa: E402
-import profiles  # noqa: E402
 import readings  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
-import scaling  # noqa: E402
 import specimens  # noqa: E402
 import tighten  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
@@ -151,13 +149,6 @@ class Studies(unittest.TestCase):
         least = min(other for name, (other, its_error) in rows.items() if its_error <= error and "ours" not in name)
         self.assertAlmostEqual(least / cost, 5.1, 1)  # as doc/developers/performance.md says
 
-    def test_a_row_of_knots_is_one_line_without_a_gap(self):
-        with tempfile.NamedTemporaryFile("r", encoding="utf-8") as file:
-            scaling.row_of_knots({"x": [0.0, 1.0, 0.0], "y": [0.0, 0.0, 0.0], "z": [0.5, 1.0, 1.5]}, 3, file.name)
-            rows = [[float(cell) for cell in line.split(",")] for line in file.read().split()[1:]]
-        self.assertEqual(len(rows), 7)
-        self.assertEqual({round(b[2] - a[2], 9) for a, b in zip(rows, rows[1:])}, {round(0.5 * scaling.ROOM, 9)})
-
 
 class FakeRunner:
     """Runs that read the same wherever they start, but for what `change` does to them: (name, result) -> exit code."""
@@ -229,35 +220,6 @@ class Means(unittest.TestCase):
                                      ("contact tolerance x1/4", {"physics.contact.tolerance": contact_tolerance / 4}),
                                      ("presliding x1/2", {"physics.friction.presliding": presliding / 2})):
                 self.assertEqual(variants[variant], changed)
-
-
-class Profile(unittest.TestCase):
-    """What scripts/bench profile makes of what perf says."""
-    SAID = """ 60  |libknot_utm_core.so |[.] knot_utm::BlockMatrix<4>::eliminate<false>
- 20  |libknot_utm_core.so |[.] knot_utm::(anonymous namespace)::FourSurfaces<knot_utm::MemoryFriction>::moved
- 10  |libm.so.6           |[.] __sincos_fma
- 6   |[kernel.kallsyms]   |[k] clear_page_erms
- 4   |libknot_utm_core.so |[.] knot_utm::NobodyKnows::what
-
-"""
-
-    def test_shares_are_those_of_the_samples(self):
-        shares = profiles.shares_of(profiles.samples_of(self.SAID))
-        self.assertEqual({group: share for group, share in shares.items() if share},
-                         {"factorisation and back substitution": 60.0, "contact law and linearisation": 20.0, profiles.ELASTIC: 10.0,
-                          profiles.FILES: 6.0, profiles.OTHER: 4.0})
-
-    def test_a_class_has_more_groups_than_one(self):
-        for function, group in (("StepMatrix<4>::find_rooms", "matrix order and pattern"),
-                                ("StepMatrix<4>::add", "assembly and Newton's method"),
-                                ("SmoothContact::find_feet", "contact search and projection"),
-                                ("SmoothContact::remember", "contact bookkeeping")):
-            self.assertEqual(profiles.group_of("libknot_utm_core.so", "knot_utm::" + function), group)
-
-    def test_too_many_unknown_functions_fail(self):
-        for unknown, fails in ((4, False), (6, True)):
-            samples = {("libknot_utm_core.so", "NobodyKnows"): unknown, ("libc.so.6", "malloc"): 100 - unknown}
-            self.assertEqual(bool(profiles.table_of(["nylon"], [samples]).failed()), fails)
 
 
 class References(unittest.TestCase):
