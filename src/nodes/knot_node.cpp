@@ -9,7 +9,7 @@ constexpr char kHelp[] = R"(The physics: answers each command of utm_node with f
 It is a part of: roslaunch knot_utm tighten.launch. It reads the test from the parameters test/..., which the launch
 file sets (doc/ros.md).
 
-  _marker_rate:=NUMBER        pictures per second for rviz [25]
+  _marker_rate:=NUMBER        most pictures per second for rviz [25]
   _color_by:=WORD             what the colours of the rod show, tension or curvature [tension]
   _contact_forces:=FLAG       shows them in the picture [true]
 )";

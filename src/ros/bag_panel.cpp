@@ -8,7 +8,6 @@
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/ros/base_marker.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/views.hpp"
 
 namespace knot_utm {
 namespace {
@@ -19,9 +18,9 @@ constexpr std::size_t kMostPoints = 120;  // of a curve
 constexpr double kMany = 8.0;             // loads above this many of those of sliding hide them
 constexpr double kSmall = 2.5;            // end of the axis of small loads, of the load of sliding
 
-// Lengths and places are in halves of the height of the picture.
-constexpr double kAhead = 0.3;  // of all of it, of the distance to the machine
-// Each line is a text of its own: rviz sets the lines of one text 1 cm apart, however small the picture is.
+// Lengths and places are in halves of the height of the panel.
+constexpr double kBefore = 0.01;  // of a curve, before its axes
+// Each line is a text of its own: rviz sets the lines of one text 1 cm apart, however small the panel is.
 constexpr double kLetter = 0.042;            // height of the readings' letters
 constexpr double kSmallLetter = 0.032;       // of those at the axes
 constexpr double kLine = 0.005;              // width of lines
@@ -53,11 +52,10 @@ std::string short_text(const char* format, double value) {
 /// Draws in the plane of the panel.
 class Plane {
  public:
-  explicit Plane(double distance)
-      : ahead_(kAhead * distance), half_height_(ahead_ * std::tan(0.5 * Camera::kFieldOfView)) {}
+  Plane(const Vec3& middle, double half_height) : middle_(middle), half_height_(half_height) {}
 
   Marker text(int id, const std::string& words, double letter, double x, double y) const {
-    Marker m = base_marker(names::kViewMachineFrame, "reading", id, Marker::TEXT_VIEW_FACING);
+    Marker m = base_marker(names::kBaseFrame, "reading", id, Marker::TEXT_VIEW_FACING);
     m.color = kGrey;
     m.scale.z = letter * half_height_;
     m.pose.position = at(x, y);
@@ -65,22 +63,18 @@ class Plane {
     return m;
   }
   Marker lines(int id, const char* ns, const std_msgs::ColorRGBA& c) const {
-    Marker m = base_marker(names::kViewMachineFrame, ns, id, Marker::LINE_LIST);
+    Marker m = base_marker(names::kBaseFrame, ns, id, Marker::LINE_LIST);
     m.color = c;
     m.scale.x = kLine * half_height_;
     return m;
   }
-  geometry_msgs::Point at(double x, double y) const {
-    return to_point(ahead_ * Camera::forwards() + half_height_ * (x * Camera::right() + y * Camera::up()));
-  }
-  /// The same place in the picture, before what is drawn there by `at`.
-  geometry_msgs::Point before(double x, double y) const {
-    constexpr double kNearer = 0.99;
-    return to_point(kNearer * (ahead_ * Camera::forwards() + half_height_ * (x * Camera::right() + y * Camera::up())));
+  geometry_msgs::Point at(double x, double y, double before = 0.0) const {
+    return to_point(middle_ + half_height_ * Vec3(x, -before, y));
   }
 
  private:
-  double ahead_, half_height_;
+  Vec3 middle_;
+  double half_height_;
 };
 
 /// Axes in a box, from 0 or less to their ends.
@@ -127,8 +121,8 @@ void add_curve(const Plane& plane, const Axes& axes, int id, const Points& point
     const auto &a = points[i - 1], &b = points[i];
     if (std::min(a.load, b.load) > axes.load || std::max(a.load, b.load) < axes.lowest_load) continue;
     for (const double t : inside(axes, a.load, b.load))
-      curve.points.push_back(plane.before(axes.x(std::max(0.0, a.extension + t * (b.extension - a.extension))),
-                                          axes.y(a.load + t * (b.load - a.load))));
+      curve.points.push_back(plane.at(axes.x(std::max(0.0, a.extension + t * (b.extension - a.extension))),
+                                      axes.y(a.load + t * (b.load - a.load)), kBefore));
   }
   if (!curve.points.empty()) out.push_back(curve);
 }
@@ -192,9 +186,9 @@ std::vector<std::string> BagPanel::lines(const Sample& sample, const std::string
   return out;
 }
 
-std::vector<Marker> BagPanel::draw(const Sample& sample, const std::string& motion_pattern, const ColorScale& scale,
-                                   double distance) const {
-  const Plane plane(distance);
+std::vector<Marker> BagPanel::draw(const Sample& sample, const std::string& motion_pattern,
+                                   const ColorScale& scale) const {
+  const Plane plane(middle_, half_height_);
   std::vector<Marker> out;
   for (const std::string& line : lines(sample, motion_pattern, scale)) {
     const int row = static_cast<int>(out.size());

@@ -168,7 +168,7 @@ void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
   if (status.state != TestStatus::ENDED || status.run != run_ || kept_.empty()) return;
   KnotRecord& last = *kept_.back();
   if (last.command.sequence != status.sequence) return;
-  show_.settle();
+  show_.show_latest();
   if (last.shape.points.empty()) put_shape(last);
   if (record_.getNumSubscribers() > 0) record_.publish(last);
 }

@@ -32,15 +32,4 @@ Transforms MachineFrames::moving(const ros::Time& stamp, double displacement, co
           transform(names::kCrossheadFrame, names::kUpperGripFrame, upper_grip - crosshead, stamp)};
 }
 
-Transforms MachineFrames::of_looks(const ros::Time& stamp, const Looks& looks) {
-  const auto of_base = [&](const char* child, const Vec3& place) {
-    return transform(names::kBaseFrame, child, place, stamp);
-  };
-  return {
-      of_base(names::kMachineFrame, looks.machine.at),      of_base(names::kViewMachineFrame, looks.machine.from),
-      of_base(names::kKnotsFrame, looks.knots.at),          of_base(names::kViewKnotsFrame, looks.knots.from),
-      of_base(names::kLowerKnotFrame, looks.lower_knot.at), of_base(names::kViewLowerKnotFrame, looks.lower_knot.from),
-      of_base(names::kUpperKnotFrame, looks.upper_knot.at), of_base(names::kViewUpperKnotFrame, looks.upper_knot.from)};
-}
-
 }  // namespace knot_utm

@@ -87,7 +87,7 @@ int ReplayNode::spin() {
     if (begun_ && next_ == view_->end() && !ended_) publish_end();
     if (options_.exit_at_end && next_ == view_->end()) {
       publish_clock();
-      show_.settle();
+      show_.show_latest();
       ROS_INFO("%s has been replayed", options_.bag.c_str());
       ros::WallDuration(kGoodbye).sleep();
       end_launch_when_rviz_is_closed();

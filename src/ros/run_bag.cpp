@@ -19,6 +19,7 @@ namespace {
 constexpr std::uint32_t kRun = 1;
 
 constexpr char kTf[] = "tf";
+constexpr double kPanelMiddle = 0.75, kPanelHalfHeight = 0.9;  // of the distance of the grips at the beginning
 
 }  // namespace
 
@@ -30,8 +31,9 @@ RunBag::RunBag(const std::string& file, const Method& method, const Centreline& 
       grips_(method.specimen, method.machine, drawn, method.material),
       frames_(grips_.lower(), method.specimen.end_to_end),
       picture_(method.specimen, method.machine, method.material),
-      panel_((method.material.name.empty() ? "" : method.material.name + ", ") + knot_of(method.specimen).about().name),
-      views_(method.specimen, method.machine, method.material, cuts_),
+      panel_((method.material.name.empty() ? "" : method.material.name + ", ") + knot_of(method.specimen).about().name,
+             grips_.lower() + kPanelMiddle * method.specimen.end_to_end * Vec3::UnitZ(),
+             kPanelHalfHeight * method.specimen.end_to_end),
       motion_(rollers_hold(method.specimen, method.machine), 0.0, marks_of(method.specimen, method.program)) {}
 
 void RunBag::add(const Record& record) {
@@ -93,18 +95,15 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   const Sample& sample = record.answer;
   // On a compliant frame the grip goes less far than the crosshead.
   const Vec3 upper_grip = grips_.upper(sample.end_to_end - grips_.end_to_end(0.0));
-  const Looks looks = views_.look(record.shape, grips_.lower(), upper_grip, sample);
   tf2_msgs::TFMessage frames;
-  for (const Transforms& some : {frames_.fixed(stamp), frames_.moving(stamp, sample.displacement, upper_grip),
-                                 MachineFrames::of_looks(stamp, looks)})
+  for (const Transforms& some : {frames_.fixed(stamp), frames_.moving(stamp, sample.displacement, upper_grip)})
     frames.transforms.insert(frames.transforms.end(), some.begin(), some.end());
   bag_.write(kTf, stamp, frames);
   const std::vector<ContactForce> none_recorded;
   const std::string pattern = motion_.lock_extension() ? "locked" : motion_pattern_name(motion_.pattern());
   const SceneView view{record.shape, record.tension, none_recorded, grips_.lower(), upper_grip, sample, pattern};
   visualization_msgs::MarkerArray markers = picture_.draw_small(view, stamp);
-  const double distance = (0.5 * (grips_.lower() + upper_grip) - looks.machine.from).norm();
-  for (visualization_msgs::Marker& marker : panel_.draw(sample, pattern, picture_.scale(), distance)) {
+  for (visualization_msgs::Marker& marker : panel_.draw(sample, pattern, picture_.scale())) {
     marker.header.stamp = stamp;
     markers.markers.push_back(std::move(marker));
   }

@@ -1,8 +1,6 @@
 #!/usr/bin/python3
 """README.md and doc/ against the code: keys and their ranges, launch arguments, names, tests, files, links."""
-import ast
 import glob
-import json
 import os
 import re
 import unittest
@@ -231,43 +229,6 @@ class LoadsOfIso2307(unittest.TestCase):
             for number, exact in zip(numbers, expected):  # to a tenth
                 self.assertLessEqual(abs(number - exact), 0.0501, name)
         self.assertGreaterEqual(set(table), {"nylon", "polypropylene", "polyester_cord"})
-
-
-class CurvesInOtherPrograms(unittest.TestCase):
-    """Files for programs that Debian does not have: what they name is there."""
-
-    def exists(self, name):
-        topic, _, field = name.strip("/").rpartition("/")
-        if name.strip("/") in self.topics:
-            return True
-        fields = re.findall(r"^[\w/]+(?:\[\])? (\w+)$", text(f"msg/{self.topics.get(topic, 'none')}.msg"), re.M)
-        return field in fields
-
-    def setUp(self):
-        self.topics = {topic: of.group(1) for topic, of in
-                       ((topic, re.search(r"(?:knot_utm|sensor_msgs)/(\w+)", line))
-                        for line in text("doc/ros.md").splitlines() if line.startswith("|")
-                        for topic in re.findall(r"`((?:knot|view)/\w+)`", line)) if of}
-        self.layout = xml.etree.ElementTree.fromstring(text("config/plotjuggler.xml").encode())
-        curves = [curve.attrib for curve in self.layout.iter("curve")]
-        self.over_time = {curve["name"] for curve in curves if "curve_x" not in curve}
-        self.over_another = {curve[key] for curve in curves for key in ("curve_x", "curve_y") if key in curve}
-
-    def test_plotjuggler_draws_fields_that_are_there(self):
-        self.assertIn("/knot/state/load", self.over_another)
-        for name in [*self.over_another, *self.over_time, *(one.get("value") for one in self.layout.iter("selected_topics"))]:
-            self.assertTrue(self.exists(name), name)
-
-    def test_plotjuggler_has_room_for_each_series_before_the_first_message(self):
-        # It makes an empty series for each curve by its `name`, and drops a curve one of whose series is missing.
-        self.assertLessEqual(self.over_another, self.over_time)
-
-    def test_rqt_shows_topics_and_fields_that_are_there(self):
-        manager = json.loads(text("config/knot_utm.perspective"))["groups"]["pluginmanager"]
-        of = {name: {key: ast.literal_eval(value["repr"]) for key, value in group["groups"]["plugin"]["keys"].items()}
-              for name, group in manager["groups"].items()}
-        for name in [of["plugin__rqt_image_view__ImageView__1"]["topic"], *of["plugin__rqt_plot__Plot__1"]["topics"]]:
-            self.assertTrue(self.exists(name), name)
 
 
 class Readme(unittest.TestCase):

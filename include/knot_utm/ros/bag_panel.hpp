@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/color_scale.hpp"
 
@@ -14,22 +15,20 @@ namespace knot_utm {
 std::string condition_of(const Sample& sample, const std::string& motion_pattern);
 
 /// The readings and the force-extension curve of a test as markers. A bag that has them shows what the panel beside
-/// rviz shows (python/knot_utm/panel), while nothing of this package runs. They stand at fixed places in the picture of
-/// config/bag.rviz, in front of everything else: the readings at its left, the curve at its right. Where large loads
-/// hide those of sliding, the curve is drawn once more with these alone.
+/// rviz shows (python/knot_utm/panel), while nothing of this package runs. They stand upright beside the machine, in
+/// the plane of x and z: the readings at its left, the curve at its right. Where large loads hide those of sliding, the
+/// curve is drawn once more with these alone.
 class BagPanel {
  public:
-  /// Width over height of the narrowest picture that shows all of it.
-  static constexpr double kNarrowest = 1.55;
-
-  explicit BagPanel(std::string title) : title_(std::move(title)) {}
+  /// `middle` and `half_height` [m]: where it stands, in utm_base.
+  BagPanel(std::string title, const Vec3& middle, double half_height)
+      : title_(std::move(title)), middle_(middle), half_height_(half_height) {}
 
   /// Adds a reading of the load cell. `slides`: the knots slide and have not locked.
   void add(const Sample& reading, bool slides);
 
-  /// `distance` [m]: from the camera to what it looks at.
   std::vector<visualization_msgs::Marker> draw(const Sample& sample, const std::string& motion_pattern,
-                                               const ColorScale& scale, double distance) const;
+                                               const ColorScale& scale) const;
 
  private:
   struct Point {
@@ -41,6 +40,8 @@ class BagPanel {
   double small_load() const;  ///< where the axis of the small loads ends [N]; 0: there is none
 
   std::string title_;
+  Vec3 middle_;                ///< [m]
+  double half_height_;         ///< [m]
   std::vector<Point> points_;  ///< evenly chosen among the readings, and the latest
   std::size_t readings_ = 0;   ///< number of readings since the zero
   std::size_t stride_ = 1;     ///< one of so many readings is kept

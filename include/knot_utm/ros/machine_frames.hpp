@@ -6,15 +6,13 @@
 #include <vector>
 
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/ros/views.hpp"
 
 namespace knot_utm {
 
 using Transforms = std::vector<geometry_msgs::TransformStamped>;
 
-/// The frames of a test: world -> utm_base -> lower_grip, and utm_base -> crosshead -> upper_grip -> load_cell. For
-/// rviz there are also frames below utm_base for what is viewed and for the places of the camera. All frames have the
-/// axes of `world`.
+/// The frames of a test: world -> utm_base -> lower_grip, and utm_base -> crosshead -> upper_grip -> load_cell. All
+/// have the axes of `world`.
 class MachineFrames {
  public:
   /// `end_to_end`: distance between the grips at the beginning of the test [m].
@@ -24,8 +22,6 @@ class MachineFrames {
 
   /// The frames that move. The crosshead is above the lower grip by `end_to_end` plus its displacement [m].
   Transforms moving(const ros::Time& stamp, double displacement, const Vec3& upper_grip) const;
-
-  static Transforms of_looks(const ros::Time& stamp, const Looks& looks);
 
  private:
   Vec3 lower_grip_;    ///< [m]

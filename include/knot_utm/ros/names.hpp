@@ -62,15 +62,6 @@ inline constexpr char kLowerGripFrame[] = "lower_grip";
 inline constexpr char kCrossheadFrame[] = "crosshead";
 inline constexpr char kUpperGripFrame[] = "upper_grip";
 inline constexpr char kLoadCellFrame[] = "load_cell";
-// What is viewed in rviz, and the places of the camera
-inline constexpr char kMachineFrame[] = "machine";
-inline constexpr char kKnotsFrame[] = "knots";
-inline constexpr char kLowerKnotFrame[] = "lower_knot";
-inline constexpr char kUpperKnotFrame[] = "upper_knot";
-inline constexpr char kViewMachineFrame[] = "view_machine";
-inline constexpr char kViewKnotsFrame[] = "view_knots";
-inline constexpr char kViewLowerKnotFrame[] = "view_lower_knot";
-inline constexpr char kViewUpperKnotFrame[] = "view_upper_knot";
 
 inline constexpr char kCrossheadJoint[] = "crosshead";  ///< in utm/joint_states
 

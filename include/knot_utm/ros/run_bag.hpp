@@ -13,7 +13,6 @@
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
-#include "knot_utm/ros/views.hpp"
 #include "knot_utm/run/record.hpp"
 
 namespace knot_utm {
@@ -52,7 +51,6 @@ class RunBag {
   MachineFrames frames_;
   ScenePicture picture_;
   BagPanel panel_;
-  Views views_;
   bool begun_ = false;
   bool broken_ = false;
   MotionPatternTracker motion_;

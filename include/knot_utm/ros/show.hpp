@@ -7,20 +7,30 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
-#include "knot_utm/ros/shown_state.hpp"
-#include "knot_utm/ros/views.hpp"
 
 namespace knot_utm {
 
+/// The state of the specimen at one time, as far as a picture shows it.
+struct Moment {
+  ros::Time stamp;
+  Points points;            ///< nodes of the rod [m]
+  Eigen::VectorXd tension;  ///< of each edge [N]
+  Vec3 upper_grip;          ///< [m]
+  Sample sample;
+  std::string motion_pattern;
+};
+
 /// What a node shows of a test: the frames on /tf and /tf_static, the pictures for rviz, and the meaning of their
-/// colours. A picture is drawn at ~marker_rate, while somebody subscribes. Whoever subscribes late gets the last moving
-/// frames: before a test and after it nothing moves, and no others come.
+/// colours. Pictures show the latest state, at most ~marker_rate of them, while somebody subscribes. Whoever subscribes
+/// late gets the last moving frames: before a test and after it nothing moves, and no others come.
 ///
 /// The parameters ~marker_rate, ~color_by and ~contact_forces can be changed by dynamic_reconfigure while the node
 /// runs. Where a value is not allowed all of them stay as they were, which the client is told, and a line says what is
@@ -35,32 +45,27 @@ class Show {
   /// lower grip at this place.
   void begin(const Method& method, const Vec3& lower_grip, const Points& points, const std::vector<int>& cuts);
 
-  void state_changed();  ///< to be called when there is another latest state
-  void settle();         ///< shows the latest state now: the node may end before the pictures have come to it
+  void state_changed() { is_old_ = true; }  ///< to be called when there is another latest state
+  void show_latest();                       ///< now, for the node may end before the next picture
   bool somebody_looks() const { return markers_.getNumSubscribers() > 0; }
 
  private:
   void take(ViewConfig& wanted);
   void apply();  ///< the parameters to the picture
-  void on_timer();
-  void draw();
-  void publish_frames(const Moment& moment, const Looks* looks);
+  void publish_frames(const Moment& moment);
 
   std::function<Moment()> latest_;
   std::function<std::vector<ContactForce>()> forces_;
   std::optional<ViewConfig> view_;
   Vec3 lower_grip_ = Vec3::Zero();
-  std::optional<MachineFrames> frames_;  ///< empty, as the next two: before the first specimen
+  std::optional<MachineFrames> frames_;  ///< empty, as the next one: before the first specimen
   std::optional<ScenePicture> picture_;
-  std::optional<Views> views_;
-  ShownState shown_;  ///< maintained while somebody views the pictures
   bool is_old_ = true;
   std::uint32_t viewers_ = 0;
   ros::Time published_;  ///< stamp of the last moving frames
 
   ros::Publisher markers_, colors_;
   ros::Publisher moving_;  ///< latched
-  ros::Publisher looks_;
   tf2_ros::StaticTransformBroadcaster fixed_;
   ros::SteadyTimer timer_;
   dynamic_reconfigure::Server<ViewConfig> server_;
