@@ -92,7 +92,7 @@ knot_utm_python_tests(quick bits_test.py bench/bench_test.py bench/counted_work_
                       python/panel/panel_test.py python/scripts/efficiency_test.py)
 # Studies and fits: their parts, what the scripts make of small ones, the same from Python, and as jobs on this machine and of Slurm.
 # The report: what is made of a run, and what a browser and a printer make of that. README's numbers, method and lines.
-knot_utm_python_tests(launched python/sweep/design_test.py python/sweep/rank_test.py python/sweep/mixed_test.py python/sweep/plots_test.py python/sweep/sweep_test.py
+knot_utm_python_tests(launched python/sweep/design_test.py python/sweep/rank_test.py python/sweep/plots_test.py python/sweep/sweep_test.py
                       python/sweep/python_test.py python/sweep/workflow_test.py python/fit/interval_test.py python/fit/fit_test.py
                       python/report/report_test.py python/report/certificate_test.py python/report/figures_test.py
                       python/report/comparison_test.py python/report/batch_test.py python/report/browser_test.py

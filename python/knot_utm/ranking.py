@@ -89,7 +89,7 @@ def _study(knots, material, specimens, method, settings):
                 raise WrongInput(f"{key} cannot be a setting of a ranking: {said} is told by {option} (in Python by {argument})")
     points = [{KNOT: _found(knot), MATERIAL: dict(material) if isinstance(material, Mapping) else _found(str(material)), **settings}
               for knot in knots]
-    return Study("the ranking", tool.find_method(method_of(method), os.getcwd()), points, int(specimens), (), "list", {}, None)
+    return Study("the ranking", tool.find_method(method_of(method), os.getcwd()), points, int(specimens), (), "list", {})
 
 
 def _found(knot):

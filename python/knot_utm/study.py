@@ -1,14 +1,13 @@
 """A study: a method, the keys of it that are varied, and how (doc/studies.md)."""
 import os
-from collections import Counter
 from dataclasses import dataclass
 
-from knot_utm import design, groups, mixed, tool
+from knot_utm import design, groups, tool
 from knot_utm.errors import WrongInput
 from knot_utm.method_keys import require_known
 from knot_utm.yaml_text import load, text_of
 
-KEYS = ("method", "for_each", "vary", "below", "design", "runs", "repeat", "seed", "accuracy", "pairs")
+KEYS = ("method", "for_each", "vary", "below", "design", "runs", "repeat", "seed")
 DESIGNS = ("grid", "one_at_a_time", "list", "sobol")
 DRAWING = ("list", "sobol")
 
@@ -24,7 +23,6 @@ class Study:
     cases: tuple   # the keys of for_each: with each of their combinations the design begins anew
     design: str
     below: dict    # {key: the key that it is below in all runs}
-    mixed: str     # the accuracy of some points, where all are there as draft, too; else None
 
     @property
     def name(self):
@@ -75,52 +73,9 @@ def _study(file, given):
                                "for_each")
     points = _within(given, groups.in_si(method, [{**case, **point} for case in each for point in made], units))
     repeat = _integer(given, "repeat", 1, 10_000) or 1
-    accuracy = _mixed(given, method, kinds, kind, repeat, cases)
-    if accuracy:
-        points = mixed.both(points, cases, accuracy, _pairs(given, points, cases), 1 if seed is None else seed)
     if len(points) * repeat > design.MOST_RUNS:
         raise WrongInput(f"repeat is {repeat}: these are {len(points) * repeat} tests, of at most {design.MOST_RUNS}")
-    return Study(file, method, points, repeat, tuple(cases), kind, given.get("below", {}), accuracy)
-
-
-def _mixed(given, method, kinds, kind, repeat, cases):
-    """The accuracy of which runs as draft are to tell the mean; None where none is asked for. Raises WrongInput where they would
-    tell none."""
-    if "accuracy" not in given:
-        if "pairs" in given:
-            raise WrongInput(f"pairs is {text_of(given['pairs'])}, but has no effect without accuracy: mixed")
-        return None
-    if given["accuracy"] != "mixed":
-        raise WrongInput(f"accuracy is {text_of(given['accuracy'])}, but must be mixed; one accuracy is a value of {mixed.ACCURACY} "
-                         "in vary")
-    listed = next((key for key, values in kinds.items() if isinstance(values, design.Listed) and len(values.values) > 1), None)
-    if kind not in DRAWING or (kind == "list" and listed):
-        raise WrongInput("accuracy is mixed, but must have a design of draws, whose mean it tells: "
-                         + (f"vary.{listed} of this list is not drawn" if kind == "list" else f"this one is a {kind}"))
-    if repeat > 1:
-        raise WrongInput(f"accuracy is mixed, but repeat is {repeat}: give the keys that scatter as draws of vary")
-    return _accuracy(method, kinds, cases)
-
-
-def _accuracy(method, kinds, cases):
-    """That of all runs, which the study or its method says."""
-    for key in ("physics", mixed.ACCURACY):
-        if key in cases or (key in kinds and (key == "physics" or len(getattr(kinds[key], "values", ())) != 1)):
-            raise WrongInput(f"accuracy is mixed, but {key} is varied: give {mixed.ACCURACY} one value, or none")
-    physics = load(method).get("physics")
-    of_method = physics.get("accuracy", mixed.USUAL) if isinstance(physics, dict) else mixed.USUAL
-    accuracy = kinds[mixed.ACCURACY].values[0] if mixed.ACCURACY in kinds else of_method
-    if accuracy == mixed.DRAFT:
-        raise WrongInput(f"accuracy is mixed, but {mixed.ACCURACY} is draft already: give a finer one, whose mean is told")
-    return accuracy
-
-
-def _pairs(given, points, cases):
-    """How many points of each case are run with both accuracies."""
-    fewest = min(Counter(text_of([point[key] for key in cases]) for point in points).values())
-    if fewest < mixed.FEWEST:
-        raise WrongInput(f"accuracy is mixed, but must have at least {mixed.FEWEST} runs, and here are {fewest}")
-    return _integer(given, "pairs", mixed.FEWEST, fewest) or mixed.usual_pairs(fewest)
+    return Study(file, method, points, repeat, tuple(cases), kind, given.get("below", {}))
 
 
 def _within(given, points):

@@ -2,7 +2,7 @@
 import os
 import sys
 
-from knot_utm import mixed, tool
+from knot_utm import tool
 from knot_utm.command_line import exit_code_of, parsed, parser_of
 from knot_utm.sweeping import Sweep
 
@@ -32,8 +32,6 @@ def _tell(work, table):
         out = work.folder.path
     failed = int((table["exit_code"] != 0).sum())
     print(f"{len(table)} runs, {failed} of which failed: the table is in {out}/table.csv and {out}/table.h5")
-    if work.study.mixed:
-        print(f"the means of {work.study.mixed} are in {out}/{mixed.FILE}")
 
 
 def _arguments(words):

@@ -1,7 +1,7 @@
 """A study, run by run, on all cores; and its parts, for those who start the runs in another way."""
 import os
 
-from knot_utm import mixed, tool
+from knot_utm import tool
 from knot_utm.address import Addresses
 from knot_utm.arguments import folder_of, jobs_of, path_of
 from knot_utm.errors import WrongInput
@@ -96,8 +96,6 @@ class Sweep:
         frame = table.frame()
         with work.stopping():
             table.write(self.folder.path)
-            if study.mixed and table.rows:
-                mixed.write(frame, study, self.folder.path)
             for result in self.plots if table.rows else ():
                 write_plots(frame, study, result, self.folder.path, self.folder)
         return frame
