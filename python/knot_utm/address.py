@@ -7,7 +7,7 @@ from knot_utm import tool
 from knot_utm.yaml_text import load
 
 # Keys whose text may name a file, and the folder of the package's own.
-NAMING = {"material": "materials", "other_material": "materials", "load_cell": "load_cells", "knot": "knots", "file": "", "record": "", "logo": ""}
+NAMING = {"material": "materials", "other_material": "materials", "load_cell": "load_cells", "knot": "knots", "file": "", "record": ""}
 
 
 class Addresses:

@@ -1,10 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -28,8 +25,6 @@
 
 namespace knot_utm {
 namespace {
-
-namespace fs = std::filesystem;
 
 [[noreturn]] void reject(const std::string& key, double value, const std::string& allowed) {
   throw InvalidInput(key, format_number(value), allowed);
@@ -329,19 +324,6 @@ void check_analysis(const Method& m) {
              "with a program that ties the knots and pulls them, and ropes of one material");
 }
 
-/// A page embeds its logo: larger than this it is a photograph [bytes].
-constexpr std::uintmax_t kLargestLogo = 2'000'000;
-
-void check_report(const Method& m) {
-  if (m.report.logo.empty()) return;
-  std::error_code error;
-  const std::string ending = fs::path(m.report.logo).extension().string();
-  const std::uintmax_t size = fs::file_size(m.report.logo, error);
-  if (error || size > kLargestLogo || (ending != ".png" && ending != ".svg"))
-    throw InvalidInput("report.logo", "\"" + m.report.logo + "\"",
-                       "a .png or .svg file of at most 2 MB, its path counted from the method's folder");
-}
-
 }  // namespace
 
 void check_method(const Method& method) {
@@ -355,7 +337,6 @@ void check_method(const Method& method) {
   check_effects(method);
   check_rest_shape(method);
   check_analysis(method);
-  check_report(method);
   check_scatter(method);
   if (method.specimen.to_be_tied && pulls_anything(method)) check_tying(method.specimen, method.material);
 }

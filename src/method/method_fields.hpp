@@ -170,18 +170,13 @@ inline void behind_program(Fields& top, Method& m) {
 
 inline void analysis(Fields& f, AnalysisOptions& o) { f.flag("margin", o.margin); }
 
-/// The texts in the head and the foot of a report.
+/// The texts in the head of a report, and its units.
 inline void report(Fields& f, ReportOptions& o) {
   f.text("specimen_id", o.specimen_id, 80);
-  f.text("operator", o.operator_name, 80);
-  f.text("customer", o.customer, 200);
-  f.text("date", o.date, 80);
   f.text("standard", o.standard, 200);
   f.text("conditioning", o.conditioning, 200);
   f.text("terminations", o.terminations, 200);
   f.text("notes", o.notes, 4000);
-  f.file("logo", o.logo);
-  f.text("signature", o.signature, 80);
   f.section("units", [&o](Fields& units) {
     units.choice("force", o.force, std::array{"N", "kN", "lbf"});
     units.choice("length", o.length, std::array{"mm", "in", "m"});

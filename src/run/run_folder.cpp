@@ -57,8 +57,6 @@ bool is_own_knot(const Method& method) {
   return method.specimen.drawing && fs::path(method.specimen.drawing->name).is_absolute();
 }
 
-std::string logo_beside(const Method& method) { return "logo" + fs::path(method.report.logo).extension().string(); }
-
 }  // namespace
 
 std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
@@ -105,7 +103,6 @@ std::string method_file_text(const Method& method) {
     beside->name = "knot.yaml";
     own.specimen.drawing = beside;
   }
-  if (!own.report.logo.empty()) own.report.logo = logo_beside(method);
   return kResolved + method_yaml(own);
 }
 
@@ -133,7 +130,6 @@ void begin_run_folder(const std::string& folder, const Method& method, const std
   require_no_record_in(folder, method);
   if (knot_of(method.specimen).has("file")) put_copy(method.specimen.file, fs::path(folder) / "specimen.csv");
   if (is_own_knot(method)) put_copy(method.specimen.drawing->name, fs::path(folder) / "knot.yaml");
-  if (!method.report.logo.empty()) put_copy(method.report.logo, fs::path(folder) / logo_beside(method));
   // Not before the specimen has been read: it may be the shape that the last run left here.
   for (const char* old : kOld) fs::remove(fs::path(folder) / old, error);
   remove_comparison(folder);

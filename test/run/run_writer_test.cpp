@@ -133,18 +133,6 @@ TEST_F(RunFolder, KeepsTheKnotThatAUsersFileDescribes) {
   EXPECT_EQ(read_whole((folder_ / "method.yaml").string()), method);
 }
 
-TEST_F(RunFolder, KeepsTheLogoOfItsReport) {
-  fs::create_directories(folder_);
-  const std::string logo = (folder_ / "ours.svg").string();
-  std::ofstream(logo) << "<svg/>";
-  run(load_method(kConfig + "straight.yaml", {"report.logo=" + logo}));
-  const std::string method = read_whole((folder_ / "method.yaml").string());
-  EXPECT_THAT(method, HasSubstr("logo: logo.svg"));
-  EXPECT_EQ(read_whole((folder_ / "logo.svg").string()), "<svg/>");
-  run(load_method((folder_ / "method.yaml").string()));
-  EXPECT_EQ(read_whole((folder_ / "method.yaml").string()), method);
-}
-
 TEST_F(RunFolder, HoldsTheVerdictOnItsSpecification) {
   const auto made = [this](const std::vector<std::string>& overrides) {
     run(load_method(kConfig + "straight.yaml", overrides));

@@ -67,8 +67,8 @@ struct Method {
 ///   1. the method's own folder, its config/ and its ../config,
 ///   2. share/knot_utm/config of the installation to which the running executable belongs,
 ///   3. the config/ of the sources from which it was built.
-/// After reading, `specimen.preload` and the load cell are resolved. `specimen.file`, `report.logo` and the records
-/// that are followed are absolute paths. Records are not read, nor is a specification compared with the results that
+/// After reading, `specimen.preload` and the load cell are resolved. `specimen.file` and the records that are
+/// followed are absolute paths. Records are not read, nor is a specification compared with the results that
 /// there are: load_test (run/load_test.hpp) does that.
 ///
 /// Each override has the form "dotted.key=YAML", as `--set` takes it. An entry of a list is named by its index from 0
@@ -89,7 +89,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
                     const std::string& option = "--set");
 
 /// The method as YAML. `load_method` reads it back to the same method. It contains every value, so no other files are
-/// needed than `specimen.file`, `report.logo` and records that are followed.
+/// needed than `specimen.file` and records that are followed.
 std::string method_yaml(const Method& method);
 
 /// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it ("program.pull.speed").

@@ -13,15 +13,10 @@ enum class LengthUnit { kMillimetre, kInch, kMetre };
 /// units.
 struct ReportOptions {
   std::string specimen_id;
-  std::string operator_name;
-  std::string customer;
-  std::string date;  ///< text of the user; no clock is read, so that a report that is made again has the same bytes
   std::string standard;
   std::string conditioning;  ///< of the specimens before the test
   std::string terminations;  ///< of the specimen's ends in the grips
   std::string notes;
-  std::string logo;       ///< a PNG or SVG file; empty: none
-  std::string signature;  ///< name below the line for a signature; empty: no line
   ForceUnit force = ForceUnit::kNewton;
   LengthUnit length = LengthUnit::kMillimetre;
 };

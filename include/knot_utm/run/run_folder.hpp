@@ -22,8 +22,8 @@ void require_new_file(const char* argument, const std::string& file, const std::
 /// Makes the folder of a run. Throws InvalidInput (key "--out") where that cannot be done.
 void make_run_folder(const std::string& folder);
 
-/// The text of a run's method.yaml. It refers to a specimen from a file as specimen.csv, to a user's knot as knot.yaml,
-/// and to a logo as logo.png or logo.svg: the copies beside it.
+/// The text of a run's method.yaml. It refers to a specimen from a file as specimen.csv, and to a user's knot as
+/// knot.yaml: the copies beside it.
 std::string method_file_text(const Method& method);
 
 /// Throws InvalidInput (key "--out") where the folder holds a record that the method follows. The run would overwrite
@@ -34,7 +34,7 @@ void require_no_record_in(const std::string& folder, const Method& method);
 /// would write over what somebody wrote by hand.
 void require_no_method_in(const std::string& folder, const std::string& method_file);
 
-/// Writes method.yaml and copies of the files that it names, specimen.csv, knot.yaml and the logo, and removes the
+/// Writes method.yaml and copies of the files that it names, specimen.csv and knot.yaml, and removes the
 /// results of an earlier run or comparison. Throws InvalidInput (key "--out") where the folder cannot be written to or
 /// holds a record that is followed. Throws std::runtime_error where a copy cannot be written. `options`: those of the
 /// command line that decide what the run measures; method.yaml has them as a comment.

@@ -10,7 +10,7 @@ from knot_utm.report.certificate import Check
 from knot_utm.report.curve_figures import small_loads
 from knot_utm.report.curves import few_points, mean_curve
 from knot_utm.report.method_facts import counted, knot_and_materials, label_of, method_facts, particulars, place_of, program, sentence, unit_of
-from knot_utm.report.page import files_of, head_of, Headline, logo_of, render
+from knot_utm.report.page import files_of, head_of, Headline, render
 from knot_utm.report.quantities import (BESIDE, CERTIFICATE, error_shown, GROUPS, is_number, is_rounding, percent, quantity_of, shown,
                                         TABLES)
 from knot_utm.report.results_table import labels_of, NOTHING, short_label
@@ -199,7 +199,7 @@ def report_on_batch(folder, command, version):
     length = batch.units.length
     return render("batch.html.j2", {
         "title": knot_and_materials(batch.method, batch.folder),
-        "head": [*head_of(batch.report), *tested_as(batch)], "report": batch.report, "logo": logo_of(batch),
+        "head": [*head_of(batch.report), *tested_as(batch)], "report": batch.report,
         "headlines": headlines(batch),
         "count": len(batch.specimens), "counted": len(batch.counted), "rejected": list(batch.reasons.items()),
         "patterns": counts(batch, "motion_pattern"), "endings": counts(batch, "ended_by"),

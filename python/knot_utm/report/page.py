@@ -18,7 +18,7 @@ from knot_utm.report.results_table import results_table, short_label
 from knot_utm.report.rod_pictures import pictures
 from knot_utm.report.run import printable, Run
 from knot_utm.report.shapes import final_shape, series_of, shapes_at
-from knot_utm.report.style import embedded, LOOKS
+from knot_utm.report.style import LOOKS
 from knot_utm.report.turnable import turnable
 from knot_utm.report.typefaces import told, without_typeface
 
@@ -37,8 +37,6 @@ FILES = [
     ("saved.bag", "the bag as it was when recorder/save was called"),
     ("specimen.csv", "the shape that was tested"),
     ("knot.yaml", "the knot that was tested"),
-    ("logo.png", "the logo of this report"),
-    ("logo.svg", "the logo of this report"),
     ("failed_step.bin", "the time step that could not be solved"),
     ("comparison.yaml", "the comparison in full precision"),
     ("a.csv", "curve A as compared"),
@@ -68,7 +66,7 @@ def report_on_run(folder, command, version):
         "result": {**run.result, **told, "warnings": all_in_units(run.result.get("warnings") or [], run.units)},
         "title": knot_and_materials(run.method, run.folder),
         "head": [*head_of(run.report), *particulars(run.report, run.method, run.value("gauge_length"), run.units)],
-        "report": run.report, "logo": logo_of(run), "headlines": headlines(run, largest),
+        "report": run.report, "headlines": headlines(run, largest),
         "facts": method_facts(run.method, run.units, run.folder), "program": program(run.method, run.units),
         "gave_up": run.result.get("ended_by") == "solver", "results": results, "unmeasured": unmeasured, "untold": untold,
         "checks": checks, "verdict": words, "good": good,
@@ -118,29 +116,12 @@ def between_readings(run):
     return texts[0] if peak is not None and line > peak and texts[0] != texts[1] else None
 
 
-HEAD = (("specimen_id", "Specimen"), ("operator", "Operator"), ("customer", "Customer"), ("date", "Date"),
-        ("standard", "Standard"), ("conditioning", "Conditioning"), ("terminations", "Terminations"))
+HEAD = (("specimen_id", "Specimen"), ("standard", "Standard"), ("conditioning", "Conditioning"), ("terminations", "Terminations"))
 
 
 def head_of(report):
     """[(key, label, text)] of what the user gave."""
     return [(key, label, report[key]) for key, label in HEAD if report.get(key)]
-
-
-LOGOS = {".png": "image/png", ".svg": "image/svg+xml"}
-
-
-def logo_of(run):
-    """The logo as a data: URI; None where there is none."""
-    name = run.report.get("logo")
-    if not name:
-        return None
-    file = os.path.join(run.folder, name)
-    try:
-        with open(file, "rb") as content:
-            return embedded(LOGOS[os.path.splitext(name)[1]], content.read())
-    except (OSError, KeyError) as why:
-        raise CannotReport(f"{file}: the logo cannot be read: {getattr(why, 'strerror', None) or why}") from why
 
 
 # What a reader looks for first.

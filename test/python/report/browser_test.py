@@ -83,7 +83,7 @@ USE = """<script>window.addEventListener("load", () => {
 def setUpModule():
     global folders, run, comparison, batch
     folders = Folders()
-    run = folders.run("run", FISHERMAN, "--report", "--set", "report={operator: 山田太郎, customer: C, date: today}")
+    run = folders.run("run", FISHERMAN, "--report", "--set", "report={specimen_id: 山田太郎, conditioning: C, terminations: T}")
     other = folders.run("other", [*FISHERMAN, "--set", "material.friction_coefficient=0.5"])
     comparison = os.path.join(folders.path, "comparison")
     done = tool("compare", f"{run}/curve.csv", f"{other}/curve.csv", "--report", comparison)
