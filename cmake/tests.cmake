@@ -42,7 +42,7 @@ foreach(room ${core_rooms})
   endif()
 endforeach()
 foreach(room method raw verdict run study) # some run the programs
-  add_dependencies(test_${room} compare tensile_test replay_step)
+  add_dependencies(test_${room} compare tensile_test)
 endforeach()
 knot_utm_tests(rooms_test quick test/rooms_test.cpp)
 add_custom_target(core_tests DEPENDS ${room_tests} rooms_test)

@@ -19,7 +19,6 @@
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -57,7 +56,6 @@ struct TestingMachine::Impl {
   StepControl control{StepControl::Options{}};
   LoadCell cell;
   std::optional<RodBreak> breaks;             // of a rod that can part
-  bool refused = false;                       // by it, the step that was tried last, though it was solved
   std::unique_ptr<Tying> tying;               // where it can be tied
   std::optional<KnotWatch> watch;             // where it is knotted
   std::optional<FreeEnds> free_ends;          // where its file says which they are
@@ -83,7 +81,6 @@ struct TestingMachine::Impl {
   std::vector<Sample> substeps;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
-  std::string failed_step;
 
   Impl(const SpecimenOptions& specimen_, const Material& material_, const MachineOptions& machine_,
        const PhysicsOptions& physics_)
@@ -130,12 +127,7 @@ struct TestingMachine::Impl {
                     centreline.points, centreline.windings());
     }
     if (can_part(material)) breaks.emplace(material, *stepper, kNearBreak * options.longest);
-    if (breaks || !frame.rigid())
-      stepper->refuse_by([this](const Points& end, double dt) {
-        std::string why = refuse(end, dt);
-        refused = !why.empty();
-        return why;
-      });
+    if (breaks || !frame.rigid()) stepper->refuse_by([this](const Points& end, double dt) { return refuse(end, dt); });
     extension_zero = grips.end_to_end(grip);
   }
 
@@ -178,7 +170,6 @@ struct TestingMachine::Impl {
     const double travel = mounts() ? displacement + tying->mounting_velocity(command.speed) * (to - from)
                                    : start.displacement + fraction * (command.displacement - start.displacement);
     travel_tried = travel;
-    refused = false;
     // This depends on the last accepted state only, so that a step that is tried again begins from the same.
     if (!frame.rigid()) borne_before = grips.force_upper(*stepper);
     boundary.extra_drag = drag_of_settling(to) + (tying ? tying->extra_drag(to) : 0.0);
@@ -415,11 +406,7 @@ struct TestingMachine::Impl {
       if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
     } else if (!gave_up.empty() || status == BenchStatus::kFailed) {
       status = BenchStatus::kFailed;
-      if (!gave_up.empty()) {
-        message = gave_up;
-        // A step that was solved, and then refused as one that no rod makes, would be made when it is tried again.
-        if (!refused) failed_step = save_step(*stepper, boundary, time, control.last_tried());
-      }
+      if (!gave_up.empty()) message = gave_up;
     } else {
       if (!mounts()) displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
@@ -451,7 +438,6 @@ TestingMachine& TestingMachine::operator=(TestingMachine&&) noexcept = default;
 
 Sample TestingMachine::respond(const Command& command) { return impl_->respond(command); }
 const std::vector<Sample>& TestingMachine::substeps() const { return impl_->substeps; }
-const std::string& TestingMachine::failed_step() const { return impl_->failed_step; }
 const RodProperties& TestingMachine::rod() const { return impl_->stepper->rod(); }
 const RodState& TestingMachine::state() const { return impl_->stepper->state(); }
 Vec3 TestingMachine::lower_grip() const { return impl_->grips.lower(); }

@@ -126,8 +126,6 @@ void KnotNode::answer(const Crosshead& message) {
     record->steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
   }
   if (shape_is_due(command, sample_) || sample_.status == BenchStatus::kFailed) put_shape(*record);
-  const std::string& failed_step = machine_.failed_step();
-  record->failed_step.assign(failed_step.begin(), failed_step.end());
   kept_.push_back(record);
   if (kept_.size() > kKeptAnswers) kept_.pop_front();
   publish(*record);

@@ -13,7 +13,6 @@
 #include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/run_bag.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
-#include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
 #include "wall_time.hpp"
@@ -195,8 +194,6 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
       run.shape = points_from_message(record->shape);
       run.shape_sequence = command.sequence;
     }
-    // Before the record is acknowledged: whoever has that record has this too.
-    if (!record->failed_step.empty()) keep_failed_step(*record);
     if (command.sequence == run.next) {
       write(*record);
       write_early();
@@ -217,10 +214,6 @@ void RecorderNode::write(const KnotRecord& record) {
   run_->samples->append(kept);
   keep(kept);
   run_->stamp = record.command.header.stamp;
-}
-
-void RecorderNode::keep_failed_step(const KnotRecord& record) {
-  write_whole(failed_step_file(run_->folder), std::string(record.failed_step.begin(), record.failed_step.end()));
 }
 
 void RecorderNode::keep(const Record& record) {
@@ -339,10 +332,6 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
   } catch (const std::exception& error) {
     return fail(error.what());
   }
-  const std::string failed_step = failed_step_file(run.folder);
-  if (fs::exists(failed_step))
-    ROS_WARN("the time step that failed can be looked at by: %s",
-             command_line({script_path("replay-step"), failed_step}).c_str());
   if (run.dropped > 0)
     ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
   ROS_INFO("%zu readings were written to %s", run.rows, run.folder.c_str());

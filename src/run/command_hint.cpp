@@ -3,8 +3,6 @@
 #include <filesystem>
 #include <system_error>
 
-#include "knot_utm/method/shipped.hpp"
-
 namespace knot_utm {
 namespace {
 
@@ -38,13 +36,6 @@ std::string program_beside(const std::string& name) {
   std::error_code error;
   const fs::path running = fs::read_symlink("/proc/self/exe", error);
   return error ? name : from_here(running.parent_path() / name);
-}
-
-std::string script_path(const std::string& name) {
-  std::error_code error;
-  // That of the sources comes last.
-  const fs::path script = fs::path(shipped_folders().back()).parent_path() / "scripts" / name;
-  return fs::exists(script, error) ? from_here(script.lexically_normal()) : "scripts/" + name;
 }
 
 }  // namespace knot_utm

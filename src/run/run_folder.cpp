@@ -27,15 +27,14 @@ namespace fs = std::filesystem;
 
 const std::string kResolved = "# Everything resolved: runs again to the same curve.\n";
 const std::string kOptions = "# It was run with: ";  // below that
-constexpr const char* kFailedStep = "failed_step.bin";
-constexpr const char* kSpecimen = "specimen_";  // and a number, the folder of one
+constexpr const char* kSpecimen = "specimen_";       // and a number, the folder of one
 
 /// What a run writes over when it begins, or leaves to who made it.
 constexpr std::array<const char*, 4> kWritten{"method.yaml", "specimen.csv", "knot.yaml", "comparison.yaml"};
 /// What it takes away when it begins.
-constexpr std::array<const char*, 14> kOld{
-    "samples.csv", "shapes.bin", "curve.csv",   "curve_full.csv", "result.yaml", "final_shape.csv", "shapes.csv",
-    "test.bag",    "saved.bag",  "report.html", "report.pdf",     kFailedStep,   "statistics.yaml", "specimens.csv"};
+constexpr std::array<const char*, 13> kOld{
+    "samples.csv", "shapes.bin", "curve.csv",   "curve_full.csv", "result.yaml",     "final_shape.csv", "shapes.csv",
+    "test.bag",    "saved.bag",  "report.html", "report.pdf",     "statistics.yaml", "specimens.csv"};
 
 /// What `compare --report` left; curves a.csv and b.csv without its comparison.yaml are somebody else's.
 void remove_comparison(const fs::path& folder) {
@@ -196,8 +195,6 @@ std::string what_stands(const std::string& folder) {
   return "; what was measured until then stands in " + samples_file(folder) +
          ", make the results of it by: " + command_line({program_beside("tensile_test"), "--from-samples", folder});
 }
-
-std::string failed_step_file(const std::string& folder) { return (fs::path(folder) / kFailedStep).string(); }
 
 void write_whole(const std::string& file, const std::string& text) {
   const std::string part = file + ".part";

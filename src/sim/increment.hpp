@@ -213,8 +213,6 @@ class Increment {
   }
 
   const WorstResidual& worst_residual() const { return worst_; }
-  double factor() const { return factor_; }  ///< damping factor of the last change; 0: this is the prediction
-  double motion() const { return motion_; }  ///< largest motion of a node by the last change [m]
 
  private:
   int nodes() const { return static_cast<int>(eq_.force.size()); }
@@ -244,7 +242,8 @@ class Increment {
   const StepStart start_;
   bool predicts_;
   WorstResidual worst_;
-  double factor_ = 0.0, motion_ = 0.0;
+  double factor_ = 0.0;  // damping factor of the last change; 0: this is the prediction
+  double motion_ = 0.0;  // largest motion of a node by the last change [m]
 };
 
 }  // namespace knot_utm

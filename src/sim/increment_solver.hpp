@@ -7,16 +7,14 @@ namespace knot_utm {
 
 /// Solves the increment of a step in one of the ways of `SolveStrategy` (time_step.hpp).
 ///
-/// Each of them makes its own `Increment`, so that all of them begin at the prediction. `watch(increment)` is called
-/// after every evaluation of the residual.
-template <int D, typename StrandContact, typename Watch>
+/// Each of them makes its own `Increment`, so that all of them begin at the prediction.
+template <int D, typename StrandContact>
 class IncrementSolver {
  public:
   using TheEquation = Equation<D, StrandContact>;
   using TheIncrement = Increment<D, StrandContact>;
 
-  IncrementSolver(TheEquation& equation, const StepStart& start, const Watch& watch)
-      : equation_(equation), start_(start), watch_(watch) {}
+  IncrementSolver(TheEquation& equation, const StepStart& start) : equation_(equation), start_(start) {}
 
   /// Solves in the given way. The equation is left at the last trial, and `worst` is its largest residual.
   NewtonSummary solve(SolveStrategy strategy, WorstResidual& worst) {
@@ -34,14 +32,9 @@ class IncrementSolver {
   /// The system that Newton's method solves: an increment with one linearisation of friction.
   struct System {
     TheIncrement& increment;
-    const Watch& watch;
     Linearisation of_friction;
 
-    double residual() {
-      const double out = increment.residual();
-      watch(increment);
-      return out;
-    }
+    double residual() { return increment.residual(); }
     double tolerance() const { return increment.tolerance(); }
     bool solve() { return increment.solve(of_friction); }
     void move(double factor) { increment.move(factor); }
@@ -49,7 +42,7 @@ class IncrementSolver {
   };
 
   NewtonSummary run(TheIncrement& increment, Linearisation of_friction, const NewtonOptions& options) {
-    System system{increment, watch_, of_friction};
+    System system{increment, of_friction};
     NewtonSummary out = newton(system, options);
     worst_ = increment.worst_residual();
     return out;
@@ -88,7 +81,6 @@ class IncrementSolver {
 
   TheEquation& equation_;
   const StepStart& start_;
-  const Watch& watch_;
   WorstResidual worst_;
 };
 

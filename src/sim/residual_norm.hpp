@@ -9,11 +9,10 @@
 
 namespace knot_utm {
 
-/// The largest residual of a trial, and the node or edge that has it.
+/// The largest residual of a trial, and its node: that of an edge is the node before it.
 struct WorstResidual {
-  double residual = 0.0;  ///< divided by the node's tolerance scaling [N]
+  double residual = 0.0;  ///< divided by the node's tolerance scaling; of an edge its torque over the radius [N]
   int node = -1;          ///< -1: none, because all nodes are held
-  bool spin = false;      ///< the residual is the torque on the edge after the node, divided by the radius
 };
 
 /// The norm in which Newton's method measures a residual: its tolerance, and the scaling of the tolerance by the
@@ -59,7 +58,7 @@ class ResidualNorm {
       const Lanes& f = force[static_cast<std::size_t>(i)];
       const double size2 = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
       const double scaling = this->scaling(centreline.largest_tension_at(i), tolerance);
-      if (!std::isfinite(size2)) return {size2, i, false};
+      if (!std::isfinite(size2)) return {size2, i};
       const double scaled2 = size2 / (scaling * scaling);
       if (out.node >= 0 && scaled2 <= largest2) continue;
       largest2 = scaled2;
@@ -77,8 +76,8 @@ class ResidualNorm {
     for (int i = 0; i + 1 < static_cast<int>(force.size()); ++i) {
       if (frames.held(i)) continue;
       const double size = std::abs(force[static_cast<std::size_t>(i)][3]) / radius;
-      if (!std::isfinite(size)) return {size, i, true};
-      if (size > worst.residual) worst = {size, i, true};
+      if (!std::isfinite(size)) return {size, i};
+      if (size > worst.residual) worst = {size, i};
     }
     return worst;
   }

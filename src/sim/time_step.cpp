@@ -9,7 +9,6 @@
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "watch_increment.hpp"
 
 namespace knot_utm {
 
@@ -34,7 +33,7 @@ class ImplicitStep final : public TimeStep {
     const StepStart start{state_, boundary, dt};
     StepSummary summary;
     WorstResidual worst;
-    summary.newton = solve(start, strategy, worst);
+    summary.newton = IncrementSolver<D, StrandContact>(equation_, start).solve(strategy, worst);
     increment_.noalias() = equation_.x - state_.position;
     const SolvedStep step{start, equation_.x, increment_, equation_.force, equation_.held.nodes()};
     if (!summary.newton.converged()) {
@@ -76,13 +75,6 @@ class ImplicitStep final : public TimeStep {
   void cut(int edge) {
     equation_.part(edge);
     tunnelling_.part(edge);
-  }
-
-  NewtonSummary solve(const StepStart& start, SolveStrategy strategy, WorstResidual& worst) {
-    const auto watch = [&](const Increment<D, StrandContact>& increment) {
-      if (watcher_) watcher_(iterate_of(equation_, increment));
-    };
-    return IncrementSolver<D, StrandContact, decltype(watch)>(equation_, start, watch).solve(strategy, worst);
   }
 
   void commit(const SolvedStep& step) {

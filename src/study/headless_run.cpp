@@ -110,10 +110,6 @@ HeadlessOutcome run_to_end(const Test& test) {
   out.reason = test.program.reason();
   out.failed = test.program.failed();
   samples.end({test.program.ended_by(), out.ended ? out.reason : kInterrupted}, test.bench.state().position);
-  if (!test.bench.failed_step().empty()) {
-    out.failed_step = failed_step_file(test.folder);
-    write_whole(out.failed_step, test.bench.failed_step());
-  }
   out.results = make_with_margin(test.folder, test.method, test.options, true).results;
   out.wall_time = clock.seconds();
   return out;

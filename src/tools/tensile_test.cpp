@@ -105,13 +105,9 @@ void tell_summary(const std::string& folder, const char* file, const std::string
 void tell_end(const HeadlessOutcome& outcome, const Method& method, const std::string& latest, bool quiet) {
   const Results& results = outcome.results;
   const char* folder = outcome.folder.c_str();
-  if (*outcome.ended == EndedBy::kSolver) {
+  if (*outcome.ended == EndedBy::kSolver)
     std::fprintf(stderr, "%s: the physics gave up: %s; what was measured until then is in %s\n", kTool,
                  outcome.reason.c_str(), folder);
-    if (!outcome.failed_step.empty())
-      std::fprintf(stderr, "%s: the time step that failed can be looked at by: %s\n", kTool,
-                   command_line({script_path("replay-step"), outcome.failed_step}).c_str());
-  }
   if (*outcome.ended == EndedBy::kBreak && outcome.failed)
     std::fprintf(stderr, "%s: the test failed: %s; its results are in %s\n", kTool, outcome.reason.c_str(), folder);
   if (!quiet) tell_summary(outcome.folder, "result.yaml", latest);

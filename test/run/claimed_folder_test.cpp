@@ -36,9 +36,9 @@ TEST_F(ClaimedFolderOf, ARunIsTheOneAskedForWhereNothingWouldBeLost) {
 }
 
 TEST_F(ClaimedFolderOf, ARunIsTheNextFreeOneWhereSomethingWould) {
-  for (const char* name : {"result.yaml", "curve.csv", "curve_full.csv", "method.yaml", "specimen.csv", "knot.yaml",
-                           "test.bag", "saved.bag", "final_shape.csv", "shapes.csv", "samples.csv", "comparison.yaml",
-                           "report.html", "report.pdf", "failed_step.bin"}) {
+  for (const char* name :
+       {"result.yaml", "curve.csv", "curve_full.csv", "method.yaml", "specimen.csv", "knot.yaml", "test.bag",
+        "saved.bag", "final_shape.csv", "shapes.csv", "samples.csv", "comparison.yaml", "report.html", "report.pdf"}) {
     const std::string asked = in(std::string(name) + "_is_there");
     fs::create_directories(asked);
     write_whole(asked + "/" + name, "measured");

@@ -60,6 +60,13 @@ TEST_F(HeadlessRun, InterruptedItLeavesWhatWasMeasured) {
   EXPECT_FALSE(has_complete_result(options.folder));
 }
 
+TEST_F(HeadlessRun, ThatGaveUpSaysWhy) {
+  const HeadlessOutcome outcome = run_headless(load_method(KNOT_UTM_SOURCE_DIR "/test/ros/impossible.yaml"), options);
+  EXPECT_EQ(outcome.ended, EndedBy::kSolver);
+  EXPECT_THAT(outcome.reason, HasSubstr("the time step fell below"));
+  EXPECT_THAT(outcome.reason, HasSubstr("the residual is largest at node "));
+}
+
 TEST_F(HeadlessRun, KeepsShapesWhereAskedAndChangesNothingElse) {
   const auto shapes = [&] { return options.folder + "/shapes.csv"; };
   ASSERT_TRUE(run_headless(method, options).ended);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/verdict/run_facts.hpp"
 #include "run/command.hpp"
 
 namespace knot_utm {
@@ -109,17 +108,11 @@ TEST_F(PlainMessages, OfAMaterial) {
 }
 
 TEST_F(PlainMessages, OfTheOtherTools) {
-  write("text.csv", "Hello\n");
   EXPECT_EQ(said("compare", "a.csv"), "compare: B is missing: give the other curve");
   EXPECT_EQ(said("compare", "a.csv b.csv --begins-at far"), "compare: --begins-at is far, but must be a number");
   EXPECT_EQ(said("compare", "a.csv b.csv --tolerance some"),
             "compare: --tolerance is some, but must be a number of at least 0");
   EXPECT_EQ(said("compare", "nosuch.csv nosuch.csv"), "compare: cannot read nosuch.csv: no such file");
-  EXPECT_EQ(said("replay_step", "nosuch.bin"), "replay_step: cannot read nosuch.bin: no such file");
-  EXPECT_EQ(said("replay_step", "text.csv"),
-            "replay_step: text.csv: the time step cannot be loaded: first line: found that of a foreign file, expected "
-            "\"knot_utm time step, version " +
-                version() + "\"");
 }
 
 }  // namespace

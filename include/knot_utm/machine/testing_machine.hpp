@@ -34,9 +34,6 @@ class TestingMachine {
   /// accepted step, and every later command gets the same answer.
   Sample respond(const Command& command);
 
-  /// After a failure: the time step that could not be solved, as the content of a file (saved_step.hpp); else empty.
-  const std::string& failed_step() const;
-
   /// One sample for every accepted time step of the last command, the last of them what `respond` returned.
   const std::vector<Sample>& substeps() const;
 

@@ -84,7 +84,6 @@ class RecorderNode {
   static ClaimedFolder claim(const std::string& asked, const Method& method);
   void go_on(const std::string& folder);
   void write(const KnotRecord& record);
-  void keep_failed_step(const KnotRecord& record);
   void keep(const Record& record);
   void write_early();
   void give_up_gap();

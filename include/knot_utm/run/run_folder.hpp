@@ -68,10 +68,6 @@ std::optional<std::string> result_of(const std::string& folder, const std::strin
 /// where nothing stands.
 std::string what_stands(const std::string& folder);
 
-/// The path of the file with the time step that the simulation could not solve (sim/saved_step.hpp), for
-/// scripts/replay-step.
-std::string failed_step_file(const std::string& folder);
-
 /// Writes a file so that it appears either completely or not at all. Throws std::runtime_error.
 void write_whole(const std::string& file, const std::string& text);
 

@@ -48,7 +48,6 @@ class StepControl {
   void halt() { halted_ = true; }
 
   const Counters& counters() const { return counters_; }
-  double last_tried() const { return last_tried_; }  ///< length of the last step, accepted or not [s]
 
   void state(Archive& archive) {
     archive(next_, counters_.steps, counters_.rejected, counters_.iterations, watched_from_.time,

@@ -33,22 +33,6 @@ struct StepSummary {
   bool accepted() const { return reason.empty(); }
 };
 
-/// State of the solution of a step after an iteration, for watchers.
-struct Iterate {
-  double residual = 0.0;      ///< the largest, each node's divided by its tolerance scaling (scene.hpp) [N]
-  double tolerance = 0.0;     ///< what it must not exceed [N]
-  int node = -1;              ///< with the largest residual; -1: none, all are held
-  bool spin = false;          ///< the residual is the torque on the edge behind the node, over the radius
-  double factor = 0.0;        ///< damping factor of the last change; 0: this is the prediction [-]
-  double motion = 0.0;        ///< of the node that this change moved furthest [m]
-  int active = 0;             ///< contacts in the next linear system
-  int touching = 0;           ///< contacts that carry force
-  bool in_contact = false;    ///< the members below are valid: the deepest contact
-  double overlap = 0.0;       ///< [m]
-  double arclengths[2] = {};  ///< of its two strands at rest; on a roller the first only [m]
-  int roller = -1;            ///< that it is on; -1: between strands
-};
-
 /// One implicit Euler step of a rod with contact and friction: find x at t + dt with
 ///
 ///   M (x - x_n - dt v_n)/dt^2 = -dE/dx + F_contact + F_friction + F_grips + M g - c lbar (x - x_n)/dt,
@@ -77,8 +61,6 @@ class TimeStep {
   /// these places, as if it were drawn so. Contacts still count arclengths and lengths as they were when the step was
   /// made. Stretching energy that this stores or frees goes to the next step's `StepWork::numerical`.
   void lay(const Eigen::VectorXd& rest_length, const Points& position);
-  /// The rod with which it was made.
-  const RodProperties& made_with() const { return made_with_; }
 
   const RodProperties& rod() const { return rod_; }
   const RodState& state() const { return state_; }
@@ -95,9 +77,6 @@ class TimeStep {
   // While `judge` is asked: what the solved step would have a node's holder, and a roller, bear [N].
   virtual Vec3 tried_reaction(int node) const = 0;
   virtual Vec3 tried_roller_force(int roller) const = 0;
-
-  /// From now on `watcher` is called with every iterate; an empty one ends that.
-  void watch(std::function<void(const Iterate&)> watcher) { watcher_ = std::move(watcher); }
 
   /// What the last accepted step did to everything around the rod, and where its work went.
   virtual const StepReadings& readings() const = 0;
@@ -119,7 +98,6 @@ class TimeStep {
   RodState state_;
   StepSettings settings_;
   RodProperties made_with_;
-  std::function<void(const Iterate&)> watcher_;
   std::function<std::string(const Points& end, double dt)> judge_;
   int parted_edge_ = -1;
 };

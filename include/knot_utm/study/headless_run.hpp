@@ -51,7 +51,6 @@ struct HeadlessOutcome {
   std::optional<EndedBy> ended;  ///< empty: it was interrupted
   std::string reason;            ///< reason of the end, one line
   bool failed = false;           ///< the simulation gave up
-  std::string failed_step;       ///< file with the time step that could not be solved; empty: there is none
   Results results;               ///< what was measured
   double wall_time = 0.0;        ///< wall time of the whole test, including that of a tying taken from the cache [s]
 };

@@ -37,7 +37,6 @@ FILES = [
     ("saved.bag", "the bag as it was when recorder/save was called"),
     ("specimen.csv", "the shape that was tested"),
     ("knot.yaml", "the knot that was tested"),
-    ("failed_step.bin", "the time step that could not be solved"),
     ("comparison.yaml", "the comparison in full precision"),
     ("a.csv", "curve A as compared"),
     ("b.csv", "curve B as compared"),
