@@ -21,7 +21,7 @@ std::map<std::string, std::set<std::string>> table_of_rooms() {
   std::map<std::string, std::set<std::string>> table;
   std::ifstream file(fs::path(KNOT_UTM_SOURCE_DIR) / "cmake/rooms.txt");
   for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
+    if (line.empty() || line[0] == '#' || line[0] == '=') continue;
     std::istringstream words(std::regex_replace(line, std::regex(":"), " "));
     std::string room, used;
     words >> room;
