@@ -1,6 +1,4 @@
 """Pulls of a bend of two ropes, as config/knot.yaml has it, from a few starts."""
-import os
-
 from predictions import CPU_LIMIT
 from runs import divide, read_yaml
 
@@ -11,7 +9,7 @@ SPEEDS = (0.9, 1.0, 1.1)  # times it, from start to start: what a person cannot 
 
 def pulls(runner, name, knot, rope, settings):
     """One a start. `rope`: of config/materials/."""
-    radius = read_yaml(os.path.join(runner.root, f"config/materials/{rope}.yaml"))["radius"]
+    radius = read_yaml(f"config/materials/{rope}.yaml")["radius"]
     return [runner.run(f"{name}/{speed:g}", {"specimen.knot": knot, "material": rope,
                                              "program.0.tie.speed": round(TYING_SPEED * radius * speed, 9), **settings},
                        METHOD, cpu_limit=CPU_LIMIT) for speed in SPEEDS]

@@ -1,6 +1,5 @@
 """How the force that a strand around a cylinder presses with, and by which it slides, grows with the tension of its ends."""
 import math
-import os
 
 from predictions import CPU_LIMIT, STARTS, Row, mean_of_all
 from runs import read_yaml
@@ -21,20 +20,13 @@ def of_start(runner, turns, facts, factor):
 
 def pressed(runner, turns, tension, factor):
     """Normal force on the cylinder. With little friction it is what friction adds to the tension, over its coefficient."""
-    scale = scale_of(runner)
+    specimen, rod = (read_yaml(METHOD)[key] for key in ("specimen", "material"))
+    radius, tail = specimen["post_diameter"] / 2 + rod["radius"], specimen["tail"] * factor  # that of the centreline
     run = runner.run(f"capstan/{turns:g}_{tension:g}_{factor:g}", {
-        "specimen.wrap": 2 * math.pi * turns, "specimen.tail_load": tension * scale["force"],
-        "specimen.tail": scale["tail"] * factor, "specimen.end_to_end": scale["tail"] * factor}, METHOD, cpu_limit=CPU_LIMIT)
+        "specimen.wrap": 2 * math.pi * turns, "specimen.tail_load": tension * (float(rod["bending_stiffness"]) / radius ** 2),
+        "specimen.tail": tail, "specimen.end_to_end": tail}, METHOD, cpu_limit=CPU_LIMIT)
     ratio = run.reading("force_ratio")
     return None if ratio is None else (ratio - 1.0) * tension / run.method["machine"]["roller_friction"]
-
-
-def scale_of(runner):
-    """Of the method: k_b/R^2, R being the radius of the strand's centreline, and the length of its tail."""
-    method = read_yaml(os.path.join(runner.root, METHOD))
-    specimen, rod = method["specimen"], method["material"]
-    radius = specimen["post_diameter"] / 2 + rod["radius"]  # of the centreline
-    return {"force": float(rod["bending_stiffness"]) / radius ** 2, "tail": specimen["tail"]}
 
 
 def exponent(forces, low, high):

@@ -79,11 +79,11 @@ def bound(scatter, starts):
     return max(LEAST_BOUND, SIGMAS * scatter * math.sqrt(1.0 / starts + 1.0 / STARTS))
 
 
-def held(file=TABLE):
+def held():
     """{test: Held}; empty where there is no table."""
     rows = {}
     try:
-        with open(file, encoding="utf-8", newline="") as text:
+        with open(TABLE, encoding="utf-8", newline="") as text:
             for row in csv.DictReader(text):
                 rows.setdefault(row["run"], {})[row["quantity"]] = row["value"]
     except OSError:
@@ -123,11 +123,7 @@ def side_by_side(table, found):
 def report(runner, _):
     before, found = held(), counts(runner, {name: STARTS for name in TESTS})
     table = Table(f"Work of {STARTS} starts", list(TESTS))
-
-    def add(quantity, unit, values, gate=None, digits=".4g"):
-        table.add(quantity, unit, values, gate, digits)
-
-    each = list(found.values())
+    add, each = table.add, list(found.values())
     scatter = [divide(deviation(count.iterations), mean(count.iterations)) for count in each]
     add("every start ended", "-", [count.ended for count in each], is_(True))
     add(ITERATIONS, "-", [mean(count.iterations) for count in each], digits=".1f")

@@ -205,6 +205,6 @@ def closest_approach(points):
     return distance[np.abs(length[:, None] - length[None]) > 3.0 * distance].min()
 
 
-def significant(value, digits=5):
+def significant(value):
     """Short enough to be typed again."""
-    return float(f"{value:.{digits}g}")
+    return float(f"{value:.5g}")

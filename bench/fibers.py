@@ -8,7 +8,7 @@ import os
 import numpy as np
 
 from predictions import CPU_LIMIT, STARTS, Row, mean_of_all
-from runs import read_curve, read_yaml
+from runs import read_yaml
 from table import within
 
 CAPSTAN, KNOT, YARN = (f"config/validation/{name}.yaml" for name in ("thin_capstan", "open_overhand", "two_ply_yarn"))
@@ -30,7 +30,7 @@ def answers(run):
 
 def capstans(runner, facts):
     """Logarithm of the ratio of tensions, over friction times angle: 1 for a thread."""
-    specimen, rod = (read_yaml(os.path.join(runner.root, CAPSTAN))[key] for key in ("specimen", "material"))
+    specimen, rod = (read_yaml(CAPSTAN)[key] for key in ("specimen", "material"))
     thickness = rod["radius"] / (specimen["post_diameter"] / 2 + rod["radius"])
     out = []
     for friction in facts["friction"]:
@@ -69,7 +69,7 @@ def branches(runner, facts):
 
 def both(runner, facts, eps, factor):
     """eps in the middle of the way, and both ratios; None where the run gave up. eps^2: radius of the rod over that of the loop."""
-    rod = read_yaml(os.path.join(runner.root, KNOT))["material"]
+    rod = read_yaml(KNOT)["material"]
     radius, friction = rod["radius"] / eps ** 2, eps * facts["friction"]
     apart = round(facts["apart"] * radius * factor, 9)
     length, speed = apart + 2 * math.pi * radius, facts["speed"] * radius
@@ -120,7 +120,7 @@ def yarn(runner, friction, turns, factor):
     """Torque over that of the closed form for the middle half of the yarn as it is; sine of the angle between strand and axis there over
     that of two helices from clamp to clamp; by what share clamps, which keep ends straight, may shorten the helix. None where the run gave
     up."""
-    method = read_yaml(os.path.join(runner.root, YARN))
+    method = read_yaml(YARN)
     program = method["program"]
     program[1]["twist"]["turns"] = turns
     run = runner.run(f"yarn/{friction:g}_{turns}_{factor:g}", {
@@ -130,7 +130,7 @@ def yarn(runner, friction, turns, factor):
     if not samples:
         return None
     rod, last = method["material"], samples[-1]
-    radius, angle, twist = middle_of(read_curve(os.path.join(run.folder, "shapes.csv")))
+    radius, angle, twist = middle_of(run.last_shape())
     force, torque, turn = (float(last[name]) for name in ("force_upper", "torque", "turn"))
     length = next(float(sample["end_to_end"]) for sample in samples if sample["phase"] == "twist")
     k_b, k_t = (float(rod[name]) for name in ("bending_stiffness", "twisting_stiffness"))
@@ -146,11 +146,10 @@ def torque_of(force, radius, angle, twist, k_b, k_t):
     return force * radius * sine / cosine + 4 * k_b * sine ** 3 / radius + 2 * k_t * twist * math.cos(2 * angle) / cosine
 
 
-def middle_of(shapes):
-    """Of the middle half of the two strands at the last time: radius, angle [rad] and twist [rad/m]."""
-    time = np.array(shapes["time"])
-    x, y, z, twist, rope = (np.array(shapes[name])[time == time[-1]] for name in ("x", "y", "z", "twist", "rope"))
-    strands = [np.array([x, y, z, twist])[:, rope == number] for number in (1, 2)]
+def middle_of(shape):
+    """Of the middle half of the two strands: radius, angle [rad] and twist [rad/m]."""
+    columns = np.array([shape[name] for name in ("x", "y", "z", "twist")])
+    strands = [columns[:, shape["rope"] == number] for number in (1, 2)]
     strands[1] = strands[1][:, ::-1]  # drawn downwards
     nodes = strands[0].shape[1]
     one, other = (strand[:, nodes // 4:3 * nodes // 4] for strand in strands)

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from predictions import CPU_LIMIT, STARTS, Row, mean_of_all
-from runs import read_curve, read_yaml
+from runs import read_yaml
 from table import above, at_most, within
 
 METHOD = "config/validation/clove_hitch_pressure.yaml"
@@ -19,30 +19,24 @@ def rows(runner, facts):
 
 def pressed(runner, rope, settings, tension, factor):
     """Tension of the ends and normal force on the post [k_b/R^2, R radius of the strand's centreline]; None where the run gave up."""
-    material = read_yaml(os.path.join(runner.root, f"config/materials/{settings['material']}.yaml"))
-    scale = scale_of(runner, material)
-    tail = read_yaml(os.path.join(runner.root, METHOD))["specimen"]["tail"]
+    material = read_yaml(f"config/materials/{settings['material']}.yaml")
+    scale = scale_of(material)
+    tail = read_yaml(METHOD)["specimen"]["tail"]
     run = runner.run(f"hitch/{rope.replace(' ', '_')}_{tension:g}_{factor:g}", {
         **settings, "material.friction_coefficient": 0, "specimen.preload": tension * scale,
         "specimen.tail": round(tail * factor, 9)}, METHOD, more=["--shapes"], cpu_limit=CPU_LIMIT)
     if run.exit_code != 0:
         return None
-    shape = last_shape(read_curve(os.path.join(run.folder, "shapes.csv")))
+    shape = run.last_shape()
     between = strands_on_strands(os.path.join(run.folder, "samples.csv"), shape["time"][0])
     stretch = stretch_of(shape["tension"][:-1] / float(material["stretching_stiffness"]), run.method["material"].get("stretching_law"))
     return tension_of(shape) / scale, post_force(shape, stretch, between) / scale
 
 
-def scale_of(runner, material):
+def scale_of(material):
     """k_b/R^2, the post being so many radii of the rod."""
-    post = read_yaml(os.path.join(runner.root, "config/knots/clove_hitch.yaml"))["posts"][0]["radius"]
+    post = read_yaml("config/knots/clove_hitch.yaml")["posts"][0]["radius"]
     return float(material["bending_stiffness"]) / ((post + 1) * material["radius"]) ** 2
-
-
-def last_shape(shapes):
-    """Columns of shapes.csv at the last of its times."""
-    time = np.array(shapes["time"])
-    return {name: np.array(column)[time == time[-1]] for name, column in shapes.items()}
 
 
 def strands_on_strands(samples, time):

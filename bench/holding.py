@@ -3,7 +3,7 @@ from dataclasses import dataclass
 
 from bend_orders import rank_correlation
 from bends import SPEEDS, load_of, pulls
-from predictions import Row, mean_of_all
+from predictions import NOTHING, Row, mean_of_all, text_of_mean
 from table import Table, at_least
 
 
@@ -47,7 +47,7 @@ def order_of_slips(bends, facts):
     return rank_correlation({knot: bends[knot].load for knot in facts["slip"]}, facts["slip"])
 
 
-def row(bends, facts, fitted="nothing"):
+def row(bends, facts, fitted=NOTHING):
     count, everyone = right(bends, facts), len(bends)
     return Row(facts["what"], f"{everyone} of {everyone}", count, "", count / everyone, at_least(facts.get("right", everyone)),
                facts["source"], fitted, facts["if_it_fails"])
@@ -77,4 +77,4 @@ def table_of(title, cases, facts):
 
 
 def text_of(bend):
-    return "missing" if bend.held is None else f"{bend.held}: {bend.load[0]:.3g} +/- {bend.load[1]:.2g}"
+    return "missing" if bend.held is None else f"{bend.held}: {text_of_mean(*bend.load)}"

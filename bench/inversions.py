@@ -1,6 +1,4 @@
 """Overhands that invert as they are pulled: how far apart their ends are then, against photographs."""
-import os
-
 from predictions import CPU_LIMIT, STARTS, Row, mean_of_all
 from runs import read_yaml
 from table import within
@@ -13,7 +11,7 @@ def rows(runner, facts):
 
 def run_of(runner, name, factor):
     method = f"config/validation/{name}.yaml"
-    apart = read_yaml(os.path.join(runner.root, method))["specimen"]["end_to_end"]
+    apart = read_yaml(method)["specimen"]["end_to_end"]
     return runner.run(f"{name}/{factor:g}", {"specimen.end_to_end": round(apart * factor, 9)}, method, cpu_limit=CPU_LIMIT)
 
 

@@ -1,6 +1,5 @@
 """Knots from files: how far the load at which they slip or part is off, and whether the mesh decides which of both they do."""
 import math
-import os
 
 from runs import divide, mean, read_yaml, standard_error
 from table import Report, Table, at_most
@@ -26,7 +25,7 @@ def report(runner, materials, seeds=2, knots=None):
 
 
 def study(runner, material, seeds, knots):
-    radius = read_yaml(os.path.join(runner.root, f"config/materials/{material}.yaml"))["radius"]
+    radius = read_yaml(f"config/materials/{material}.yaml")["radius"]
     levels = {"normal": {}, "finer": {"physics.accuracy": "fine", "specimen.edge_length": round(FINER * EDGE * radius, 9)}}
     runs = runner.run_all([(f"{material}/{knot}_{level}_{k}",
                             {"specimen.knot": knot, "material": material, "specimen.tail": round(TAIL * radius * TAILS[k], 9), **settings},

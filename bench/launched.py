@@ -30,9 +30,9 @@ def free_port():
             return port
 
 
-def wait_for(what, condition, timeout=LAST_RESORT):
+def wait_for(what, condition):
     """The first true value of condition()."""
-    end = time.monotonic() + timeout
+    end = time.monotonic() + LAST_RESORT
     while True:
         value = condition()
         if value:
@@ -61,13 +61,6 @@ def children(pid):
         except OSError:
             pass
     return found
-
-
-def cpu_time(pid):
-    """Of a process so far [s]."""
-    with open('/proc/%d/stat' % pid, encoding='utf-8') as file:
-        fields = file.read().rsplit(')', 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
 
 def memory(pid):
@@ -167,12 +160,12 @@ class Launch:
             return False
         wait_for('%d rows' % rows, are_there)
 
-    def end(self, timeout=LAST_RESORT):
+    def end(self):
         """Waits for it to end by itself. Returns its exit code."""
         try:
-            return self.process.wait(timeout)
+            return self.process.wait(LAST_RESORT)
         except subprocess.TimeoutExpired:
-            raise AssertionError('goes on after %g s; the console: %s' % (timeout, self.console())) from None
+            raise AssertionError('goes on after %g s; the console: %s' % (LAST_RESORT, self.console())) from None
 
     def console(self):
         with open(os.path.join(self.folder, 'console'), encoding='utf-8', errors='replace') as file:

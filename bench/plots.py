@@ -27,19 +27,6 @@ def panels(file, curves, x_label, y_label):
     save(figure, file)
 
 
-def ratios(file, groups, x_label, y_label, band):
-    """One panel a group of points that should all be one. `groups`: group -> name -> (x, ratios); `band` shows how far
-    off they may be."""
-    figure, all_axes = row_of_axes(groups, 4.6, 3.6)
-    for axes, points in zip(all_axes, groups.values()):
-        axes.axhspan(1.0 - band, 1.0 + band, color="0.92")
-        for (name, (x, y)), marker in zip(points.items(), "o^sv"):
-            axes.plot(x, y, marker, label=name, markerfacecolor="none")
-        axes.set(xscale="log", xlabel=x_label, ylabel=y_label, ylim=(1.0 - 2.0 * band, 1.0 + 2.0 * band))
-        axes.legend(fontsize="x-small")
-    save(figure, file)
-
-
 def strips(file, groups, label):
     """One panel a group: every value over its name, beside it their mean and its standard error. `groups`: group ->
     name -> values."""

@@ -14,16 +14,11 @@ import sys
 import numpy as np
 import yaml
 
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # A process counts the memory of the one it was forked from as its own: a shell is smaller than this.
 SHELLS_CHILD = ["/bin/sh", "-c", '"$@"; exit $?', "sh"]
 METHOD = "config/tighten.yaml"
 JOBS = 2  # runs at a time where their CPU time is not what is judged
-KNOT_DISTANCE, SHIFT = 0.15, 0.00037  # [m] of the shipped test, and from one perturbed start to the next
-
-
-def start(k):
-    """Settings of a perturbed start of the shipped test: its two knots are tied a little further apart each time."""
-    return {"specimen.knot_distance": round(KNOT_DISTANCE + SHIFT * k, 9)}
 
 
 class Runner:
@@ -61,10 +56,6 @@ class Runner:
         self.say(f"{name}: exit {run.exit_code} after {run.cpu_time:.1f} s of CPU time" +
                  (f": {run.said}" if run.said else ""))
         return run
-
-    def least_of(self, times, name, settings, method=METHOD):
-        """Of several runs, whose readings are the same, the one of the least CPU time: what other work adds is no part of it."""
-        return min((self.run(name, settings, method) for _ in range(times)), key=lambda run: run.cpu_time)
 
     def say(self, line):
         if self.verbose:
@@ -118,6 +109,11 @@ class Run:
 
     def nodes(self):
         return len(self.shape["x"]) if self.shape else None
+
+    def last_shape(self):
+        """Columns of shapes.csv at the last of its times."""
+        shapes = {name: np.array(column) for name, column in read_curve(os.path.join(self.folder, "shapes.csv")).items()}
+        return {name: column[shapes["time"] == shapes["time"][-1]] for name, column in shapes.items()}
 
     def pulled(self, *keys):
         """Columns of the pull: extension and load, or those named."""
@@ -183,8 +179,9 @@ def mean_relative_difference(curve, reference, parts=200, averaged=1):
 
 
 def read_yaml(file):
+    """`file`: may be relative to the root of the package, as for read_curve."""
     try:
-        with open(file, encoding="utf-8") as text:
+        with open(os.path.join(ROOT, file), encoding="utf-8") as text:
             return yaml.safe_load(text) or {}
     except OSError:
         return {}
@@ -193,7 +190,7 @@ def read_yaml(file):
 def read_curve(file):
     """Columns by name; the phase as text, all else as numbers."""
     try:
-        with open(file, encoding="utf-8", newline="") as text:
+        with open(os.path.join(ROOT, file), encoding="utf-8", newline="") as text:
             rows = list(csv.reader(text))
     except OSError:
         return {}

@@ -136,7 +136,8 @@ class Soak:
                 self.one_test(launch, machine)
                 self.seconds = time.monotonic() - begin
             self.clock_went_back = machine.clock_went_back
-            self.different += self.headless_differs(launch)
+            with launched.Headless(os.path.join(launch.folder, "soak.yaml")) as headless:
+                self.different += any(headless.different(self.first))
 
     def write_method(self, folder):
         with open(os.path.join(folder, "soak.yaml"), "w", encoding="utf-8") as file:
@@ -156,19 +157,11 @@ class Soak:
         if self.tests == 1:
             self.first = said.directory
         else:
-            self.different += not self.same(self.first, said.directory)
+            self.different += any(filecmp.cmpfiles(self.first, said.directory, launched.FILES, shallow=False)[1:])
             shutil.rmtree(said.directory)
         print(f"test {self.tests}: {self.recorded} samples, "
               + ", ".join(f"{node} {bytes_ / 1e6:.1f} MB" for node, bytes_ in zip(NODES, self.memory[-1])),
               file=sys.stderr, flush=True)
-
-    @staticmethod
-    def same(one, other):
-        return not any(filecmp.cmpfiles(one, other, launched.FILES, shallow=False)[1:])
-
-    def headless_differs(self, launch):
-        with launched.Headless(os.path.join(launch.folder, "soak.yaml")) as headless:
-            return int(not self.same(headless.folder, self.first))
 
     def growth(self, node):
         """Of the least memory that a node held after a test: from the second quarter of the tests to the third, or from

@@ -3,14 +3,13 @@ whether their mean holds still under mesh, step and tolerances."""
 import random
 
 import plots
-import runs
-from runs import deviation, divide, known, mean, standard_error
+from runs import deviation, divide, known, mean, median, standard_error
 from table import REFERENCE, Gate, Report, Table, at_most
-from tighten import MATERIALS, SLIDES
+from tighten import KNOT_DISTANCE, MATERIALS, SLIDES
 
 OTHER_PRELOADS = {"nylon": [130.0, 260.0]}              # beside the material's own [N]
 SEED, COUNT = 19, 12
-KNOT_DISTANCE, TAIL, TYING_SPEED = 0.15, 0.03, 0.01     # as shipped [m, m, m/s]
+TAIL, TYING_SPEED = 0.03, 0.01                          # as shipped [m, m/s]
 SCATTER = {"specimen.knot_distance": (KNOT_DISTANCE, 0.01), "specimen.tail": (TAIL, 0.05),
            "program.tie.speed": (TYING_SPEED, 0.1)}     # mean, standard deviation over mean
 EDGE, STEP = 0.0032, 0.17                               # as shipped, and of `normal` [m, s]
@@ -135,8 +134,7 @@ def table_of(name, each, keys, gated):
         table.add("its standard error, relative", "-", [REFERENCE] + [change.error for change in changes.values()],
                   None, ".2g")
         if key == "true_plateau_force":
-            ripples = [runs.median([divide(run.reading("plateau_force_sd"), run.reading(key)) for run in some])
-                       for some in each.values()]
+            ripples = [median([divide(run.reading("plateau_force_sd"), run.reading(key)) for run in some]) for some in each.values()]
             table.add("ripple of the plateau, median", "-", ripples, RIPPLE if name == "polypropylene" else None, ".2g")
     table.add("mean CPU time of a run", "s", [mean([run.cpu_time for run in some]) for some in each.values()], None, ".2f")
     return table

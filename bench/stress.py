@@ -3,12 +3,12 @@ import math
 import os
 import shutil
 import signal
-import statistics
 import sys
 
 import numpy as np
 import plots
 from draws import METHODS, PAPER_RADIUS, PAPER_SPEED, Draw
+from runs import known, median
 from table import Report, Table, at_most
 
 CPU_LIMIT = 300         # [s] of CPU time; more is a hang
@@ -178,7 +178,7 @@ class Matrix:
                                    ("Newton iterations a step", "-", [o.work() for o in ended]),
                                    ("rejected steps", "-", [o.get("rejected_steps") for o in ended]),
                                    ("CPU time", "s", [o.cpu_time for o in ended])]:
-            table.add(name, unit, quantiles([value for value in values if value is not None]), digits=".3g")
+            table.add(name, unit, quantiles(known(values)), digits=".3g")
         return table
 
     def shares(self):
@@ -215,7 +215,7 @@ def quantiles(values):
     if not values:
         return [None] * 3
     ordered = sorted(values)
-    return [statistics.median(ordered), ordered[math.ceil(0.9 * len(ordered)) - 1], ordered[-1]]
+    return [median(ordered), ordered[math.ceil(0.9 * len(ordered)) - 1], ordered[-1]]
 
 
 def report(runner, seed, numbers, jobs, quick=False, keep=False):

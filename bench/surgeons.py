@@ -1,6 +1,5 @@
 """Surgeon's knots of one thread that are pulled tight: the force over the length that the knot takes up, but for one unknown length."""
 import math
-import os
 
 import numpy as np
 
@@ -14,7 +13,7 @@ SMALLEST = 0.01 / 3  # [N] that a mean of three readings of their cell tells fro
 
 
 def rows(runner, facts):
-    measured = points_of(os.path.join(runner.root, facts["points"]))
+    measured = points_of(facts["points"])
     return rows_of({turns: [fit(curve_of(run_of(runner, turns, factor)), points) for factor in STARTS]
                     for turns, points in measured.items()}, facts)
 
@@ -27,7 +26,7 @@ def points_of(file):
 
 
 def run_of(runner, turns, factor):
-    apart = read_yaml(os.path.join(runner.root, METHOD))["specimen"]["end_to_end"]
+    apart = read_yaml(METHOD)["specimen"]["end_to_end"]
     return runner.run(f"surgeon/{turns}_{factor:g}", {"specimen.knot": f"surgeon_{turns}",
                                                       "specimen.end_to_end": round(apart * factor, 9)}, METHOD, cpu_limit=CPU_LIMIT)
 

@@ -7,10 +7,9 @@ import re
 import subprocess
 import sys
 
-from runs import is_missing
+from runs import ROOT, is_missing
 
 REFERENCE = "(reference)"  # what the others are compared with
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 class Gate:
