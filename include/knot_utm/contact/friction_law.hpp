@@ -19,7 +19,7 @@ namespace knot_utm {
 /// the step, v = |r|/dt. Of a law with a tangential spring, the spring holds a part xi of r, and v = (|r| - |xi|)/dt.
 /// As xi grows with the traction, which depends on v, the law solves both together.
 ///
-/// A law is a pair of files and one line in `FrictionLaws` (friction.hpp). It is a plain struct, which has
+/// A law is a header and one line in `FrictionLaws` (friction.hpp). It is a plain struct, which has
 ///
 ///     static constexpr const char* kName              the name that methods use
 ///     static constexpr std::array kKeys               its keys in physics.friction (LawKey)

@@ -25,7 +25,9 @@ struct MemoryFriction : FrictionLawDefaults {
 
   MemoryFriction() = default;
   MemoryFriction(double mu, double xi_s) : coefficient(mu), presliding(xi_s) {}
-  static MemoryFriction of(const FrictionOptions& options, const FrictionScales& scales);
+  static MemoryFriction of(const FrictionOptions&, const FrictionScales& scales) {
+    return {scales.coefficient, scales.presliding * scales.radius};
+  }
 
   template <typename Vector>
   FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {

@@ -33,7 +33,10 @@ struct PowerFriction : FrictionLawDefaults {
   PowerFriction() = default;
   PowerFriction(double mu, double xi_s, double n, double p_r)
       : coefficient(mu), presliding(xi_s), exponent(n), reference_pressure(p_r) {}
-  static PowerFriction of(const FrictionOptions& options, const FrictionScales& scales);
+  static PowerFriction of(const FrictionOptions& options, const FrictionScales& scales) {
+    return {scales.coefficient, scales.presliding * scales.radius, options.value("exponent").value_or(1.0),
+            options.value("reference_pressure").value_or(1.0)};
+  }
 
   template <typename Vector>
   FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {

@@ -38,7 +38,10 @@ struct RateFriction : FrictionLawDefaults {
   RateFriction() = default;
   RateFriction(double mu_0, double xi_s, double a, double v_0)
       : coefficient(mu_0), presliding(xi_s), rate(a), speed(v_0) {}
-  static RateFriction of(const FrictionOptions& options, const FrictionScales& scales);
+  static RateFriction of(const FrictionOptions& options, const FrictionScales& scales) {
+    return {scales.coefficient, scales.presliding * scales.radius, options.value("rate").value_or(0.0),
+            options.value("rate_speed").value_or(1.0)};
+  }
 
   template <typename Vector>
   FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {
@@ -62,7 +65,10 @@ struct RateFriction : FrictionLawDefaults {
     return {z, mu, mu * z, constant<Real>(coefficient * over_scale), across, along, unit, unit};
   }
 
-  FrictionMemory remember(const FrictionInput<Vec3>& in, const Vec3& z) const;
+  FrictionMemory remember(const FrictionInput<Vec3>& in, const Vec3& z) const {
+    const Spring spring(*this, in.slip.norm() / presliding, in.dt);
+    return {presliding * spring.cone() * z, 0.0};
+  }
 
   void state(Archive& archive) { archive(coefficient, presliding, rate, speed); }
 

@@ -5,6 +5,7 @@
 #include "knot_utm/machine/fibre_breaking.hpp"
 #include "knot_utm/machine/tension_breaking.hpp"
 #include "knot_utm/numeric/law_registry.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 
@@ -14,13 +15,20 @@ using BreakingLaws = std::variant<TensionBreaking, FibreBreaking>;
 using BreakingRegistry = LawRegistry<BreakingLaws>;
 
 /// The law that a material with a breaking force names.
-BreakingLaws breaking_law_of(const Material& material);
+inline BreakingLaws breaking_law_of(const Material& material) {
+  return BreakingRegistry::of(material.breaking.law, material);
+}
 
-bool can_part(const Material& material);  ///< it has a breaking force, or that of another rope has one
+/// It has a breaking force, or that of another rope has one.
+inline bool can_part(const Material& material) { return weakest(material).has_value(); }
 
 /// Whether the bend of a rope of this material helps to part it, so that a knot costs strength.
-bool parts_by_bending(const Material& material);
+inline bool parts_by_bending(const Material& material) {
+  return material.breaking_force && std::visit([](const auto& law) { return law.kBends; }, breaking_law_of(material));
+}
 /// The same of every rope of the rod: else the strength of a knot may be that of a straight rope, which was given.
-bool all_part_by_bending(const Material& material);
+inline bool all_part_by_bending(const Material& material) {
+  return parts_by_bending(material) && (!material.other || parts_by_bending(*material.other));
+}
 
 }  // namespace knot_utm

@@ -6,10 +6,10 @@
 #include "knot_utm/machine/breaking_law.hpp"
 #include "knot_utm/machine/weakest_link.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
-
-struct Material;
 
 /// A rod parts where the strain of its outermost fibre reaches the one at which a straight rod parts:
 ///
@@ -55,7 +55,12 @@ struct FibreBreaking {
   double crushing = 0.0;         ///< c eps_b/F_b [1/N]
   WeakestLink link;
 
-  static FibreBreaking of(const Material& material);
+  static FibreBreaking of(const Material& material) {
+    const auto& keys = material.breaking;
+    const double strain = strain_under(material, *material.breaking_force);
+    return {strain, keys.number(kBendingShare), keys.number(kCrushingShare) * strain / *material.breaking_force,
+            WeakestLink(keys.number(kWeibullModulus), keys.number(kTestedLength), keys.number(kWeakerShare))};
+  }
 
   double limited(const LoadedEdge& edge) const { return edge.strain + share * edge.bend + crushing * edge.pressed; }
   double fraction(const LoadedEdge& edge) const { return limited(edge) / breaking_strain; }

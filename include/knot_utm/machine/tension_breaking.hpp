@@ -2,10 +2,9 @@
 
 #include "knot_utm/machine/breaking_law.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
-
-struct Material;
 
 /// A rod parts where its tension T reaches the breaking force F_b, the tension at which it parts straight [N]:
 ///
@@ -21,7 +20,7 @@ struct TensionBreaking {
 
   double breaking_force = 0.0;  ///< F_b [N]
 
-  static TensionBreaking of(const Material& material);
+  static TensionBreaking of(const Material& material) { return {*material.breaking_force}; }
 
   double limited(const LoadedEdge& edge) const { return edge.tension; }
   double fraction(const LoadedEdge& edge) const { return edge.tension / breaking_force; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 namespace knot_utm {
@@ -22,14 +23,26 @@ namespace knot_utm {
 class WeakestLink {
  public:
   WeakestLink() = default;
-  WeakestLink(double modulus, double tested_length, double weaker_share);
+  WeakestLink(double modulus, double tested_length, double weaker_share)
+      : modulus_(modulus),
+        bears_(-std::log1p(-weaker_share) * tested_length),
+        mean_(std::tgamma(1.0 + 1.0 / modulus)) {}
 
   /// Sums over the edges of a rod.
   class Sum {
    public:
     explicit Sum(const WeakestLink& link) : link_(link) {}
-    void add(double fraction, double length);  ///< f_j [-], l_j [m]
-    double fraction() const;                   ///< F [-]
+    /// f_j [-], l_j [m]
+    void add(double fraction, double length) {
+      if (fraction <= 0.0) return;
+      if (fraction > largest_) {
+        sum_ *= std::pow(largest_ / fraction, link_.modulus_);
+        largest_ = fraction;
+      }
+      sum_ += std::pow(fraction / largest_, link_.modulus_) * length;
+    }
+    /// F [-]
+    double fraction() const { return largest_ * link_.mean_ * std::pow(sum_ / link_.bears_, 1.0 / link_.modulus_); }
 
    private:
     const WeakestLink& link_;

@@ -14,8 +14,7 @@ namespace knot_utm {
 /// the rate does not matter, as of a rod that yields, dt psi is the energy dissipated in this step. Of a viscous law,
 /// whose psi is quadratic, it is half of that.
 ///
-/// A law is a pair of files, or a header, and one line in `BendingLaws` (bending_laws.hpp). It is a plain struct, which
-/// has
+/// A law is a header and one line in `BendingLaws` (bending_laws.hpp). It is a plain struct, which has
 ///
 ///     static constexpr const char* kName          the name that methods use (material.bending_law)
 ///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing

@@ -6,11 +6,10 @@
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/yielding_bend.hpp"
 
 namespace knot_utm {
-
-struct RodMaterial;
 
 /// Bending of a section whose fibres rub against each other, as those of a rope do. Beside the elastic moment there is
 /// one of friction, which grows s - 1 times as fast until the fibres slide, and then keeps its size
@@ -47,7 +46,13 @@ struct FrictionalBending {
   double curvature = 0.0;    ///< m_0/h: M_y/k_b of a rope that was never pulled [1/m]
   double by_tension = 0.0;   ///< c_m h/k_b: what T_max adds to it [1/(m N)]
 
-  static FrictionalBending of(const RodMaterial& material);
+  static FrictionalBending of(const RodMaterial& material) {
+    FrictionalBending out;
+    out.stick_ratio = material.bending.number(kStickRatio);
+    out.curvature = material.bending.number(kFrictionMoment) / material.radius;
+    out.by_tension = material.bending.number(kCompaction) * material.radius / material.bending_stiffness;
+    return out;
+  }
 
   BendingResponse respond(const BendingNode& node) const { return at(node).respond(node); }
   BendingMemory remember(const BendingNode& node) const { return at(node).remember(node); }

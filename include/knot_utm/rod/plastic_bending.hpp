@@ -3,12 +3,12 @@
 #include <array>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/yielding_bend.hpp"
 
 namespace knot_utm {
-
-struct RodMaterial;
 
 /// Elastic-plastic bending with linear kinematic hardening (yielding_bend.hpp): the fraction r of the bending stiffness
 /// stays elastic, and the fraction 1 - r yields,
@@ -32,7 +32,14 @@ struct PlasticBending {
 
   PlasticBending() = default;
   PlasticBending(double kappa_y, double r) : yield_curvature(kappa_y), hardening(r) {}
-  static PlasticBending of(const RodMaterial& material);
+  static PlasticBending of(const RodMaterial& material) {
+    if (!material.yield_strain)
+      throw InvalidInput::sentence(
+          "material.yield_strain", "none",
+          "material.yield_strain is missing: give the strain of the outermost fibre at which the "
+          "rod yields, which bending_law: plastic needs");
+    return {*material.yield_strain / material.radius, material.bending.number(kHardening)};
+  }
 
   BendingResponse respond(const BendingNode& node) const { return at(node).respond(node); }
   BendingMemory remember(const BendingNode& node) const { return at(node).remember(node); }
