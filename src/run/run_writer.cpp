@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "knot_utm/contact/sampled_centreline.hpp"
+#include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"

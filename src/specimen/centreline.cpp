@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/contact/sampled_centreline.hpp"
+#include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/roller_contact.hpp"
-#include "knot_utm/contact/sampled_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/specimen/polyline.hpp"

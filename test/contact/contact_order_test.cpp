@@ -14,7 +14,6 @@
 #include "contact/strands.hpp"
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
-#include "knot_utm/contact/sampled_centreline.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/specimen/material.hpp"
 

@@ -204,7 +204,7 @@ class Ros(unittest.TestCase):
                     comment = ""
 
     def test_messages_name_every_end_of_a_test(self):
-        ends = set(re.findall(r'"(\w[\w ]*)"', re.search(r"kEndNames\[\] = \{(.*?)\}", text("src/record/ended_by.cpp"), re.S)[1]))
+        ends = set(re.findall(r'"(\w[\w ]*)"', re.search(r"kEndNames\[\] = \{(.*?)\}", text("include/knot_utm/record/ended_by.hpp"), re.S)[1]))
         for name in ("TestStatus", "TestOutcome"):
             told = re.search(r"# how it ended: ([^;\[]*).*\nstring ended_by", text(f"msg/{name}.msg"))[1]
             self.assertEqual(set(re.findall(r"\w+", told)) - {"or"}, ends - {"not yet", "interrupted"}, name)

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "knot_utm/contact/sampled_centreline.hpp"
+#include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"

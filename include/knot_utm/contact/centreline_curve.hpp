@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "knot_utm/numeric/lanes.hpp"
 #include "knot_utm/numeric/points.hpp"
@@ -60,6 +62,20 @@ inline Vec3 combine(const double* weights, const Points& nodes, int segment) {
 /// x_{i-1} - 2 x_i + x_{i+1}: c'' on segment i.
 inline Vec3 second_difference(const Points& nodes, int segment) {
   return nodes.col(segment - 1) - 2.0 * nodes.col(segment) + nodes.col(segment + 1);
+}
+
+/// The places at which a rod's contact is integrated, two for each inner node and in their order along the rod. Of
+/// nodes on a circle, with edges l, they lie within l^4/R^3 of the circle of radius R whose circumference is as long as
+/// all edges. Without columns where there are fewer than three nodes.
+inline Points sampled_centreline(const Points& nodes) {
+  constexpr auto kEach = static_cast<Eigen::Index>(std::size(kIntegrationPoints));
+  const Eigen::Index segments = std::max<Eigen::Index>(nodes.cols() - 2, 0);
+  Points places(3, kEach * segments);
+  for (Eigen::Index i = 0; i < segments; ++i)
+    for (Eigen::Index k = 0; k < kEach; ++k)
+      places.col(kEach * i + k) =
+          combine(PointWeights(kIntegrationPoints[k], PointWeights::kWhole).value, nodes, static_cast<int>(i) + 1);
+  return places;
 }
 
 }  // namespace knot_utm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -21,8 +22,18 @@ enum class EndedBy {
   kPlateau       ///< its plateau was settled, and nothing else was asked for
 };
 
-const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "load", "travel", ...
-std::optional<EndedBy> ended_by_named(const std::string& name);  ///< the other way; nothing for a name that is none
+/// In the order of the enumeration.
+inline constexpr const char* kEndNames[] = {"not yet", "break",   "extension", "load",      "travel",      "operator",
+                                            "solver",  "program", "time",      "untangled", "interrupted", "plateau"};
+
+inline const char* ended_by_name(EndedBy end) { return kEndNames[static_cast<std::size_t>(end)]; }
+
+/// The other way; nothing for a name that is none.
+inline std::optional<EndedBy> ended_by_named(const std::string& name) {
+  for (int i = 0; i <= static_cast<int>(EndedBy::kPlateau); ++i)
+    if (name == ended_by_name(static_cast<EndedBy>(i))) return static_cast<EndedBy>(i);
+  return std::nullopt;
+}
 
 /// Whether the specimen is the knot that it began as.
 enum class KnotType {
@@ -39,6 +50,9 @@ enum class BreakPlace {
   kGrip     ///< on a roller, or where a clamp or node holds it
 };
 
-const char* break_place_name(BreakPlace place);  ///< "none", "strand", "knot", "grip"
+/// In the order of the enumeration.
+inline constexpr const char* kBreakPlaceNames[] = {"none", "strand", "knot", "grip"};
+
+inline const char* break_place_name(BreakPlace place) { return kBreakPlaceNames[static_cast<std::size_t>(place)]; }
 
 }  // namespace knot_utm
