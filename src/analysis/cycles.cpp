@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "knot_utm/analysis/results.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {
@@ -45,6 +49,65 @@ double enclosed(const Path& path, std::size_t begin, std::size_t end) {
   return area;
 }
 
+/// From the first sample of a step of the program to the one behind its last.
+struct Stretch {
+  std::size_t begin, end;
+};
+
+/// In order, those of this phase that have a sample before them; each to where the rod parts: its recoil says nothing.
+std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase, const std::vector<int>& steps) {
+  std::vector<Stretch> out;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (samples[i - 1].status == BenchStatus::kBroken) break;
+    if (samples[i].phase != phase) continue;
+    const bool begins = !steps.empty() && steps[i] != steps[i - 1];
+    if (out.empty() || out.back().end != i || begins) out.push_back({i, i});
+    out.back().end = i + 1;
+  }
+  return out;
+}
+
+/// The relaxation in the last hold at a place that is out, with a load on the grip. Where a load is held the crosshead
+/// moves, and a drawn shape that settles bears no load.
+std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples, const std::vector<int>& steps) {
+  std::optional<Relaxation> last;
+  for (const Stretch& hold : stretches(samples, Phase::kHold, steps)) {
+    const Sample &before = samples[hold.begin - 1], &end = samples[hold.end - 1];
+    bool stands = true;
+    for (std::size_t i = hold.begin; i < hold.end; ++i) stands &= samples[i].displacement == before.displacement;
+    if (stands && before.displacement > samples.front().displacement && before.force_upper > 0.0)
+      last = Relaxation{before.force_upper, end.force_upper};
+  }
+  return last;
+}
+
+/// The cycles of the last step that cycles. Their places count from the sample before the step.
+struct LastCycles {
+  std::size_t origin = 0;
+  std::vector<Cycle> closed;
+};
+
+LastCycles last_cycles(const std::vector<Sample>& samples, const std::vector<int>& steps) {
+  const std::vector<Stretch> cycling = stretches(samples, Phase::kCycle, steps);
+  if (cycling.empty()) return {};
+  const Stretch& step = cycling.back();
+  const Sample origin = origin_at(samples[step.begin], samples[step.begin - 1]);
+  const auto point = [](const Sample& at) { return PathPoint{at.extension, at.force_upper, at.displacement}; };
+  Path path = {point(origin)};
+  for (std::size_t i = step.begin; i < step.end; ++i) path.push_back(point(samples[i]));
+  return {step.begin - 1, closed_cycles(path)};
+}
+
+Elongations elongations_of(const std::vector<Sample>& samples, const LastCycles& cycles, double gauge_length) {
+  const Cycle& last = cycles.closed.back();
+  const auto at = [&](std::size_t i) { return samples.begin() + static_cast<std::ptrdiff_t>(cycles.origin + i); };
+  const auto longest = std::max_element(at(last.begin), at(last.end) + 1,
+                                        [](const Sample& a, const Sample& b) { return a.end_to_end < b.end_to_end; });
+  const double loaded = longest->end_to_end, unloaded = at(last.end)->end_to_end, back = loaded - unloaded;
+  return {(loaded - gauge_length) / gauge_length, (unloaded - gauge_length) / gauge_length, back / gauge_length,
+          back / unloaded};
+}
+
 }  // namespace
 
 std::vector<Cycle> closed_cycles(const Path& path) {
@@ -58,6 +121,22 @@ std::vector<Cycle> closed_cycles(const Path& path) {
       cycles.push_back({begin, end, enclosed(path, begin, end)});
   }
   return cycles;
+}
+
+Sample origin_at(const Sample& first, Sample before) {
+  if (before.balance_offset == first.balance_offset) return before;
+  before.extension = 0.0;
+  before.force_upper = before.balance_offset = first.balance_offset;
+  return before;
+}
+
+void read_holds_and_cycles(const std::vector<Sample>& samples, const std::vector<int>& steps, Results& results) {
+  results.relaxation = last_relaxation(samples, steps);
+  const LastCycles cycles = last_cycles(samples, steps);
+  results.cycles = cycles.closed.size();
+  if (cycles.closed.empty()) return;
+  results.hysteresis = cycles.closed.back().hysteresis;
+  if (results.gauge_length) results.elongations = elongations_of(samples, cycles, *results.gauge_length);
 }
 
 }  // namespace knot_utm

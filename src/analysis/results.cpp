@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "holds_and_cycles.hpp"
 #include "knot_utm/analysis/curve_row.hpp"
+#include "knot_utm/analysis/cycles.hpp"
 #include "knot_utm/analysis/pull_readings.hpp"
 #include "knot_utm/record/sample.hpp"
 

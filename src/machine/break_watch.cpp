@@ -4,6 +4,9 @@
 #include <limits>
 #include <sstream>
 
+#include "knot_utm/machine/grips.hpp"
+#include "knot_utm/sim/time_step.hpp"
+
 namespace knot_utm {
 
 namespace {
@@ -13,6 +16,13 @@ constexpr double kAbsurd = 2.0;       // and that no step may reach
 constexpr double kPressed = 0.01;     // of the tension that parts the rod: a smaller push is none
 
 const char* name_of(BreakLimit limit) { return limit == BreakLimit::kForce ? "tension" : "strain"; }
+
+/// Ropes that follow each other count from 1, as their knot's file lists them.
+std::string which_rope(const std::vector<int>& cuts, int edge) {
+  if (cuts.empty()) return "";
+  const auto before = std::count_if(cuts.begin(), cuts.end(), [&](int cut) { return cut < edge; });
+  return ", in rope " + std::to_string(before + 1);
+}
 
 }  // namespace
 
@@ -42,5 +52,44 @@ std::string not_by_tension(const Exposure& parted, double upper, double lower) {
        << -force << " N: the time step is wrong, and the rod did not part";
   return text.str();
 }
+
+RodBreak::RodBreak(const Material& material, const TimeStep& stepper, double shortest)
+    : strengths_(material, stepper.rod()), watch_(shortest, exposure(stepper, stepper.state().position, 0.0)) {}
+
+Exposure RodBreak::exposure(const TimeStep& stepper, const Points& position, double dt) const {
+  // What presses is that of the step that is judged.
+  return strengths_.most_exposed(stepper.rod(), position, StretchedBefore(stepper.state(), dt),
+                                 strengths_.crush() ? stepper.readings().pressing() : Pressing());
+}
+
+std::string RodBreak::refuse(const TimeStep& stepper, const Points& end, double dt) const {
+  return watch_.refuse(exposure(stepper, end, dt), dt);
+}
+
+std::optional<Exposure> RodBreak::judge(const TimeStep& stepper, double dt) {
+  const Exposure now = exposure(stepper, stepper.state().position, 0.0);
+  if (watch_.judge(now, dt)) return now;
+  return std::nullopt;
+}
+
+std::string RodBreak::describe(const TimeStep& stepper, const Exposure& reached, BreakPlace place) const {
+  std::ostringstream text;
+  text << "the rod parted " << break_arclength(stepper, reached.edge) << " m along its length"
+       << which_rope(stepper.rod().cuts, reached.edge) << " (" << break_place_name(place)
+       << (reached.limit == BreakLimit::kForce ? ") at a tension of "
+           : strengths_.crush()                ? ") where stretch, bend and crushing came to a strain of "
+                                               : ") at a strain of its outermost fibre of ")
+       << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
+  return text.str();
+}
+
+BreakPlace place_of_break(const TimeStep& stepper, const Grips& grips, double grip, int edge) {
+  const Points& position = stepper.state().position;
+  if (lies_in_knot(stepper.rod(), position, edge)) return BreakPlace::kKnot;
+  const Vec3 middle = 0.5 * (position.col(edge) + position.col(edge + 1));
+  return grips.hold(grip, middle, stepper.rod().material_at(edge).radius) ? BreakPlace::kGrip : BreakPlace::kStrand;
+}
+
+double break_arclength(const TimeStep& stepper, int edge) { return stepper.rod().place(edge, 0.5); }
 
 }  // namespace knot_utm

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/break_watch.hpp"
 #include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/free_ends.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/knot_readings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
-#include "knot_utm/machine/rod_break.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/tying.hpp"

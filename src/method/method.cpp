@@ -3,9 +3,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "config_library.hpp"
@@ -13,6 +16,7 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -229,6 +233,42 @@ bool is_soon_laid(const std::string& key, const SpecimenOptions& specimen) {
   const double length = std::max({specimen.length, specimen.end_to_end, specimen.knot_distance, specimen.tail});
   const bool may_be = key.rfind("specimen.", 0) == 0 || key == "machine.roller_diameter";
   return may_be && length < kFewEdges * specimen.edge_length;
+}
+
+/// The number that a limit ends with: 0.0381 of "at least 12 radii, 0.0381 m". Empty: it has none.
+std::string last_number(const std::string& limit) {
+  std::istringstream words(limit.substr(0, limit.find(':')));
+  std::string found;
+  for (std::string word; words >> word;)
+    if (parse_number(word)) found = word;
+  return found;
+}
+
+/// The same sentence with what the other values of this method allow, where that is less than the range: "must be 1e-6
+/// to 0.1 m, and here at most twice the radius, 0.00635 m". `attempt` receives an override for each end of the range,
+/// and throws InvalidInput where the method with it would be refused.
+InvalidInput narrowed(const OutOfRange& wrong, const std::function<void(const std::string& override)>& attempt) {
+  std::string here;
+  // The limit that a value says, or an empty text.
+  const auto limit_at = [&](const std::string& value) -> std::string {
+    try {
+      attempt(wrong.key + "=" + value);
+    } catch (const InvalidInput& inner) {
+      const bool says_a_range = std::string(inner.what()).find(", but must be " + inner.allowed) != std::string::npos;
+      if (inner.key == wrong.key && says_a_range && here.find(inner.allowed) == std::string::npos) return inner.allowed;
+    }
+    return {};
+  };
+  for (const double end : {wrong.min, wrong.max}) {
+    std::string value = std::isfinite(end) ? format_yaml_number(end) : "";
+    // A value at the first limit may be refused by a second one.
+    for (int i = 0; i < 2 && !value.empty(); ++i) {
+      const std::string limit = limit_at(value);
+      if (!limit.empty()) here += (here.empty() ? ", and here " : " and ") + limit;
+      value = limit.rfind("at ", 0) == 0 ? last_number(limit) : "";
+    }
+  }
+  return {wrong.file, wrong.key, wrong.value, wrong.allowed + here};
 }
 
 }  // namespace

@@ -18,11 +18,41 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "load_terms.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "method_fields.hpp"
-#include "out_of_range.hpp"
+
+namespace knot_utm {
+
+/// A number of a method that lies outside the range of its key.
+struct OutOfRange : InvalidInput {
+  OutOfRange(const InvalidInput& sentence, double min_, double max_) : InvalidInput(sentence), min(min_), max(max_) {}
+
+  double min, max;  ///< the ends of the range, both of which are allowed
+};
+
+}  // namespace knot_utm
 
 namespace knot_utm::fields {
+
+/// A method may give a load of its program in terms that suit every material, instead of a number of newtons: "50 %" of
+/// the breaking force, or "reference_tension". Empty: the text is no such term [N]. Throws std::invalid_argument, whose
+/// text says why, for a percentage where the material has no breaking force.
+inline std::optional<double> load_in_terms(const std::string& text, const Material& material) {
+  // The tension under which a rope is measured, d^2/8 in decanewtons for a rope of d millimetres: doc/standards.md.
+  const double d = 2e3 * material.radius;
+  if (text == "reference_tension") return 10.0 * d * d / 8.0;
+  if (text.empty() || text.back() != '%') return std::nullopt;
+  const std::string before = text.substr(0, text.size() - 1);
+  const std::optional<double> percent = parse_number(before.substr(0, before.find_last_not_of(' ') + 1));
+  if (!percent) return std::nullopt;
+  if (!material.breaking_force)
+    throw std::invalid_argument("material has no breaking_force, of which this is a percentage");
+  return *percent * *material.breaking_force / 100.0;
+}
+
+/// What is allowed beside a number, for messages.
+inline constexpr const char* kOrLoadTerm =
+    ", a percentage of material.breaking_force, such as \"50 %\", or reference_tension";
 
 /// Appends a YAML value to a line. Only as much is appended as a message shows, because aliases can make a value
 /// endless.

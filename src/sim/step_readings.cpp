@@ -1,6 +1,7 @@
 #include "knot_utm/sim/step_readings.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <string>
 
 #include "knot_utm/numeric/index.hpp"
@@ -10,6 +11,48 @@
 #include "knot_utm/sim/scene.hpp"
 
 namespace knot_utm {
+
+namespace {
+
+/// Calls add(node, weight) with weights on three nodes of the sum 1, of which those below zero count as zero.
+template <class Add>
+void share(const double* weights, double sign, int first, const Add& add) {
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) sum += std::max(0.0, sign * weights[k]);
+  for (int k = 0; k < 3; ++k) {
+    const double weight = std::max(0.0, sign * weights[k]);
+    if (weight > 0.0) add(first + k, weight / sum);
+  }
+}
+
+/// Calls add(node, its share of the normal force [N], the direction of it) for both sides of those that touch.
+template <class Add>
+void each_share(const std::vector<ContactPoint>& contacts, const Add& add) {
+  for (const ContactPoint& contact : contacts) {
+    if (!contact.touches()) continue;
+    const double normal = contact.weight * contact.pressure;
+    share(contact.c, 1.0, contact.a0, [&](int node, double weight) { add(node, weight * normal, contact.n); });
+    if (!contact.on_roller())
+      share(contact.c + 3, -1.0, contact.b0, [&](int node, double weight) { add(node, weight * normal, -contact.n); });
+  }
+}
+
+/// Adds to each node's force [N] its share of the normal forces of these contacts on the rod: w p, shared among the
+/// nodes of either point by those of its weights c_k that are of its side's sign. For pictures: by the other weights of
+/// a smooth centreline a strand would pull at its neighbours.
+void add_normal_forces(const std::vector<ContactPoint>& contacts, Eigen::VectorXd& force) {
+  each_share(contacts, [&](int node, double normal, const Vec3&) { force[node] += normal; });
+}
+
+/// Adds the same forces to what presses on each node.
+void add_pressing(const std::vector<ContactPoint>& contacts, Pressing& pressing) {
+  each_share(contacts, [&](int node, double normal, const Vec3& along) {
+    pressing.col(node).head<3>() += normal * along;
+    pressing(3, node) += normal;
+  });
+}
+
+}  // namespace
 
 StepReadings::StepReadings(const RodProperties& rod, const RodState& state, double spin,
                            const std::vector<ContactPoint>& strands, const RollerContact& rollers)
@@ -28,7 +71,15 @@ Vec3 StepReadings::reaction(int node) const { return -to_vec3(force_[at(node)]);
 double StepReadings::reaction_torque(int edge) const { return state_.twist.size() == 0 ? 0.0 : -force_[at(edge)][3]; }
 
 std::vector<ContactForce> StepReadings::contact_forces() const {
-  return knot_utm::contact_forces(strands_, state_.position);
+  std::vector<ContactForce> out;
+  for (const ContactPoint& contact : strands_) {
+    if (contact.on_roller() || !contact.touches()) continue;
+    Vec3 a = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      if (contact.c[k] != 0.0) a += contact.c[k] * state_.position.col(contact.a0 + k);
+    out.push_back({a - 0.5 * contact.x, contact.force});
+  }
+  return out;
 }
 
 Eigen::VectorXd StepReadings::strand_normal_forces() const {
@@ -51,11 +102,21 @@ Pressing StepReadings::pressing() const {
 }
 
 double StepReadings::normal_force_between(const NodeRange& a, const NodeRange& b) const {
-  return knot_utm::normal_force_between(strands_, a, b);
+  double sum = 0.0;
+  for (const ContactPoint& contact : strands_) {
+    if (contact.on_roller() || !contact.touches()) continue;
+    const int on_a = contact.a0 + 1, on_b = contact.b0 + 1;  // the middle of their three nodes
+    if ((a.holds(on_a) && b.holds(on_b)) || (a.holds(on_b) && b.holds(on_a))) sum += contact.weight * contact.pressure;
+  }
+  return sum;
 }
 
 double StepReadings::roller_normal_force(const NodeRange& piece) const {
-  return knot_utm::roller_normal_force(rollers_now_.contacts(), piece);
+  double sum = 0.0;
+  for (const ContactPoint& contact : rollers_now_.contacts())
+    if (contact.on_roller() && contact.touches() && piece.holds(contact.a0 + 1))
+      sum += contact.weight * contact.pressure;
+  return sum;
 }
 
 StepReadings::RollerLoad StepReadings::load_on(int roller) const {

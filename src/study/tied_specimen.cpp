@@ -11,12 +11,29 @@
 #include "knot_utm/run/build_identity.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/specimen/knot.hpp"
-#include "physical_values.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 
 namespace knot_utm {
 namespace {
 
 constexpr const char* kKind = "tied specimen";
+
+/// The sections of a method on which depends what the simulated machine answers.
+constexpr const char* kPhysicalSections[] = {"specimen", "material", "other_material", "machine", "physics"};
+
+/// The values of a method but its names and notes, which change nothing. A specimen's file is named as the copy in a
+/// run's folder is.
+YAML::Node physical_values(const Method& method) {
+  YAML::Node values = YAML::Load(method_file_text(method));
+  for (const char* words : {"name", "notes"}) {
+    values["material"].remove(words);
+    if (method.material.other) values["other_material"].remove(words);
+    values["machine"]["load_cell"].remove(words);
+  }
+  // What a knot's file says, whatever it is called.
+  if (method.specimen.drawing) values["specimen"]["knot"] = method.specimen.drawing->text;
+  return values;
+}
 
 }  // namespace
 

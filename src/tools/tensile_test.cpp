@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "knot_utm/method/knot_sheet.hpp"
 #include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/known_names.hpp"
@@ -28,7 +29,6 @@
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
 #endif
-#include "draw_knot.hpp"
 #include "make_report.hpp"
 #include "tool.hpp"
 
@@ -50,6 +50,18 @@ void set_signals() {
   sigaction(SIGTERM, &action, nullptr);
   // A file as large as is allowed is an error like a full disk, which says what was being written.
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+/// Prints what is known of a knot before it is pulled, and writes its picture, KNOT.svg, into a folder. Throws
+/// InvalidInput where there is no such knot, where it cannot be drawn, or where the picture exists and `overwrite` does
+/// not allow to replace it. `option`: what names the knot, for messages.
+void draw_knot(const std::string& knot, const char* option, const std::string& folder, bool overwrite) {
+  const KnotSheet sheet = knot_sheet(knot, option);
+  const std::string file = (std::filesystem::path(folder) / (sheet.name + ".svg")).string();
+  require_new_file(option, file, {knot}, overwrite, "<svg");
+  if (!folder.empty()) make_run_folder(folder);
+  write_whole(file, sheet.picture);
+  std::printf("%spicture: %s\n", sheet.facts.c_str(), file.c_str());
 }
 
 struct Arguments {

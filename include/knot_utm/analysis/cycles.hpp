@@ -5,6 +5,9 @@
 
 namespace knot_utm {
 
+struct Results;
+struct Sample;
+
 /// One reading of a specimen that is loaded and unloaded.
 struct PathPoint {
   double extension;        ///< s [m]
@@ -33,5 +36,13 @@ struct Cycle {
 /// Cycles that begin or end with the path may be incomplete: the first may be the approach to the first turning point,
 /// and the last may be cut off. They count only if s or F returns to within a tenth of its range in the cycle.
 std::vector<Cycle> closed_cycles(const Path& path);
+
+/// The state that a phase begins from: the sample before its first, balanced as that one is. A balance in between has
+/// left the specimen as it was: s = 0 and F = balance_offset by its definition.
+Sample origin_at(const Sample& first, Sample before);
+
+/// Reads the relaxation in the last hold, and the cycles of the last step that cycles, with the elongations of the last
+/// of them over the gauge length of `results`. `steps`: as of analyse().
+void read_holds_and_cycles(const std::vector<Sample>& samples, const std::vector<int>& steps, Results& results);
 
 }  // namespace knot_utm

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/record/ended_by.hpp"
 
 namespace knot_utm {
+
+class Grips;
+class TimeStep;
 
 /// Judges time steps of a rod that can part. A step should end where the rod parts, and no rod parts in a step that
 /// takes it to a multiple of its strength: such a step is too long, or wrong. It is refused, so that it is tried again
@@ -34,5 +39,38 @@ class BreakWatch {
 /// Why a rod cannot have parted, or empty: by tension while both grips are pressed together, by the forces `upper` and
 /// `lower` < 0 [N]. One grip alone may be pressed by the rod's weight, and both by what an iteration leaves.
 std::string not_by_tension(const Exposure& parted, double upper, double lower);
+
+/// Follows a specimen that can part from step to step: when it parts (BreakWatch), at which edge (fracture.hpp), and in
+/// which words.
+class RodBreak {
+ public:
+  /// `stepper` has made no step yet. `shortest`: as of BreakWatch [s].
+  RodBreak(const Material& material, const TimeStep& stepper, double shortest);
+
+  /// Says why a step that was solved, and would end at `end` after dt [s], is refused; empty where it is accepted.
+  std::string refuse(const TimeStep& stepper, const Points& end, double dt) const;
+
+  /// To be called after every accepted step. What parts the rod there; none: it holds, and `next` is how long the next
+  /// step may be [s].
+  std::optional<Exposure> judge(const TimeStep& stepper, double dt);
+  double next() const { return watch_.next(); }
+
+  /// Where along the rod, in which rope, in what kind of place, and at which tension or strain.
+  std::string describe(const TimeStep& stepper, const Exposure& reached, BreakPlace place) const;
+
+  void state(Archive& archive) { archive(watch_); }
+
+ private:
+  Exposure exposure(const TimeStep& stepper, const Points& position, double dt) const;
+
+  RopeStrengths strengths_;
+  BreakWatch watch_;
+};
+
+/// `grip`: how far the upper grip has moved [m].
+BreakPlace place_of_break(const TimeStep& stepper, const Grips& grips, double grip, int edge);
+
+/// From the first end of the rod to the middle of a parted edge [m].
+double break_arclength(const TimeStep& stepper, int edge);
 
 }  // namespace knot_utm

@@ -5,7 +5,7 @@
 #include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/stretching.hpp"
-#include "knot_utm/sim/pressing.hpp"
+#include "knot_utm/sim/contact_force.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {

@@ -2,13 +2,22 @@
 
 #include <vector>
 
+#include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/sim/contact_sums.hpp"
+#include "knot_utm/sim/contact_force.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 
 namespace knot_utm {
+
+/// Nodes of the rod from one to another.
+struct NodeRange {
+  int first = 0, last = -1;
+
+  bool empty() const { return last < first; }
+  bool holds(int node) const { return first <= node && node <= last; }
+};
 
 /// Readings of the last accepted step: forces on the rod's holders, energies, contact, and where the work of the step
 /// went. The terms of the step (time_step.cpp) enter their parts into the account that `begin` opens.
@@ -45,13 +54,16 @@ class StepReadings {
   const LoadSum& loads() const { return account_.loads; }
 
   // These read the contacts of the last step that was tried: after an accepted step, before the next one is tried.
+  /// Of those that touch between strands.
   std::vector<ContactForce> contact_forces() const;
   /// Sum of the normal forces of strands and rollers on each node [N].
   Eigen::VectorXd normal_forces() const;
   Eigen::VectorXd strand_normal_forces() const;  ///< of strands alone
   /// What strands and rollers press on each node with; of contacts as they were last evaluated, in any case.
   Pressing pressing() const;
+  /// Sum of the normal forces of strands between two pieces of the rod [N].
   double normal_force_between(const NodeRange& a, const NodeRange& b) const;
+  /// Sum of the normal forces of rollers on a piece of the rod [N].
   double roller_normal_force(const NodeRange& piece) const;
 
   void state(Archive& archive);
