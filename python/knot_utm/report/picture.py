@@ -34,7 +34,7 @@ def facts_of_run(folder, command):
 def main():
     parser = OneLineParser(prog="picture", description=__doc__)
     parser.add_argument("runs", nargs="+", metavar="RUN")
-    parser.add_argument("--out", default="tighten.png", help="the picture [tighten.png]")
+    parser.add_argument("--out", required=True, metavar="PNG")
     parser.add_argument("--overwrite", action="store_true", help="write over a picture that exists")
     asked = parser.parse_args()
     if why := why_not(asked.out, [file for folder in asked.runs for file in files_of(folder)], asked.overwrite):
