@@ -76,7 +76,7 @@ std::string strain_warning(double stretch, const Material& material) {
   if (exposed > 1.0)
     return "tied knots strain their fibres by up to " + short_number(exposed) +
            " times what parts them (material.breaking), so the rod may part while it is tied";
-  if (!keeps_natural_curvature(material)) return "";
+  if (remembers_bends(material)) return "";
   if (material.yield_strain && *material.yield_strain < strain)
     return needed + ", and the material yields at a strain of " + short_number(*material.yield_strain) +
            " (material.yield_strain), which only material.bending_law: plastic simulates";

@@ -54,20 +54,20 @@ std::string not_by_tension(const Exposure& parted, double upper, double lower) {
 }
 
 RodBreak::RodBreak(const Material& material, const TimeStep& stepper, double shortest)
-    : strengths_(material, stepper.rod()), watch_(shortest, exposure(stepper, stepper.state().position, 0.0)) {}
+    : strengths_(material, stepper.rod()), watch_(shortest, exposure(stepper, stepper.state().position)) {}
 
-Exposure RodBreak::exposure(const TimeStep& stepper, const Points& position, double dt) const {
+Exposure RodBreak::exposure(const TimeStep& stepper, const Points& position) const {
   // What presses is that of the step that is judged.
-  return strengths_.most_exposed(stepper.rod(), position, StretchedBefore(stepper.state(), dt),
+  return strengths_.most_exposed(stepper.rod(), position,
                                  strengths_.crush() ? stepper.readings().pressing() : Pressing());
 }
 
 std::string RodBreak::refuse(const TimeStep& stepper, const Points& end, double dt) const {
-  return watch_.refuse(exposure(stepper, end, dt), dt);
+  return watch_.refuse(exposure(stepper, end), dt);
 }
 
 std::optional<Exposure> RodBreak::judge(const TimeStep& stepper, double dt) {
-  const Exposure now = exposure(stepper, stepper.state().position, 0.0);
+  const Exposure now = exposure(stepper, stepper.state().position);
   if (watch_.judge(now, dt)) return now;
   return std::nullopt;
 }

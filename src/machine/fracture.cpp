@@ -64,7 +64,6 @@ double pressed(const RodProperties& rod, const Pressing& pressing, Eigen::Index 
 struct Loading {
   const RodProperties& rod;
   const Points& position;
-  const StretchedBefore& before;
   const Pressing& pressing;
 };
 
@@ -81,7 +80,7 @@ void each_edge(const Law& law, const Loading& on, const EdgesOfRopes& edges, con
   for (Eigen::Index j = edges.begin; j < edges.end; ++j) {
     const double bend_behind = law.kBends ? bend(on.rod, on.position, j + 1) : 0.0,
                  pressed_behind = crushes ? pressed(on.rod, on.pressing, j + 1) : 0.0;
-    const StretchedEdge stretched = stretched_edge(on.rod, on.position, j, on.before);
+    const StretchedEdge stretched = stretched_edge(on.rod, on.position, j);
     if (!on.rod.is_cut(j))
       use(j, LoadedEdge{respond(on.rod, j, stretched).tension, stretched.stretch - 1.0,
                         std::max(bend_behind, bend_before), std::max(pressed_behind, pressed_before)});
@@ -128,13 +127,12 @@ bool RopeStrengths::crush() const {
   });
 }
 
-Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& position, const StretchedBefore& before,
-                                     const Pressing& pressing) const {
+Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& position, const Pressing& pressing) const {
   Exposure out;
   for (const Ropes& ropes : ropes_) {
     const Exposure found = std::visit(
         [&](const auto& law) {
-          return exposure(law, Loading{rod, position, before, pressing}, {ropes.begin, ropes.end});
+          return exposure(law, Loading{rod, position, pressing}, {ropes.begin, ropes.end});
         },
         ropes.law);
     if (found.fraction > out.fraction || out.edge < 0) out = found;

@@ -102,7 +102,6 @@ struct TestingMachine::Impl {
     RodProperties rod = material.other ? make_rod(material, *material.other, rest, centreline.cuts)
                                        : make_rod(material, rest, centreline.cuts);
     if (bends_on_frames(material)) remember_bends(rod, &state);
-    remember_stretches(rod, &state);
     give_rest_shape(specimen, &rod, &state);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
     StepSettings settings = step_settings(specimen, material, machine, physics);

@@ -240,12 +240,12 @@ void check_bending(const Method& m) {
 void check_rest_shape(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   const bool curved = s.natural_curvature != 0.0;
-  if (curved && !keeps_natural_curvature(m.material))
+  if (curved && remembers_bends(m.material))
     throw InvalidInput::sentence("material.bending_law", BendingRegistry::entry(m.material.bending.law).name,
                                  "specimen.natural_curvature is " + format_number(s.natural_curvature) +
                                      ", but material.bending_law is " +
                                      BendingRegistry::entry(m.material.bending.law).name +
-                                     ": a rod keeps its natural curvature with elastic or viscoelastic only");
+                                     ": a rod keeps its natural curvature with elastic only");
   if (const double h = thickest(m.material); std::abs(s.natural_curvature) * h >= 1.0) {
     const std::string most = most_text(1.0 / h);
     reject("specimen.natural_curvature", s.natural_curvature,

@@ -83,8 +83,6 @@ std::optional<NeedsRound> needs_round(const Material& material, const PhysicsOpt
     return NeedsRound{"where stretching_stiffness radius^2/bending_stiffness is " + short_number(ratio) + ", not " +
                           short_number(kLeast) + " to " + short_number(kMost) + ", near the 4 of a solid rod",
                       {section + "stretching_stiffness", section + "bending_stiffness", section + "radius"}};
-  if (remembers(stretching_law_of(material)))
-    return NeedsRound{"with stretching_law: viscoelastic", {section + "stretching_law"}};
   if (friction_couple(material, physics) == 0.0)
     return NeedsRound{"where " + section + "friction_couple is 0 or friction.at is centreline",
                       {section + "friction_couple", "physics.friction.at"}};

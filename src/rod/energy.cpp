@@ -14,10 +14,9 @@ bool has_frame(const RodState& state) { return state.twist.size() > 0; }
 bool ends_at_cut(const RodProperties& rod, Eigen::Index node) { return rod.is_cut(node - 1) || rod.is_cut(node); }
 
 double stretching_energy(const RodProperties& rod, const RodState& state) {
-  const StretchedBefore before(state);
   double sum = 0.0;
   for (Eigen::Index j = 0; j < rod.edges(); ++j)
-    if (!rod.is_cut(j)) sum += respond(rod, j, stretched_edge(rod, state.position, j, before)).energy;
+    if (!rod.is_cut(j)) sum += respond(rod, j, stretched_edge(rod, state.position, j)).energy;
   return sum;
 }
 
@@ -77,10 +76,9 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
 }
 
 Eigen::VectorXd edge_tension(const RodProperties& rod, const RodState& state) {
-  const StretchedBefore before(state);
   Eigen::VectorXd tension(rod.edges());
   for (Eigen::Index j = 0; j < rod.edges(); ++j)
-    tension[j] = respond(rod, j, stretched_edge(rod, state.position, j, before)).tension;
+    tension[j] = respond(rod, j, stretched_edge(rod, state.position, j)).tension;
   return tension;
 }
 

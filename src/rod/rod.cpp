@@ -128,10 +128,6 @@ void remember_bends(const RodProperties& rod, RodState* state) {
   state->bending_own.setZero(own_numbers(rod.laws->bending) * inner);
 }
 
-void remember_stretches(const RodProperties& rod, RodState* state) {
-  state->stretching_own.setZero(remembers(rod.laws->stretching) ? rod.edges() : 0);
-}
-
 void require_fits(const RodProperties& rod, const RodState& state) {
   require_size("state.position", state.position.cols(), rod.nodes());
   const Eigen::Index inner = rod.nodes() - 2;
@@ -140,7 +136,6 @@ void require_fits(const RodProperties& rod, const RodState& state) {
   else if (bends_on_frames(rod.laws->bending))
     throw InvalidInput("rod", "one without a memory of bends", "made with natural curvatures, be they zero");
   require_size("state.bending_own", state.bending_own.size(), own_numbers(rod.laws->bending) * inner);
-  require_size("state.stretching_own", state.stretching_own.size(), remembers(rod.laws->stretching) ? rod.edges() : 0);
   if (rod.natural_twist.size() > 0) require_size("rod.natural_twist", rod.natural_twist.size(), inner);
   if (state.twist.size() > 0) {
     require_size("state.twist", state.twist.size(), rod.edges());
@@ -155,10 +150,9 @@ void RodState::state(Archive& archive) {
   archive.section("RODS");
   archive(position, velocity, twist, twist_rate, reference_director, reference_twist, natural_curvature);
   if (curved_at_rest()) archive.list(bending_own);
-  if (stretching_own.size() > 0) archive(stretching_own);
   const bool finite = are_places(position) && velocity.allFinite() && twist.allFinite() && twist_rate.allFinite() &&
                       reference_director.allFinite() && reference_twist.allFinite() && natural_curvature.allFinite() &&
-                      bending_own.allFinite() && stretching_own.allFinite();
+                      bending_own.allFinite();
   archive.require(finite, "state of the rod", "that of no rod");
 }
 

@@ -54,12 +54,10 @@ void CentrelineTerms::begin(const StepStart& start, bool predicts) {
     for (std::size_t i = 1; i < tangent_.size(); ++i)
       bending_stiffness_[i] *= thinned(rod_, start.state.position, static_cast<Eigen::Index>(i)).bending;
   }
-  before_ = StretchedBefore(start.state, start.dt);
   predicts_ = predicts;
   if (!predicts) return;
-  const StretchedBefore held(start.state);
   for (std::size_t j = 0; j < predicted_tension_.size(); ++j) {
-    StretchedEdge edge = stretched_edge(rod_, start.state.position, static_cast<Eigen::Index>(j), held);
+    StretchedEdge edge = stretched_edge(rod_, start.state.position, static_cast<Eigen::Index>(j));
     edge.k_s = stretching_stiffness_[j];
     predicted_tension_[j] = respond(rod_, static_cast<Eigen::Index>(j), edge).tension;
   }
@@ -123,16 +121,8 @@ void CentrelineTerms::add_bending_forces(std::vector<Lanes>& force) {
 
 template <typename Law>
 void CentrelineTerms::add_stretching_energy(const Law& law, std::size_t begin, std::size_t end, Energy& out) const {
-  for (std::size_t j = begin; j < end; ++j) {
-    if (!(stretching_stiffness_[j] > 0.0)) continue;
-    if constexpr (Law::kRemembers) {
-      const StretchingMemory memory = law.remember(stretched(j));
-      out.stretching += memory.stored;
-      out.dissipated += memory.dissipated;
-    } else {
-      out.stretching += law.respond(stretched(j)).energy;
-    }
-  }
+  for (std::size_t j = begin; j < end; ++j)
+    if (stretching_stiffness_[j] > 0.0) out.stretching += law.respond(stretched(j)).energy;
 }
 
 CentrelineTerms::Energy CentrelineTerms::energy(const Points& increment) const {
@@ -161,16 +151,7 @@ void CentrelineTerms::account(const SolvedStep& step, StepAccount& account) cons
   const Energy energy = this->energy(step.increment);
   account.energies.stretching += energy.stretching;
   account.energies.bending += energy.bending;
-  account.work.numerical += energy.along - energy.dissipated;
-  account.work.plastic += energy.dissipated;
-}
-
-void CentrelineTerms::commit(RodState& state) const {
-  each_stretching_law(rod_, [&](const auto& law, std::size_t begin, std::size_t end) {
-    if constexpr (std::decay_t<decltype(law)>::kRemembers)
-      for (std::size_t j = begin; j < end; ++j)
-        state.stretching_own[static_cast<Eigen::Index>(j)] = law.remember(stretched(j)).own;
-  });
+  account.work.numerical += energy.along;
 }
 
 CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) const {

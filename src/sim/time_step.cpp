@@ -81,7 +81,6 @@ class ImplicitStep final : public TimeStep {
     account(step);
     equation_.strands.commit(step);
     equation_.rollers.commit(step);
-    equation_.centreline.commit(state_);
     equation_.matrix.commit();
     state_.velocity = step.increment / step.dt;
     equation_.frames.commit(equation_.centreline.tensions(), state_);

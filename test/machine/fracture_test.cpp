@@ -17,7 +17,6 @@
 #include "knot_utm/specimen/material.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
-#include "rod/own_laws.hpp"
 
 namespace knot_utm {
 namespace {
@@ -244,21 +243,6 @@ TEST(Fracture, ARodOfRubberPartsStraightAtItsBreakingForceToo) {
               1e-12);
 }
 
-/// Once half of its load has relaxed, a rod bears half of its tension, and parts at twice the stretch.
-TEST(Fracture, ARelaxedRodBearsTheTensionThatIsLeft) {
-  Material material = nylon();
-  material.breaking_force = 100.0;
-  RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(4, 0.01));
-  set_law(rod, StretchingLaws(ViscoelasticStretching{{0.5, 1.0}}));
-  const double strain = 1e-3, tension = material.stretching_stiffness * strain;
-  const Points position = along_z(std::vector<double>(4, 0.01 * (1.0 + strain)));
-  RodState relaxed;
-  relaxed.stretching_own = Eigen::VectorXd::Constant(4, strain);
-  EXPECT_NEAR(RopeStrengths(material, rod).most_exposed(rod, position).value, tension, 1e-9 * tension);
-  EXPECT_NEAR(RopeStrengths(material, rod).most_exposed(rod, position, StretchedBefore(relaxed)).value, 0.5 * tension,
-              1e-9 * tension);
-}
-
 /// A strand that lies around a frictionless post of radius R, with its centreline at R + h, parts at
 /// T = k_s (eps_b - b h/(R + h)). The strand is light and limp, so that its bend is that of the post.
 TEST(Fracture, AStrandAroundAPostPartsByTheBendOfThePost) {
@@ -307,13 +291,13 @@ TEST(Fracture, CrushingCountsOnceWhetherTheOtherSideIsHeldByTensionOrByAStrand) 
   from_below.row(3) = from_below.row(0);
   squeezed.row(3) = 2.0 * from_below.row(0);
   for (const Pressing& pressing : {from_below, squeezed})
-    EXPECT_NEAR(strengths.most_exposed(rod, position, {}, pressing).fraction, tension + kShare * h * kPressed / kForce,
+    EXPECT_NEAR(strengths.most_exposed(rod, position, pressing).fraction, tension + kShare * h * kPressed / kForce,
                 1e-9);
   EXPECT_NEAR(strengths.most_exposed(rod, position).fraction, tension, 1e-9);
   // A force at one node alone is that on a diameter of rod.
   Pressing crossed = Pressing::Zero(4, kNodes);
   crossed(1, 20) = crossed(3, 20) = 0.1 * kForce;
-  EXPECT_NEAR(strengths.most_exposed(rod, position, {}, crossed).fraction, tension + 0.5 * 0.1 * kShare, 1e-9);
+  EXPECT_NEAR(strengths.most_exposed(rod, position, crossed).fraction, tension + 0.5 * 0.1 * kShare, 1e-9);
 }
 
 /// A limp strand around a frictionless post of radius R, its centreline at R + h, is pressed by p = T/(R + h), and

@@ -58,7 +58,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"specimen.turns=[1", "--set specimen.turns=[1", "", "a list begins with"},
       {"specimen={turns: 1, turns: 2}", "specimen.turns", "", "stands twice"},
       // Types
-      {"material.stretching_law=hooke", "material.stretching_law", "hooke", "linear, neo_hookean or viscoelastic"},
+      {"material.stretching_law=hooke", "material.stretching_law", "hooke", "linear or neo_hookean"},
       {"specimen=3", "specimen", "3", "a map"},
       {"specimen.turns=one", "specimen.turns", "one", "a whole number from 1 to 4"},
       {"specimen.turns=1.5", "specimen.turns", "1.5", "a whole number from 1 to 4"},
@@ -320,29 +320,6 @@ TEST(BadInput, ABendWithFrictionNeedsItsMoment) {
               HasSubstr("only with bending_law: frictional"));
   EXPECT_THAT(complaint(kTighten, {"material.bending_law=elastic", "material.friction_moment=0.06"}),
               HasSubstr("only with bending_law: frictional"));
-}
-
-TEST(BadInput, RelaxationNeedsAShareAndATimeAndLawsThatRelax) {
-  using Settings = std::vector<std::string>;
-  const auto with = [&](const Settings& stretch, const Settings& bend) {
-    Settings all = {kElastic, "material.stretching_law=viscoelastic", "material.bending_law=viscoelastic"};
-    for (const std::string& each : stretch) all.push_back("material.relaxation_" + each);
-    for (const std::string& each : bend) all.push_back("material.bending_relaxation_" + each);
-    return complaint(kTighten, all);
-  };
-  const Settings right = {"share=0.2", "time=30"};
-  EXPECT_EQ(with(right, right), "nothing was wrong");
-  EXPECT_THAT(with({}, right), AllOf(HasSubstr("material.relaxation_share is missing"), HasSubstr("0 to 0.99"),
-                                     HasSubstr("stretching_law: viscoelastic needs"), Not(HasSubstr("\n"))));
-  EXPECT_THAT(with(right, {"share=0.2"}), HasSubstr("material.bending_relaxation_time is missing"));
-  EXPECT_THAT(with({"share=1", "time=30"}, right),
-              AllOf(HasSubstr("material.relaxation_share"), HasSubstr("0 to 0.99"), Not(HasSubstr("\n"))));
-  EXPECT_THAT(with(right, {"share=0.2", "time=0"}),
-              AllOf(HasSubstr("material.bending_relaxation_time"), HasSubstr("0.001 to 1e9 s"), Not(HasSubstr("\n"))));
-  EXPECT_THAT(complaint(kTighten, {"material.stretching_law=neo_hookean", "material.relaxation_share=0.2"}),
-              AllOf(HasSubstr("only with stretching_law: viscoelastic"), Not(HasSubstr("\n"))));
-  EXPECT_THAT(complaint(kTighten, {"material.bending_relaxation_time=30"}),
-              HasSubstr("only with bending_law: viscoelastic"));
 }
 
 TEST(BadInput, ARestShapeNeedsALawThatKeepsItAndGripsThatHoldIt) {

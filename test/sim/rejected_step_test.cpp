@@ -153,7 +153,6 @@ TEST_P(OnceFailedStep, IsMade) {
   RodState state = straight_state(rod);
   if (twist) initialise_frames(&state);
   if (curved) remember_bends(rod, &state);
-  remember_stretches(rod, &state);
   const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
   archive(*stepper);
   archive.end();

@@ -10,7 +10,6 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "rod/own_laws.hpp"
 #include "sim/balance.hpp"
 #include "sim/saved.hpp"
 #include "sim/scenes.hpp"
@@ -123,34 +122,6 @@ TEST(TwoMaterials, EachRopeStretchesByItsOwnStiffness) {
   const double expected =
       0.5 * load * load * length * (1.0 / rope.stretching_stiffness + 1.0 / cord.stretching_stiffness);
   EXPECT_NEAR(energy.stretching / expected, 1.0, 1e-6);
-}
-
-/// Held stretched for long, each rope keeps 1 - s of its load, s being its own share.
-TEST(TwoMaterials, EachRopeRelaxesByItsOwnShare) {
-  const double share = 0.3, other_share = 0.8, time = 1.0, strain = 1e-3;
-  const Material rope = braided_rope();
-  const double h = rope.radius;
-  LaidRopes ropes;
-  ropes.add(Vec3::Zero(), Vec3(h, 0.0, 0.0));
-  ropes.add(Vec3(0.0, 100.0 * h, 0.0), Vec3(h, 0.0, 0.0));
-  RodProperties rod = make_rod(rope, rope, ropes.lengths(), ropes.cuts);
-  set_law(rod, StretchingLaws(ViscoelasticStretching{{share, time}}));
-  rod.other_laws = std::make_shared<RodLaws>(RodLaws{ViscoelasticStretching{{other_share, time}}, rod.laws->bending});
-  RodState state = ropes.state();
-  remember_stretches(rod, &state);
-  Boundary stretched;
-  for (int i = 0; i < ropes.position.cols(); ++i) {
-    const Vec3 place = ropes.position.col(i);
-    stretched.fixed_nodes.push_back({i, place + strain * place[0] * Vec3::UnitX()});
-  }
-  const auto step = TimeStep::make(rod, state, settings_of(rope, 0.0, 0.0));
-  for (int i = 0; i < 40; ++i) ASSERT_TRUE(step->step(stretched, time).accepted());
-  // What the implicit steps have left of the part that relaxes is 2^-40.
-  const Eigen::VectorXd tension = step->tension() / (rope.stretching_stiffness * strain);
-  EXPECT_NEAR(tension[1], 1.0 - share, 1e-9);
-  EXPECT_NEAR(tension[kEdgesOfRope + 2], 1.0 - other_share, 1e-9);
-  EXPECT_NEAR(edge_tension(step->rod(), step->state())[kEdgesOfRope + 2],
-              tension[kEdgesOfRope + 2] * rope.stretching_stiffness * strain, 1e-9);
 }
 
 TEST(TwoMaterials, ARopeHasTheMassOfItsOwn) {

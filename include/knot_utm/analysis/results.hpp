@@ -18,7 +18,7 @@ struct EnergyParts {
   double stored = 0.0;       ///< change of the energies of stretching, bending, twisting and contact
   double kinetic = 0.0;      ///< change of the kinetic energy
   double friction = 0.0;     ///< loss by friction
-  double plastic = 0.0;      ///< loss in bends that yield or whose fibres slide, and by relaxation
+  double plastic = 0.0;      ///< loss in bends that yield or whose fibres slide
   double drag = 0.0;         ///< loss by viscous drag
   double numerical = 0.0;    ///< loss by the time integration; negative: it added energy
   double reweighting = 0.0;  ///< loss by changes of the contacts' weights

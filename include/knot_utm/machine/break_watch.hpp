@@ -61,7 +61,7 @@ class RodBreak {
   void state(Archive& archive) { archive(watch_); }
 
  private:
-  Exposure exposure(const TimeStep& stepper, const Points& position, double dt) const;
+  Exposure exposure(const TimeStep& stepper, const Points& position) const;
 
   RopeStrengths strengths_;
   BreakWatch watch_;

@@ -44,8 +44,7 @@ class RopeStrengths {
   bool crush() const;
 
   /// `pressing`: of all nodes, where one of the laws asks for it.
-  Exposure most_exposed(const RodProperties& rod, const Points& position, const StretchedBefore& before = {},
-                        const Pressing& pressing = {}) const;
+  Exposure most_exposed(const RodProperties& rod, const Points& position, const Pressing& pressing = {}) const;
 
  private:
   struct Ropes {

@@ -59,9 +59,8 @@ inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(grip_work, "J", "done by grips and fixtures since the start"),
     KNOT_UTM_FIELD(dissipation, "J", "by friction, drag and bending since the start"),
     KNOT_UTM_FIELD(friction_loss, "J", "part of the dissipation that is by friction"),
-    KNOT_UTM_FIELD(
-        plastic_loss, "J",
-        "part of the dissipation that is in the rod: bends that yield or whose fibres slide, and relaxation"),
+    KNOT_UTM_FIELD(plastic_loss, "J",
+                   "part of the dissipation that is in the rod: bends that yield or whose fibres slide"),
     KNOT_UTM_FIELD(numerical_dissipation, "J",
                    "by the time steps since the start, beside friction and drag; may be negative"),
     KNOT_UTM_FIELD(reweighting_loss, "J",

@@ -7,12 +7,11 @@ namespace knot_utm {
 /// The interface of a bending law. At every inner node a law gives the bending moment as a function of the bend and of
 /// an internal variable, the natural curvature kappabar_n of the last accepted step,
 ///
-///     M = dW/dkappa,   W(kappa; kappabar_n, dt) = E(kappa, kappabar) + dt psi((kappabar - kappabar_n)/dt),
+///     M = dW/dkappa,   W(kappa; kappabar_n) = E(kappa, kappabar) + D(kappabar - kappabar_n),
 ///
-/// kappabar being the natural curvature that is kept once this step is accepted, and psi the dissipation potential. W
-/// is the incremental energy of the variational form. Where nothing is dissipated, it is the elastic energy E. Where
-/// the rate does not matter, as of a rod that yields, dt psi is the energy dissipated in this step. Of a viscous law,
-/// whose psi is quadratic, it is half of that.
+/// kappabar being the natural curvature that is kept once this step is accepted, and D the energy dissipated in this
+/// step, however long it is. W is the incremental energy of the variational form. Where nothing is dissipated, it is
+/// the elastic energy E.
 ///
 /// A law is a header and one line in `BendingLaws` (bending_laws.hpp). It is a plain struct, which has
 ///
@@ -22,7 +21,6 @@ namespace knot_utm {
 ///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
 ///                                                 (machine/accuracy.hpp)
 ///     static constexpr bool kRemembers            whether its internal variable changes in a step
-///     static constexpr bool kKeepsNatural         whether a natural curvature stays as it is
 ///     static constexpr int kOwn                   how many numbers besides it the law remembers of every node
 ///     respond(BendingNode)                        -> BendingResponse
 ///     remember(BendingNode)                       -> BendingMemory, once the step is accepted
@@ -41,7 +39,7 @@ struct BendingNode {
   double voronoi_length;        ///< lbar [m]
   Eigen::Vector2d bend;         ///< kappa [-]
   Eigen::Vector2d natural;      ///< kappabar_n, of the last accepted step [-]
-  double dt = 0.0;              ///< length of this step, for laws that depend on the rate; 0: bent at once [s]
+  double dt = 0.0;              ///< length of this step, for keep_own only [s]
   const double* own = nullptr;  ///< the law's kOwn numbers, of the last accepted step
   double tension = 0.0;         ///< mean of the node's two edges once the step is accepted, for keep_own only [N]
   /// kappa - kappabar_n of the trial before this one in the same step [-]; zero: there was none.

@@ -7,12 +7,11 @@
 #include "knot_utm/rod/frictional_bending.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/plastic_bending.hpp"
-#include "knot_utm/rod/viscoelastic_bending.hpp"
 
 namespace knot_utm {
 
 /// All bending laws there are, in the order in which messages name them; the first is the default.
-using BendingLaws = std::variant<ElasticBending, PlasticBending, FrictionalBending, ViscoelasticBending>;
+using BendingLaws = std::variant<ElasticBending, PlasticBending, FrictionalBending>;
 
 using BendingRegistry = LawRegistry<BendingLaws>;
 
@@ -26,16 +25,11 @@ inline BendingLaws bending_law_of(const RodMaterial& material) {
 inline bool bends_on_frames(const BendingLaws& law) { return !std::holds_alternative<ElasticBending>(law); }
 inline bool bends_on_frames(const RodMaterial& material) { return bends_on_frames(bending_law_of(material)); }
 
-/// Whether the law has an internal variable that changes from step to step.
+/// Whether the law has an internal variable that changes from step to step. A natural curvature then does not stay.
 inline bool remembers(const BendingLaws& law) {
   return std::visit([](const auto& of) { return of.kRemembers; }, law);
 }
 inline bool remembers_bends(const RodMaterial& material) { return remembers(bending_law_of(material)); }
-
-/// Whether a natural curvature that the rod has stays as it is.
-inline bool keeps_natural_curvature(const RodMaterial& material) {
-  return std::visit([](const auto& of) { return of.kKeepsNatural; }, bending_law_of(material));
-}
 
 /// How many numbers it remembers of a node besides the natural curvature.
 inline int own_numbers(const BendingLaws& law) {

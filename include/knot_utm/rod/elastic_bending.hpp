@@ -15,7 +15,6 @@ struct ElasticBending {
   static constexpr NoKeys kKeys{};
   static constexpr bool kStudied = true;
   static constexpr bool kRemembers = false;
-  static constexpr bool kKeepsNatural = true;
   static constexpr int kOwn = 0;
 
   static ElasticBending of(const RodMaterial& /*material*/) { return {}; }

@@ -38,7 +38,6 @@ struct FrictionalBending {
   static constexpr std::array kKeys{kStickRatio, kFrictionMoment, kCompaction};
   static constexpr bool kStudied = true;
   static constexpr bool kRemembers = true;
-  static constexpr bool kKeepsNatural = false;
   static constexpr int kOwn = 1;
   static constexpr double kCompactionTime = 0.05;  ///< tau [s]
 

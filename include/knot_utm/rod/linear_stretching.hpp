@@ -13,7 +13,6 @@ struct LinearStretching {
   static constexpr const char* kName = "linear";
   static constexpr NoKeys kKeys{};
   static constexpr bool kStudied = true;
-  static constexpr bool kRemembers = false;
 
   static LinearStretching of(const RodMaterial& /*material*/) { return {}; }
 

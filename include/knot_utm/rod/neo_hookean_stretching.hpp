@@ -22,7 +22,6 @@ struct NeoHookeanStretching {
   static constexpr const char* kName = "neo_hookean";
   static constexpr NoKeys kKeys{};
   static constexpr bool kStudied = false;
-  static constexpr bool kRemembers = false;
 
   static NeoHookeanStretching of(const RodMaterial& /*material*/) { return {}; }
 

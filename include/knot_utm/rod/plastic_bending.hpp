@@ -24,7 +24,6 @@ struct PlasticBending {
   static constexpr std::array kKeys{kHardening};
   static constexpr bool kStudied = false;
   static constexpr bool kRemembers = true;
-  static constexpr bool kKeepsNatural = false;
   static constexpr int kOwn = 0;
 
   double yield_curvature = 0.0;  ///< kappa_y, more than 0 [1/m]

@@ -68,7 +68,8 @@ RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_
 RodProperties make_rod(const RodMaterial& material, const RodMaterial& other, const Eigen::VectorXd& rest_length,
                        const std::vector<int>& cuts);
 
-/// What moves, and what the laws of the rod remember. Twist members are empty where the scene does not solve for twist.
+/// What moves, and what the bending law of the rod remembers. Twist members are empty where the scene does not solve
+/// for twist.
 struct RodState {
   Points position;                  ///< x_i [m], 3 x N
   Points velocity;                  ///< v_i [m/s], 3 x N
@@ -82,8 +83,6 @@ struct RodState {
   Eigen::Matrix2Xd natural_curvature;
   Eigen::VectorXd bending_own;  ///< and its own numbers (bending_law.hpp): kOwn of each of these nodes, node by node
 
-  Eigen::VectorXd stretching_own;  ///< what the stretching law remembers: a number of every edge, N-1; empty: nothing
-
   bool curved_at_rest() const { return natural_curvature.cols() > 0; }
 
   void state(Archive& archive);
@@ -91,9 +90,6 @@ struct RodState {
 
 /// Gives the state natural curvatures of zero, and the memory that the rod's bending law needs.
 void remember_bends(const RodProperties& rod, RodState* state);
-
-/// Gives the state the memory that the rod's stretching law needs, which may be none.
-void remember_stretches(const RodProperties& rod, RodState* state);
 
 /// Throws InvalidInput where state and rod do not fit together: other numbers of nodes, or a rod that needs frames or a
 /// memory of its bends which the state has not.

@@ -42,24 +42,11 @@ StretchingLocal stretching(const Law& law, double k_s, double l0, const Vec3& ed
   return local;
 }
 
-/// What a law depends on besides the positions: what it remembers of every edge, and for how long these are stretched
-/// so [s]. A law that remembers nothing needs none of it.
-struct StretchedBefore {
-  const double* own = nullptr;
-  double dt = 0.0;
-
-  StretchedBefore() = default;
-  explicit StretchedBefore(const RodState& state, double dt_ = 0.0)
-      : own(state.stretching_own.size() > 0 ? state.stretching_own.data() : nullptr), dt(dt_) {}
-  double at(std::size_t edge) const { return own ? own[edge] : 0.0; }
-};
-
 /// Edge j of a rod. A cut one has k_s = 0.
-inline StretchedEdge stretched_edge(const RodProperties& rod, const Points& position, Eigen::Index j,
-                                    const StretchedBefore& before = {}) {
+inline StretchedEdge stretched_edge(const RodProperties& rod, const Points& position, Eigen::Index j) {
   const Vec3 edge = position.col(j + 1) - position.col(j);
   const double k_s = rod.is_cut(j) ? 0.0 : rod.material_at(j).stretching_stiffness;
-  return {k_s, rod.rest_length[j], edge.norm() / rod.rest_length[j], before.dt, before.at(static_cast<std::size_t>(j))};
+  return {k_s, rod.rest_length[j], edge.norm() / rod.rest_length[j]};
 }
 
 /// Response of the law of its rope to edge j.

@@ -14,18 +14,13 @@ namespace knot_utm {
 ///     static constexpr std::array kKeys           its keys in `material` (LawKey), or NoKeys
 ///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
 ///                                                 (machine/accuracy.hpp)
-///     static constexpr bool kRemembers            whether it remembers a number of every edge
 ///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing
 ///     respond(StretchedEdge)                      -> StretchingResponse
-///     remember(StretchedEdge)                     -> StretchingMemory, once the step is accepted; only where
-///                                                 kRemembers
-///     strain(k_s, T)                              -> lambda - 1 of an edge that bears T >= 0 since it was stretched at
-///                                                 once, the inverse of `respond`
+///     strain(k_s, T)                              -> lambda - 1 of an edge that bears T >= 0, the inverse of `respond`
 ///     state(Archive&)                             its parameters
 ///
 /// With every law k_s is the stiffness dT/dlambda at rest, so that k_s can serve as the scale of the tension. An edge
-/// that has parted has k_s = 0 and bears no tension. Where a law remembers, W is the incremental energy of
-/// bending_law.hpp. What it remembers is zero at first and is kept in the rod's state.
+/// that has parted has k_s = 0 and bears no tension.
 ///
 /// An evaluation of the rod chooses the law once (std::visit), not at every edge.
 
@@ -34,8 +29,6 @@ struct StretchedEdge {
   double k_s;          ///< stiffness [N]
   double rest_length;  ///< l0 [m]
   double stretch;      ///< lambda, more than 0 [-]
-  double dt = 0.0;     ///< length of this step, for laws that depend on the rate; 0: stretched at once [s]
-  double own = 0.0;    ///< what the law remembers, of the last accepted step
 };
 
 /// The energy of an edge without stiffness (k_s = 0) is undefined and must not be read.
@@ -43,13 +36,6 @@ struct StretchingResponse {
   double energy;   ///< l0 W [J]
   double tension;  ///< T, positive pulls [N]
   double slope;    ///< dT/dlambda [N]
-};
-
-/// What a law that remembers keeps of an accepted step.
-struct StretchingMemory {
-  double own;
-  double dissipated;  ///< in this step, at least 0 [J]
-  double stored;      ///< [J]
 };
 
 }  // namespace knot_utm

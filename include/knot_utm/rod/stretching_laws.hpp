@@ -6,23 +6,17 @@
 #include "knot_utm/rod/linear_stretching.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/neo_hookean_stretching.hpp"
-#include "knot_utm/rod/viscoelastic_stretching.hpp"
 
 namespace knot_utm {
 
 /// All stretching laws there are, in the order in which messages name them; the first is the default.
-using StretchingLaws = std::variant<LinearStretching, NeoHookeanStretching, ViscoelasticStretching>;
+using StretchingLaws = std::variant<LinearStretching, NeoHookeanStretching>;
 
 using StretchingRegistry = LawRegistry<StretchingLaws>;
 
 /// The law that a material names, with its parameters.
 inline StretchingLaws stretching_law_of(const RodMaterial& material) {
   return StretchingRegistry::of(material.stretching.law, material);
-}
-
-/// Whether the law remembers a number of every edge.
-inline bool remembers(const StretchingLaws& law) {
-  return std::visit([](const auto& of) { return of.kRemembers; }, law);
 }
 
 /// Strain lambda - 1 of a straight rod of this material that bears a tension [N] of 0 or more.

@@ -52,14 +52,11 @@ class CentrelineTerms {
   /// Both energies at that position, and the change that their gradient there gives for an `increment` [m].
   struct Energy {
     double stretching = 0.0, bending = 0.0;  ///< [J]
-    double dissipated = 0.0;                 ///< by stretching, in this step [J]
     double along = 0.0;                      ///< dE/dx . increment [J]
   };
   Energy energy(const Points& increment) const;
   /// Adds the energies at the end of an accepted step, and the work of their forces in it.
   void account(const SolvedStep& step, StepAccount& account) const;
-  /// Writes what the stretching law remembers.
-  void commit(RodState& state) const;
 
   /// Overwrites blocks (i, i) to (i, i+2) and their mirrors with the Hessian of both energies, so that nobody has to
   /// set them to zero. It is the first term to be called. Where tensions are predicted, the geometric stiffness
@@ -85,13 +82,11 @@ class CentrelineTerms {
   void add_bending_forces(std::vector<Lanes>& force);
   /// An edge in the position that was evaluated last.
   StretchedEdge stretched(std::size_t edge) const {
-    return {stretching_stiffness_[edge], rod_.rest_length[static_cast<Eigen::Index>(edge)], stretch_[edge], before_.dt,
-            before_.at(edge)};
+    return {stretching_stiffness_[edge], rod_.rest_length[static_cast<Eigen::Index>(edge)], stretch_[edge]};
   }
 
   const RodProperties& rod_;
   bool bends_;
-  StretchedBefore before_;  // this step
   double largest_tension_ = 0.0;
   std::vector<double> stretching_stiffness_;  // k_s of every edge [N]; 0: cut
   std::vector<double> bending_stiffness_;     // k_b/lbar of every node [N m]; 0: at a cut edge
