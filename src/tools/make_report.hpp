@@ -27,6 +27,7 @@ inline bool make_report(const std::string& folder, const std::string& command) {
   words.insert(words.end(), {"KNOT_UTM_TOOLS_DIR=" + here.string(), "/usr/bin/python3", "-sPB", "-W", "ignore", "-m",
                              "knot_utm.report", "--command", command, "--version", version(), "--", folder});
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t child = 0;

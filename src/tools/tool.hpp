@@ -48,7 +48,7 @@ inline std::string missing_value(const CLI::App& app) {
 /// A sentence that says what is wrong with a command line and names the argument. The messages of CLI11 speak of types
 /// and limits of the program instead.
 inline std::string command_line_fault(const CLI::App& app, const std::string& tool, const CLI::ParseError& error) {
-  const std::string missing = missing_value(app);
+  std::string missing = missing_value(app);
   if (!missing.empty()) return missing;
   const std::vector<std::string> unknown = app.remaining();
   if (!unknown.empty() && unknown.front().rfind('-', 0) == 0) {
@@ -69,7 +69,7 @@ inline std::string command_line_fault(const CLI::App& app, const std::string& to
   if (error.get_name() == "ExcludesError")
     return name + " and " + said.substr(said.rfind(' ') + 1) + " cannot be given together";
   if (option == nullptr || option->results().empty()) return said;
-  const std::string given = name + " is " + shown(option->results().back()) + ", but must be a number";
+  std::string given = name + " is " + shown(option->results().back()) + ", but must be a number";
   if (error.get_name() == "ConversionError") return given;
   return said.find(" not in range 0") == kNone ? said : given + " of at least 0";
 }
