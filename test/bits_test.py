@@ -83,8 +83,11 @@ def hashes(folder):
 
 
 def processor():
+    """Its name, and what mathematical functions may choose by: clouds give many kinds one name."""
     with open("/proc/cpuinfo", encoding="utf-8") as file:
-        return re.search(r"^model name\s*:\s*(.*)$", file.read(), re.MULTILINE).group(1).strip()
+        facts = dict(re.findall(r"^([\w ]+?)\s*: (.*)$", file.read().split("\n\n")[0], re.MULTILINE))
+    vectors = sorted(flag for flag in facts.get("flags", "").split() if flag.startswith(("avx", "fma", "amx")))
+    return " ".join([facts.get("model name", "?"), facts.get("cpu family", "?"), facts.get("model", "?"), *vectors])
 
 
 def table():
