@@ -76,9 +76,9 @@ inline constexpr double kRopesStiffness = 0.010, kSolidsStiffnessOfKnots = 1.2;
 inline constexpr double kRollingStiffness = 0.016, kOppositeRollingStiffness = 0.14;
 // Loops whose sections give: plateau, lock and stiffness, the last one with knots of the same handedness. A plateau of
 // knots that are not hardly closed is that of knots which nearly stretch. In five of six loops it is 34 to 97 % larger
-// with finer edges, which no error tells. Where knots are hardly closed, the error is the share kSoftHardlyClosed of it.
-// These were chosen after 80 loops of rubber, seeds 201 and 202 (`scripts/bench readings --materials soft`), of which
-// they include 18 of 19 such plateaus, 43 of 44 locks and 47 of 49 stiffnesses.
+// with finer edges, which no error tells. Where knots are hardly closed, the error is the share kSoftHardlyClosed of
+// it. These were chosen after 80 loops of rubber, seeds 201 and 202 (`scripts/bench readings --materials soft`), of
+// which they include 18 of 19 such plateaus, 43 of 44 locks and 47 of 49 stiffnesses.
 inline constexpr double kSoftPlateau = 0.6, kSoftHardlyClosed = 0.25, kSoftLock = 0.25, kSoftStiffness = 0.1;
 // an upper bound by judgement: the solution is exact except for the residual
 inline constexpr double kStraightStiffness = 1e-3;
