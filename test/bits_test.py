@@ -34,7 +34,7 @@ def methods():
     out["friction memory"] = settings("config/tighten.yaml", *COARSE)
     out["friction power"] = settings("config/tighten.yaml", "physics.friction={law: power, exponent: 0.9, reference_pressure: 100}", *COARSE)
     out["friction rate"] = settings("config/tighten.yaml", "physics.friction={law: rate, rate: 0.02, rate_speed: 1e-4}", *COARSE)
-    out["broken in a bend"] = settings("config/tighten.yaml",
+    out["tension and bending"] = settings("config/tighten.yaml",
                                        "material.breaking={law: tension_and_bending, bending_share: 0.08, crushing_share: 0.5}", *COARSE)
     for material in ("pink_vps", "polypropylene"):
         out[material] = settings("config/tighten.yaml", f"material={material}", *COARSE)
