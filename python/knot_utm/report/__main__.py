@@ -8,13 +8,12 @@ import gc
 import importlib
 import os
 import shlex
-import sys
 
 from knot_utm.report.commands import in_one_line, OneLineParser
 
 # The function that makes a page, by the file that tells what a folder holds. The first is the newest where it holds two:
 # `compare` takes no folder of a run, and tests take away what older tests and comparisons left.
-PAGES = {"result.yaml": "page.report_on_run", "comparison.yaml": "comparison.report_on_comparison",
+PAGES = {"result.yaml": "run_page.report_on_run", "comparison.yaml": "comparison.report_on_comparison",
          "statistics.yaml": "batch_page.report_on_batch", "fit.yaml": "fit.report_on_fit"}
 
 
@@ -40,11 +39,9 @@ def main():
 def make(maker, folder, command, version):
     module, function = maker.split(".")
     html = getattr(importlib.import_module(f"knot_utm.report.{module}"), function)(folder, command, version)
-    from knot_utm.report import page, typefaces
+    from knot_utm.report import page
 
     page.write(folder, html)
-    if line := typefaces.told(typefaces.without_typeface(html)):
-        print("report:", line, file=sys.stderr)
 
 
 if __name__ == "__main__":

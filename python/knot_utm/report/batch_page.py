@@ -1,102 +1,190 @@
-"""The page of a batch: the curves of every specimen that counts and their mean with its band, and tables with a row for each specimen
-and rows of statistics, as the software of a testing machine prints them."""
+"""The page of a batch: the curves of every specimen that counts and their mean with its band, a row for each specimen, and the
+statistics of all readings, as the software of a testing machine prints them."""
+import itertools
+import os
 import re
 from collections import Counter, namedtuple
 
 import numpy as np
+from markupsafe import Markup
 
-from knot_utm.report.batch import Batch
-from knot_utm.report.certificate import Check
-from knot_utm.report.curve_figures import small_loads
-from knot_utm.report.curves import few_points, mean_curve
-from knot_utm.report.method_facts import counted, knot_and_materials, label_of, method_facts, particulars, place_of, program, sentence, unit_of
-from knot_utm.report.page import files_of, head_of, Headline, render
-from knot_utm.report.quantities import (BESIDE, CERTIFICATE, error_shown, GROUPS, is_number, is_rounding, percent, quantity_of, shown,
-                                        TABLES)
-from knot_utm.report.results_table import labels_of, NOTHING, short_label
-from knot_utm.report.run import printable
-from knot_utm.report.style import as_svg, BLUE, GREY, INK, LOOKS, ORANGE, stacked
+from knot_utm.report.batch import read_specimens
+from knot_utm.report.certificate import certificate, Check, specification_checks
+from knot_utm.report.commands import CannotReport
+from knot_utm.report.curves import draw, load_axes, mean_curve, reach, small_loads
+from knot_utm.report.marks import largest_load
+from knot_utm.report.method_facts import knot_and_materials, label_of, method_facts, particulars, place_of, program, sentence, unit_of
+from knot_utm.report.page import Box, checks_table, facts, figure, files_of, head_of, Headline, no_value, render, Row, Table, verdict_box
+from knot_utm.report.quantities import (all_in_units, error_shown, GROUPS, in_units, is_number, is_rounding, percent, quantity_of, shown,
+                                        units_of)
+from knot_utm.report.run import read_yaml, Run, texts_of
+from knot_utm.report.run_page import given_box, NOTHING, short_label
+from knot_utm.report.style import BLUE, GREY, INK, ORANGE
 
-WIDEST = 5  # readings beside each other: as many as a telephone has room for
+WIDEST = 6  # readings beside each other
 # What is looked for first, in this order, where the specimens have it.
 MAIN = ("knotability", "plateau_force", "jump_force", "force_ratio", "lock_extension", "locked_stiffness", "peak_force",
         "break_extension", "knot_efficiency", "elongation_total", "elongation_at_break", "energy_to_break")
-STATISTICS = (("Mean", "mean"), ("Standard deviation", "sd"), ("Coefficient of variation", "cv"), ("Minimum", "minimum"),
-              ("Maximum", "maximum"), ("95 % interval of the mean, low end", "low"),
-              ("95 % interval of the mean, high end", "high"), ("Readings", "n"))
+HEADLINES = 5
 FINEST = 1e-5  # of a mean: no spread is so small that more digits are shown
-IN_ALL = 60000  # points of all curves together: more of them make a page that is slow to open
+IN_ALL = 60000  # points of all curves together
 FEWEST = 60     # points of one curve
 
+# What the page shows of the folder of one specimen. `pull`: extension [m] and load [N], up to the break.
+Tested = namedtuple("Tested", "number pull largest warnings checks asked version given")
 
-def main_keys(batch):
-    return [key for key in MAIN if batch.statistics(key)][:WIDEST]
+
+class Batch:
+    def __init__(self, folder):
+        self.folder = folder
+        method, file = (os.path.join(folder, name) for name in ("method.yaml", "statistics.yaml"))
+        self.method, self.report = read_yaml(method), texts_of(method, "report")
+        self.units = units_of(self.report)
+        self.specimens, _ = read_specimens(folder)
+        self.facts = read_yaml(file)
+        for key in ("specimens", "rejected", "motion_pattern"):
+            if key not in self.facts:
+                raise CannotReport(f"{file}: no key {key}")
+        self.reasons = {one["specimen"]: in_units(one["reason"], self.units) for one in self.facts["rejected"]}
+        self.counted = [specimen for specimen in self.specimens if not specimen.rejected]
+        self.tested = [self.test(one.number) for one in self.counted]
+        found = [one.largest for one in self.tested if one.largest]
+        # Of a specimen whose load rose to the end, where there is one: then the largest loads are no peaks.
+        self.largest = min(found, key=lambda largest: largest.is_peak, default=None)
+        self.means = {key: (self.statistics(key) or {}).get("mean") for key in self.facts}  # as a single test could have them
+
+    def test(self, number):
+        run = Run(os.path.join(self.folder, f"specimen_{number:03d}"))
+        pull = run.pull()
+        return Tested(number, (pull["extension"], pull["load"]), largest_load(run), all_in_units(run.result.get("warnings") or [], run.units),
+                      certificate(run.result, run.has_knot(), run.is_soft()), specification_checks(run.method, run.result, run.units),
+                      run.result.get("version"), given_box(run))
+
+    def statistics(self, key):
+        """mean, sd, cv, low, high, minimum, maximum and n, of which some are None; None: no specimen has the reading."""
+        found = self.facts.get(key)
+        return found if isinstance(found, dict) and found.get("n") else None
+
+    def common_mean(self, key):
+        """None: not every specimen that counts has the reading."""
+        found = self.statistics(key)
+        return found["mean"] if found and found["n"] == len(self.counted) else None
+
+    def main_keys(self):
+        return [key for key in MAIN if self.statistics(key)][:HEADLINES]
+
+
+def report_on_batch(folder, command, version):
+    batch = Batch(folder)
+    length, units, rejected = batch.units.length, batch.units, batch.reasons
+    mean = mean_curve([one.pull for one in batch.tested])
+    checks, asked = [[(one.number, getattr(one, of)) for one in batch.tested if getattr(one, of)] for of in ("checks", "asked")]
+    asked_verdict = asked and verdict_box(verdict_of_all(asked, "%s meet the specification."))
+    curve = []
+    if any(len(one.pull[0]) for one in batch.tested):
+        common = mean and [shown(s, length.scale) for s in (mean.extension[0], mean.extension[-1])]
+        curve = [figure(curves(batch, mean), "Load over extension of all specimens, with their mean and its band",
+                        "Each thin line is the pull of a specimen, up to its break: the balanced load, without noise and resolution of the "
+                        "load cell. " + (
+                            "The mean is that of the loads at the same extension. It is drawn over the extensions that all specimens have, "
+                            f"{common[0]} to {common[1]} {length.name}, which the dotted lines bound. The band is as wide as single "
+                            "specimens scatter, the dashed lines bound the mean of all such specimens with 95 % confidence, neither beyond "
+                            "what a specimen shows." if common else "Of one specimen there is no band." if len(batch.counted) == 1 else
+                            "No extension is common to all specimens, so that no mean is drawn."))]
+    elif batch.counted:
+        curve = ["The tests ended before the specimens were pulled, so that there are no curves."]
+    tables, unmeasured = all_readings(batch)
+    certificates = [
+        *([asked_verdict, checks_table("Specification", "Kept by", checks_of_all(asked))] if asked else []),
+        verdict_box(verdict_of_all(checks, "%s keep all limits.")), checks_table("Trust in the computation", "Kept by", checks_of_all(checks)),
+        "The limits are those of the certificate of a single test. Each row says how many of the specimens that have its value keep it."]
+    specimens = batch.method.get("specimens") or {}
+    return render(
+        folder, command, version, "Batch of specimens, simulated", knot_and_materials(batch.method, batch.folder), [
+            ("Rejected specimens", rejected and [
+                facts([(f"Specimen {number}", reason) for number, reason in rejected.items()]),
+                "A specimen is rejected where the physics gave up, where its knot came undone before it was pulled, or where an operator "
+                "stopped its test. Its readings are left out of all statistics, and its curve is not drawn."]),
+            ("Force and extension", curve),
+            ("Specimens", [*specimens_tables(batch), "Forces are the balanced load." + (
+                " The load of a specimen was still rising when its test was stopped, so that its largest load is no peak."
+                if batch.largest and not batch.largest.is_peak else "") + ("" if units.are_default else " All files are in SI units."),
+                "" if batch.specimens[0].drawn else "Nothing was drawn: the specimens differ in the noise of the load cell only."]),
+            ("All readings", tables and [
+                *tables, "± 95 % is half of the interval that holds the mean of all such specimens with 95 % confidence, and n the number of "
+                "specimens that have the reading. SD is the standard deviation of single specimens, over n – 1, and CV its share of the mean; what is the same for all "
+                "of them, but for rounding, is constant. Scatter says nothing about the numerical error that all specimens share: it stands "
+                "in the report of each one.", no_value("No specimen has", unmeasured)]),
+            ("Quality certificate", certificates if batch.counted else []),
+            ("What was tested, and how", [[*method_facts(batch.method, units, batch.folder), ("Specimens", [
+                ("Count", str(len(batch.specimens))), ("Seed of the drawing", str(specimens.get("seed", ""))), *scatter(batch)], "")],
+                facts(program(batch.method, units))])],
+        under_title(batch), [*head_of(batch.report), *particulars(
+            batch.report, batch.method, batch.means.get("gauge_length"), units,
+            f"{len(batch.specimens)} tested, {len(batch.counted)} count, {len(rejected)} discarded")],
+        batch.report.get("notes", ""), headlines(batch), [
+            next((one.given for one in batch.tested if one.given), None), asked_verdict,
+            Box("fail", ["No specimen counts: " + (f"all {len(rejected)} are" if len(rejected) > 1 else "the only one is") +
+                         " rejected, so that there are no readings."]) if not batch.counted else
+            Box("warnings", [Markup("<b>Warnings</b>"), *lines]) if (lines := warnings(batch)) else
+            Box("quiet", ["No specimen that counts gave a warning."])],
+        with_specimens(files_of(folder), batch))
+
+
+def under_title(batch):
+    def counts(name):
+        found = Counter(getattr(one, name) for one in batch.counted)
+        return ", ".join(f"{word} {number}" for word, number in sorted(found.items(), key=lambda item: (-item[1], item[0])))
+
+    count, rejected = len(batch.specimens), len(batch.reasons)
+    said = [f"knot_utm {batch.tested[0].version}"] if batch.tested else []
+    said.append(f"{count} specimen{'s' if count > 1 else ''}" + (
+        f", of which {count - rejected} count and {rejected} {'are' if rejected > 1 else 'is'} rejected" if rejected else ""))
+    if batch.counted:
+        said += [f"motion pattern {counts('motion_pattern')}", f"ended by {counts('ended_by')}"]
+    return " · ".join(said)
 
 
 def named(numbers):
     """As in a sentence: "specimens 1 to 4 and 7"."""
-    runs = []
-    for one in sorted(numbers):
-        if runs and one == runs[-1][1] + 1:
-            runs[-1][1] = one
-        else:
-            runs.append([one, one])
-    words = [str(part) for first, last in runs
-             for part in ([first] if first == last else [first, last] if last == first + 1 else [f"{first} to {last}"])]
+    runs = [[one for _, one in run] for _, run in itertools.groupby(enumerate(sorted(numbers)), lambda pair: pair[1] - pair[0])]
+    words = [f"{run[0]} to {run[-1]}" if len(run) > 1 else str(run[0]) for run in runs]
     return ("specimens " if len(numbers) > 1 else "specimen ") + " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))
 
 
-class Column:
-    """One reading of every specimen. Its values have as many digits as leave two of their spread."""
+# ---- tables ----
 
-    def __init__(self, key, label, unit, mean, spread):
-        self.key, self.label, self.unit = key, label, unit
+
+class Column:
+    """A quantity of every specimen. Its values have as many digits as leave two of their spread."""
+
+    def __init__(self, label, unit, values_of, mean, spread):
+        self.label, self.unit, self.values_of = label, unit, values_of
         self.error = max(spread, FINEST * abs(mean)) if spread else None
 
     def text(self, value):
         return shown(value, self.unit.scale, self.error) if is_number(value) else "none"
 
 
-# `rows`: of each specimen the number, and its values as texts; `statistics`: the same of rows of statistics.
-Table = namedtuple("Table", "columns rows statistics")
-
-
-def beside_each_other(columns):
-    """In as many tables as they need, of about the same width."""
+def specimens_tables(batch):
+    """What was drawn for each specimen, and its main readings and those that the specification asks for, in as many tables as are
+    needed."""
+    columns = []
+    for key in batch.specimens[0].drawn:
+        values = [one.drawn[key] for one in batch.specimens]
+        columns.append(Column(sentence(name_of(key)), unit_of(key, batch.units), lambda one, key=key: one.drawn[key], max(values),
+                              float(np.std(values, ddof=1)) if len(values) > 1 else 0.0))
+    keys = batch.main_keys()
+    for key in keys + [key for key in batch.method.get("specification") or {} if key not in keys and batch.statistics(key)]:
+        found = batch.statistics(key)
+        columns.append(Column(short_label(batch.means, key, batch.largest), batch.units.of(quantity_of(key).kind),
+                              lambda one, key=key: None if one.rejected else one.readings[key], found["mean"], found["sd"]))
     tables = -(-len(columns) // WIDEST)
     each = -(-len(columns) // max(tables, 1))
-    return [columns[i:i + each] for i in range(0, len(columns), each)] if columns else []
-
-
-def readings_tables(batch):
-    """Of the main readings, and of those that the specification asks for."""
-    keys = main_keys(batch)
-    keys += [key for key in batch.method.get("specification") or {} if key not in keys and batch.statistics(key)]
-    means, largest = batch.means(), batch.largest()
-    columns = [Column(key, short_label(means, key, largest), batch.units.of(quantity_of(key).kind), batch.mean(key),
-                      batch.statistics(key)["sd"]) for key in keys]
-    return [Table(some, [(one.number, [column.text(one.readings[column.key]) for column in some]) for one in batch.counted],
-                  [(name, [statistic(batch, column, part) for column in some]) for name, part in STATISTICS])
-            for some in beside_each_other(columns)]
-
-
-def statistic(batch, column, part):
-    found = batch.statistics(column.key)
-    if part == "n":
-        return str(found["n"])
-    if part == "sd" and found["sd"] is None and found["n"] > 1:
-        return "constant"
-    if part == "cv":
-        return percent(found["cv"])
-    return column.text(found[part]) if is_number(found[part]) else ""
-
-
-def drawn_tables(batch):
-    """What was drawn for each specimen, also for those that are rejected."""
-    columns = [Column(key, sentence(name_of(key)), unit_of(key, batch.units), max(one.drawn[key] for one in batch.specimens),
-                      batch.spread(key)) for key in batch.specimens[0].drawn]
-    return [Table(some, [(one.number, [column.text(one.drawn[column.key]) for column in some]) for one in batch.specimens], [])
-            for some in beside_each_other(columns)]
+    return [Table(("Specimen", *(f"{column.label} {f'[{column.unit.name}]' if column.unit.name else ''}" for column in some)),
+                  [Row(f"{one.number}{', rejected' if one.rejected else ''}", (),
+                       [column.text(column.values_of(one)) for column in some]) for one in batch.specimens])
+            for some in (columns[i:i + each] for i in range(0, len(columns), max(each, 1)))]
 
 
 def name_of(key):
@@ -112,31 +200,36 @@ def scatter(batch):
             for key, law in (laws.items() if isinstance(laws, dict) else ()) for name, spread in law.items()]
 
 
-class Row:
-    """Statistics of one reading, as texts."""
+def all_readings(batch):
+    """Tables of the statistics of every reading that a specimen has, and the keys that none has."""
+    labels = {key: short_label(batch.means, key, batch.largest) for key in ("locked_stiffness", "peak_force")}
+    titles = {"beside": "Numerical errors and true forces", "certificate": "Checks", "head": "Further"}
+    counts, tables, told = ("specimens", "rejected"), [], {"specimens", "rejected", "motion_pattern"}
+    groups = {title: [key for key in group if key in batch.facts] for title, group in GROUPS.items()}
+    groups["head"] = [key for key in batch.facts if key not in counts and not any(key in group for group in groups.values())]
+    for title, keys in groups.items():
+        rows = [statistics_row(batch, key, labels.get(key) or quantity_of(key).label) for key in keys
+                if batch.statistics(key) and NOTHING.get(key) != batch.means[key]]
+        told.update(row.keys[0] for row in rows)
+        if rows:
+            tables.append(Table((titles.get(title, title), "Mean", "± 95 %", "SD", "CV", "Least", "Largest", "n", "Unit"), rows))
+    return tables, [key for key in batch.facts if key not in told]
 
-    def __init__(self, batch, key, label):
-        found, quantity = batch.statistics(key), quantity_of(key)
-        unit = batch.units.of(quantity.kind)
-        column = Column(key, label or quantity.label, unit, found["mean"], found["sd"])
-        half = half_of(found)
-        self.key, self.label, self.unit, self.n = key, column.label, unit.name, found["n"]
-        if is_nothing(batch, key):
-            self.mean, self.cv, self.half, self.sd = "0", "", "", "constant" if self.n > 1 else ""
-            return
-        self.mean, self.cv = column.text(found["mean"]), percent(found["cv"])
-        self.sd = error_shown(found["sd"], unit.scale) if found["sd"] is not None or self.n < 2 else "constant"
-        self.half = error_shown(half, unit.scale)
 
+def statistics_row(batch, key, label):
+    found, unit = batch.statistics(key), batch.units.of(quantity_of(key).kind)
+    column, n, sd = Column(label, unit, None, found["mean"], found["sd"]), found["n"], found["sd"]
 
-def is_nothing(batch, key):
-    """Whether neither the mean nor the spread of the readings is more than rounding."""
     def mean_of(one):
         return (batch.statistics(one) or {}).get("mean")
 
-    spread = batch.statistics(key)["sd"]
-    return is_rounding(key, mean_of) and (
-        spread is None or is_rounding(key, lambda one: spread if one == key else mean_of(one)))
+    ends = [column.text(found[end]) if is_number(found.get(end)) else "" for end in ("minimum", "maximum")]
+    # Neither the mean nor the spread is more than rounding.
+    if is_rounding(key, mean_of) and (sd is None or is_rounding(key, lambda one: sd if one == key else mean_of(one))):
+        return Row(label, [key], ["0", "", "constant" if n > 1 else "", "", *ends, str(n), unit.name])
+    spread = error_shown(sd, unit.scale) if sd is not None or n < 2 else "constant"
+    return Row(label, [key], [column.text(found["mean"]), error_shown(half_of(found), unit.scale), spread, percent(found["cv"]), *ends, str(n),
+                              unit.name])
 
 
 def half_of(statistics):
@@ -144,101 +237,37 @@ def half_of(statistics):
     return statistics["high"] - statistics["mean"] if is_number(statistics["high"]) else None
 
 
-def all_readings(batch):
-    """[(title, rows)] of every reading that a specimen has, and the keys that none has."""
-    largest = batch.largest()
-    labels = labels_of(batch.means(), short_label({}, "peak_force", largest))
-    titles = [*((title, title) for title in TABLES), (BESIDE, "Numerical errors and true forces"),
-              (CERTIFICATE, "Checks")]
-    keys = {title: [key for key in GROUPS[group] if key in batch.facts] for group, title in titles}
-    known = {"specimens", "rejected", "motion_pattern", *(key for some in keys.values() for key in some)}
-    keys["Further"] = [key for key in batch.facts if key not in known]
-    groups = [(title, [Row(batch, key, labels.get(key)) for key in some if has_values(batch, key)])
-              for title, some in keys.items()]
-    missing = [key for some in keys.values() for key in some if key != "motion_pattern" and not has_values(batch, key)]
-    return [group for group in groups if group[1]], missing
-
-
-def has_values(batch, key):
-    mean = batch.mean(key)
-    return mean is not None and NOTHING.get(key) != mean
-
-
 def checks_of_all(checks):
-    """Each check that has a limit, over all specimens that have its value. `checks`: [(number, [Check])]."""
+    """Each check over all specimens that have its value. `checks`: [(number, [Check])]."""
     found = {}
     for number_of_specimen, some in checks:
         for check in some:
-            if check.verdict:
-                found.setdefault(check.words, []).append((number_of_specimen, check))
+            found.setdefault(check.words, []).append((number_of_specimen, check))
     return [over_all(words, some) for words, some in found.items()]
 
 
 def over_all(words, found):
-    first, missed = found[0][1], [one for one, check in found if check.verdict == "fail"]
+    first, missed = found[0][1], [one for one, check in found if not check.kept]
     if 0 < len(missed) < len(found):
         words += f"; not so {named(missed)}"
-    return Check(words, first.keys, f"{len(found) - len(missed)} of {len(found)} specimens", first.limit, not missed)
+    return Check(words, first.key, f"{len(found) - len(missed)} of {len(found)} specimens", first.limit, not missed)
 
 
 def verdict_of_all(checks, sentence_of):
     """(words, whether all do). `sentence_of`: "%s keep all limits." """
-    good = [one for one, some in checks if not any(check.verdict == "fail" for check in some)]
-    return sentence_of % f"{len(good)} of {len(checks)} specimens", len(good) == len(checks)
-
-
-# ---- the page ----
-
-
-def report_on_batch(folder, command, version):
-    batch = Batch(folder)
-    mean = mean_curve([one.pull for one in batch.tested])
-    checks = [(one.number, one.checks) for one in batch.tested]
-    asked = [(one.number, one.asked) for one in batch.tested if one.asked]
-    readings, missing = all_readings(batch)
-    length = batch.units.length
-    return render("batch.html.j2", {
-        "title": knot_and_materials(batch.method, batch.folder),
-        "head": [*head_of(batch.report), *tested_as(batch)], "report": batch.report,
-        "headlines": headlines(batch),
-        "count": len(batch.specimens), "counted": len(batch.counted), "rejected": list(batch.reasons.items()),
-        "patterns": counts(batch, "motion_pattern"), "endings": counts(batch, "ended_by"),
-        "given": next((one.given for one in batch.tested if one.given), None),
-        "not_predicted": [key for one in batch.tested for key in one.not_predicted],
-        "tested_by": batch.tested[0].version if batch.tested else None, "warnings": warnings(batch),
-        "curve": [curves(batch, mean, look) for look in LOOKS] if any(len(one.pull[0]) for one in batch.tested) else None,
-        "common": mean and [shown(s, length.scale) for s in (mean.extension[0], mean.extension[-1])], "length": length.name,
-        "largest": batch.largest(), "tables": readings_tables(batch), "readings": readings, "unmeasured": missing,
-        "verdict": verdict_of_all(checks, "%s keep all limits."), "checks": checks_of_all(checks),
-        "asked_verdict": verdict_of_all(asked, "%s meet the specification.") if asked else None,
-        "asked": checks_of_all(asked), "drawn": drawn_tables(batch) if batch.specimens else [],
-        "facts": [*method_facts(batch.method, batch.units, batch.folder), ("Specimens", drawing_facts(batch), "")],
-        "program": program(batch.method, batch.units), "si": batch.units.are_default,
-        "files": with_specimens(files_of(folder), batch), "command": printable(command), "version": version,
-        "folder": printable(folder)})
-
-
-def tested_as(batch):
-    return particulars(batch.report, batch.method, batch.mean("gauge_length"), batch.units,
-                       counted(len(batch.specimens), len(batch.reasons)))
+    good = sum(all(check.kept for check in some) for _, some in checks)
+    return sentence_of % f"{good} of {len(checks)} specimens", good == len(checks)
 
 
 def headlines(batch):
-    means, largest, found = batch.means(), batch.largest(), []
-    for key in main_keys(batch):
+    found = []
+    for key in batch.main_keys():
         statistics, unit = batch.statistics(key), batch.units.of(quantity_of(key).kind)
-        half, variation = half_of(statistics), percent(statistics["cv"])
-        n = f"n = {statistics['n']}"
+        half, variation, n = half_of(statistics), percent(statistics["cv"]), f"n = {statistics['n']}"
         remark = f"CV {variation}, {n}" if variation else f"constant, {n}" if statistics["n"] > 1 and not half else n
-        found.append(Headline(short_label(means, key, largest), shown(statistics["mean"], unit.scale, half),
+        found.append(Headline("Mean of " + short_label(batch.means, key, batch.largest).lower(), shown(statistics["mean"], unit.scale, half),
                               error_shown(half, unit.scale), unit.name, remark))
     return found
-
-
-def counts(batch, name):
-    """[(word, how many specimens that count)], the most frequent first."""
-    found = Counter(getattr(one, name) for one in batch.counted)
-    return sorted(found.items(), key=lambda item: (-item[1], item[0]))
 
 
 def warnings(batch):
@@ -251,13 +280,8 @@ def warnings(batch):
     for said in found.values():
         first, line = said[0]
         differ = f" (the numbers are those of specimen {first})" if any(other != line for _, other in said) else ""
-        lines.append((named({number for number, _ in said}), line + differ))
+        lines.append(f"{named({number for number, _ in said})}: {line}{differ}")
     return lines
-
-
-def drawing_facts(batch):
-    specimens = batch.method.get("specimens") or {}
-    return [("Count", str(len(batch.specimens))), ("Seed of the drawing", str(specimens.get("seed", ""))), *scatter(batch)]
 
 
 def with_specimens(files, batch):
@@ -267,64 +291,29 @@ def with_specimens(files, batch):
     return [*files[:-2], (folders, "of each specimen all that a single test writes"), *files[-2:]]
 
 
-# ---- the figure ----
-
-def curves(batch, mean, look):
+def curves(batch, mean):
     """`mean`: a MeanCurve, or None. The loads once more where they are small beside the peak."""
     pulls = [one.pull for one in batch.tested if len(one.pull[0])]
-    force, length = batch.units.force, batch.units.length
-    closer = small_loads(batch.common_mean, np.concatenate([load for _, load in pulls]), force.scale)
-    figure, all_axes, tall = stacked(look, [2.7] + ([1.8] if closer else []))
-    for axes in all_axes:
-        draw(axes, pulls, mean, force.scale, length.scale)
-    all_axes[0].set_ylim(*load_limits(pulls, force.scale))
-    all_axes[0].set_ylabel(f"load F [{force.name}]")
-    place_legend(all_axes[0], look)
-    if closer:
-        all_axes[1].set_ylim(*closer)
-        all_axes[1].set_ylabel(f"small loads [{force.name}]")
-    every = length.scale * np.concatenate([s for s, _ in pulls])
-    all_axes[-1].set_xlim(min(0.0, every.min()), every.max() + 0.015 * (np.ptp(every) or length.scale))
-    all_axes[-1].set_xlabel(f"extension s [{length.name}]")
-    figure.align_ylabels(all_axes)
-    figure.subplots_adjust(**look.room(tall, 0.5, 0.5 if look.is_narrow else 0.3))
-    return as_svg(figure)
-
-
-def place_legend(axes, look):
-    """Above the axes, as curves and bands may be anywhere in them."""
-    if look.is_narrow:
-        legend = axes.legend(loc="lower left", bbox_to_anchor=(-0.22, 1.0), ncol=2, columnspacing=0.8, handlelength=1.2,
-                             borderpad=0.2)
-    else:
-        legend = axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=4, borderpad=0.2)
-    for line in legend.get_lines():
+    force, length, loads = batch.units.force.scale, batch.units.length.scale, np.concatenate([load for _, load in pulls])
+    drawn, axes = load_axes(batch.units, small_loads(batch.common_mean, loads))
+    for one in axes:
+        label = "the specimen" if len(pulls) == 1 else f"{len(pulls)} specimens"
+        for s, load in pulls:  # so faint that many do not hide the band
+            draw(one, length * s, force * load, max(FEWEST, IN_ALL // len(pulls)), color=BLUE, lw=0.8,
+                 alpha=min(0.6, max(0.1, 6.0 / len(pulls))), label=label)
+            label = None
+        if mean is not None:
+            s = length * mean.extension
+            one.fill_between(s, *(force * end for end in mean.scatter), color=ORANGE, alpha=0.28, lw=0, zorder=3, label="mean ± standard deviation")
+            one.plot(s, force * mean.mean, color=ORANGE, lw=1.5, zorder=5, label="mean")
+            for end, name in zip(mean.interval, ("95 % interval of the mean", None)):
+                one.plot(s, force * end, color=INK, lw=0.7, ls=(0, (3, 2)), zorder=4, label=name)
+            for end in (s[0], s[-1]):
+                one.axvline(end, color=GREY, lw=0.6, ls=":")
+    if loads.min() >= 0.0:
+        axes[0].set_ylim(bottom=0.0)
+    # Above the axes, as curves and bands may be anywhere in them.
+    for line in axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=4, borderpad=0.2).get_lines():
         line.set_alpha(1.0)
-
-
-def draw(axes, pulls, mean, force, length):
-    most = max(FEWEST, IN_ALL // len(pulls))
-    faint = min(0.6, max(0.1, 6.0 / len(pulls)))  # so that many do not hide the band
-    label = "the specimen" if len(pulls) == 1 else f"{len(pulls)} specimens"
-    for s, load in pulls:
-        rows = few_points(load, most=most)
-        axes.plot(length * s[rows], force * load[rows], color=BLUE, lw=0.8, alpha=faint, label=label)
-        label = None
-    if mean is None:
-        return
-    s, middle = length * mean.extension, force * mean.mean
-    low, high = mean.about(mean.sd)
-    axes.fill_between(s, force * low, force * high, color=ORANGE, alpha=0.28, lw=0, zorder=3,
-                      label="mean ± standard deviation")
-    axes.plot(s, middle, color=ORANGE, lw=1.5, zorder=5, label="mean")
-    for end, name in zip(mean.about(mean.half), ("95 % interval of the mean", None)):
-        axes.plot(s, force * end, color=INK, lw=0.7, ls=(0, (3, 2)), zorder=4, label=name)
-    for end in (s[0], s[-1]):
-        axes.axvline(end, color=GREY, lw=0.6, ls=":")
-
-
-def load_limits(pulls, force):
-    low = force * min(0.0, *(load.min() for _, load in pulls))
-    high = force * max(load.max() for _, load in pulls)
-    room = 0.05 * ((high - low) or 1.0)
-    return low - room if low < 0.0 else 0.0, high + room
+    reach(axes[-1], length * np.concatenate([s for s, _ in pulls]))
+    return drawn

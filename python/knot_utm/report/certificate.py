@@ -1,9 +1,9 @@
 """How far a result may be trusted, and whether it is what the user asked for: each check with value, limit and verdict.
 
-The limits of trust are those at which the program itself warns (src/verdict/run_warnings.cpp, whose names they bear). What has
-no limit has no verdict, and stands among the results alone.
-"""
-from knot_utm.report.quantities import is_number, number, quantity_of
+The limits of trust are those at which the program itself warns (src/verdict/run_warnings.cpp, whose names they bear)."""
+from collections import namedtuple
+
+from knot_utm.report.quantities import is_number, number, quantity_of, with_unit
 
 LIMITS = {
     "kDeepContact": 0.05,  # contact [of the radius]
@@ -13,57 +13,37 @@ LIMITS = {
     "kUnsure": 0.2,        # plateau force [of itself]
 }
 
-
-class Check:
-    """`kept`: whether the limit is; None: no limit is set, or no value is known. `keys`: of result.yaml.
-    `value`: empty where the test has none."""
-
-    def __init__(self, words, keys, value, limit, kept):
-        self.words, self.keys, self.value, self.limit = words, keys, value, limit
-        self.verdict = "" if kept is None else "pass" if kept else "fail"
+# `kept`: whether the limit is. `key`: of result.yaml.
+Check = namedtuple("Check", "words key value limit kept")
 
 
 def at_most(words, key, value, limit):
-    there = is_number(value)
-    return Check(words, [key], number(value) if there else "", f"at most {limit:g}", value <= limit if there else None)
+    return Check(words, key, number(value), f"at most {limit:g}", value <= limit) if is_number(value) else None
 
 
-def so_it_is(words, key, is_so):
+def yes(words, key, is_so):
     """`is_so`: None where it is not known."""
-    return Check(words, [key], "" if is_so is None else "yes" if is_so else "no", "yes", is_so)
+    return None if is_so is None else Check(words, key, "yes" if is_so else "no", "yes", is_so)
 
 
 def certificate(result, has_knot=True, soft=False):
     """What is known of this test."""
-    return [check for check in checks_of(result, has_knot, soft) if check.value]
-
-
-def checks_of(result, has_knot=True, soft=False):
-    value, ended_by, moved, jump = result.get, result.get("ended_by"), result.get("not_equilibrated"), jumped(result)
-    return [
-        so_it_is("The physics solved every time step", "ended_by", None if ended_by is None else ended_by != "solver"),
-        so_it_is("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved") if has_knot else None),
-        so_it_is("The specimen was at rest as its pull began", "not_equilibrated", None if moved is None else not moved),
+    value, jump = result.get, is_number(result.get("jump_force"))
+    true, error, moved = value("true_plateau_force"), value("plateau_force_error"), value("not_equilibrated")
+    checks = [
+        yes("The physics solved every time step", "ended_by", value("ended_by") and value("ended_by") != "solver"),
+        yes("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved") if has_knot else None),
+        yes("The specimen was at rest as its pull began", "not_equilibrated", None if moved is None else not moved),
         at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"),
                 LIMITS["kDeepSoftContact" if soft else "kDeepContact"]),
-        so_it_is("No knot jumped open", "jump_force", None if jump is None else not jump),
+        # Where there are no two knots none can jump.
+        yes("No knot jumped open", "jump_force", not jump if jump or is_number(value("tied_knot_distance")) else None),
         *(at_most(quantity_of(key).label, key, value(key), LIMITS[limit])
           for key, limit in (("energy_balance_error", "kUnbalanced"), ("force_balance_error", "kForcesDiffer"))),
         at_most("Estimated numerical error of the plateau force, as a share of it", "plateau_force_error",
-                share_of_plateau(result), LIMITS["kUnsure"]),
+                abs(error / true) if is_number(true) and is_number(error) and true else None, LIMITS["kUnsure"]),
     ]
-
-
-def jumped(result):
-    """None: there are no two knots, of which one could."""
-    found = is_number(result.get("jump_force"))
-    return found if found or is_number(result.get("tied_knot_distance")) else None
-
-
-def share_of_plateau(result):
-    """The error of the plateau force over the true one."""
-    value, error = result.get("true_plateau_force"), result.get("plateau_force_error")
-    return abs(error / value) if is_number(value) and is_number(error) and value else None
+    return [check for check in checks if check]
 
 
 def stiffness_name(result):
@@ -72,10 +52,9 @@ def stiffness_name(result):
 
 
 def verdict(checks):
-    limited = [check for check in checks if check.verdict]
-    missed = [check for check in limited if check.verdict == "fail"]
-    words = f"{len(limited) - len(missed)} of {len(limited)} limits are kept."
-    return words, not missed
+    """(words, whether all limits are kept)."""
+    kept = sum(check.kept for check in checks)
+    return f"{kept} of {len(checks)} limits are kept.", kept == len(checks)
 
 
 def specification_checks(method, result, units):
@@ -91,8 +70,8 @@ def requirement(key, limits, value, units):
     ends = [f"{words} {number(end * unit.scale)}" for words, end in (("at least", least), ("at most", most))
             if is_number(end)]
     kept = is_number(value) and not (is_number(least) and value < least) and not (is_number(most) and value > most)
-    shown = f"{number(value * unit.scale)} {unit.name}".strip() if is_number(value) else "not measured"
-    return Check(quantity.label.split(",")[0], [key], shown, f"{' and '.join(ends)} {unit.name}".strip(), kept)
+    return Check(quantity.label.split(",")[0], key, with_unit(value, unit) if is_number(value) else "not measured",
+                 f"{' and '.join(ends)} {unit.name}".strip(), kept)
 
 
 def specification_verdict(result, checks):
@@ -100,7 +79,6 @@ def specification_verdict(result, checks):
     passed = result.get("specification_passed")
     if passed is None:
         return None
-    missed = sum(check.verdict == "fail" for check in checks)
-    if passed:
-        return "The test meets its specification.", True
-    return f"The test does not meet its specification: {missed} of {len(checks)} requirements are not met.", False
+    missed = sum(not check.kept for check in checks)
+    return ("The test meets its specification." if passed else
+            f"The test does not meet its specification: {missed} of {len(checks)} requirements are not met."), passed

@@ -3,15 +3,15 @@ import os
 import re
 
 import numpy as np
+from markupsafe import Markup
 
 from knot_utm.report.commands import CannotReport
-from knot_utm.report.curve_figures import small_loads
-from knot_utm.report.curves import few_points
+from knot_utm.report.curves import draw, load_axes, reach, small_loads
 from knot_utm.report.method_facts import knot_and_materials
-from knot_utm.report.page import files_of, render
-from knot_utm.report.quantities import all_in_units, is_number, number, percent, quantity_of, shown, Units, units_of
+from knot_utm.report.page import Box, figure, Headline, no_value, render, Row, Table
+from knot_utm.report.quantities import all_in_units, is_number, number, percent, quantity_of, shown, Units, units_of, with_unit
 from knot_utm.report.run import numbers, printable, read_columns, read_yaml, texts_of
-from knot_utm.report.style import as_svg, BLUE, GREEN, GREY, INK, LOOKS, ORANGE, short, SMALL, stacked
+from knot_utm.report.style import BLUE, GREEN, GREY, INK, ORANGE, short, SMALL
 
 READINGS = ("peak_force", "plateau_force", "plateau_force_low", "plateau_force_high", "plateau_force_slope",
             "breakaway_force", "largest_drop", "jump_force", "force_after_jump", "lock_extension_by_load",
@@ -81,31 +81,25 @@ def run_beside(file):
         return None
 
 
-def overlay(comparison, look):
+def overlay(comparison):
     """Both curves, again where loads are small beside the peak, and B less A over the extensions that both have."""
-    closer = small_loads(lambda key: max(filter(None, readings(comparison, key)), default=None),
-                         np.concatenate([comparison.a.load, comparison.b.load]), comparison.units.force.scale)
-    heights = [2.9] + ([1.8] if closer else []) + [1.6]
-    figure, all_axes, tall = stacked(look, heights)
-    for axes in all_axes[:-1]:
-        draw_both(axes, comparison, 34 if look.is_narrow else 60)
-    all_axes[0].legend(loc="upper left")
-    all_axes[0].set_ylabel(f"load F [{comparison.units.force.name}]")
-    if closer:
-        all_axes[1].set_ylim(*closer)
-        all_axes[1].set_ylabel(f"small loads [{comparison.units.force.name}]")
-    draw_difference(all_axes[-1], comparison)
-    length = comparison.units.length
-    low, high = (length.scale * s for s in comparison.facts["common_extension"])
-    for axes in all_axes:
-        for s in (low, high):
-            axes.axvline(s, color=GREY, lw=0.6, ls=":")
-    every = np.concatenate([comparison.a.extension, comparison.b.extension]) * length.scale
-    all_axes[-1].set_xlim(min(0.0, every.min()), every.max() + 0.015 * (np.ptp(every) or 1.0))
-    all_axes[-1].set_xlabel(f"extension s [{length.name}]")
-    figure.align_ylabels(all_axes)
-    figure.subplots_adjust(**look.room(tall, 0.5, 0.15))
-    return as_svg(figure)
+    units, length, force = comparison.units, comparison.units.length.scale, comparison.units.force.scale
+    figure, axes = load_axes(units, small_loads(lambda key: max(filter(None, readings(comparison, key)), default=None),
+                                                np.concatenate([comparison.a.load, comparison.b.load])), [1.6], above=0.15)
+    for one in axes[:-1]:
+        for pull, colour, name in ((comparison.a, ORANGE, "A"), (comparison.b, BLUE, "B")):
+            draw(one, length * pull.extension, force * pull.load, color=colour, lw=1.4,
+                 label=f"{name}: {short(comparison.facts[name.lower()])}")
+            lock = (comparison.facts.get("lock_extension_by_load") or {}).get(name.lower())
+            if is_number(lock):
+                one.axvline(length * lock, color=colour, lw=0.8, ls=(0, (4, 3)))
+    axes[0].legend(loc="upper left")
+    draw_difference(axes[-1], comparison)
+    for one in axes:
+        for s in comparison.facts["common_extension"]:
+            one.axvline(length * s, color=GREY, lw=0.6, ls=":")
+    reach(axes[-1], length * np.concatenate([comparison.a.extension, comparison.b.extension]))
+    return figure
 
 
 def readings(comparison, key):
@@ -113,25 +107,12 @@ def readings(comparison, key):
     return [both.get("a"), both.get("b")]
 
 
-def draw_both(axes, comparison, letters):
-    units = comparison.units
-    for pull, colour, name in ((comparison.a, ORANGE, "A"), (comparison.b, BLUE, "B")):
-        rows = few_points(pull.load)
-        axes.plot(units.length.scale * pull.extension[rows], units.force.scale * pull.load[rows], color=colour, lw=1.4,
-                  label=f"{name}: {short(comparison.facts[name.lower()], letters)}")
-    for colour, lock in zip((ORANGE, BLUE), readings(comparison, "lock_extension_by_load")):
-        if lock is not None:
-            axes.axvline(units.length.scale * lock, color=colour, lw=0.9, ls=(0, (4, 3)), label="_lock")
-
-
 def draw_difference(axes, comparison):
     length, force = comparison.units.length, comparison.units.force
     s, difference = comparison.difference()
-    rows = few_points(difference)
-    s, difference = length.scale * s[rows], force.scale * difference[rows]
     axes.axhline(0.0, color=INK, lw=0.8)
-    axes.fill_between(s, difference, color=GREEN, alpha=0.25, lw=0)
-    axes.plot(s, difference, color=GREEN, lw=1.2)
+    line = draw(axes, length.scale * s, force.scale * difference, color=GREEN, lw=1.2)
+    axes.fill_between(*line.get_data(), color=GREEN, alpha=0.25, lw=0)
     at, largest = comparison.number("largest_difference_at"), comparison.number("largest_difference")
     if at is not None and largest is not None:
         side = "right" if at > np.mean(comparison.facts["common_extension"]) else "left"
@@ -144,23 +125,36 @@ def draw_difference(axes, comparison):
 
 def report_on_comparison(folder, command, version):
     comparison = Comparison(folder)
-    units = comparison.units
-    rising = [name.upper() for name in ("a", "b") if comparison.ends_at_its_largest_load(name)]
-    rows = [comparison_row(comparison, key, units) for key in READINGS if has_either(comparison.facts.get(key))]
-    length, force = units.length.scale, units.force.scale
-    return render("comparison.html.j2", {
-        "title": "Comparison of two curves", "facts": comparison.facts,
-        "curves": [overlay(comparison, look) for look in LOOKS], "rows": rows,
-        "rising": rising, "sides": [(name.upper(), printable(file), *side_facts(comparison.runs[name], units))
-                                    for name, file in comparison.files.items()],
-        "unmeasured": [key for key in READINGS if key in comparison.facts and not has_either(comparison.facts[key])],
-        "common": [shown(s, length) for s in comparison.facts["common_extension"]],
-        "force": units.force.name, "length": units.length.name, "si": units.are_default,
-        "rms": shown(comparison.number("rms_difference"), force),
-        "largest": shown(comparison.number("largest_difference"), force),
-        "share": percent(comparison.number("rms_difference_over_load")),
-        "largest_at": shown(comparison.number("largest_difference_at"), length), "files": files_of(folder),
-        "command": printable(command), "version": version, "folder": printable(folder)})
+    facts, units = comparison.facts, comparison.units
+    length, force = units.length, units.force
+    rows = [comparison_row(comparison, key, units) for key in READINGS if has_either(facts.get(key))]
+    rms, largest, at = ((comparison.number(key), unit) for key, unit in (("rms_difference", force), ("largest_difference", force),
+                                                                          ("largest_difference_at", length)))
+    share, common = percent(comparison.number("rms_difference_over_load")), [shown(s, length.scale) for s in facts["common_extension"]]
+    rows += [Row("RMS difference", ["rms_difference", "rms_difference_over_load"], ["", "", shown(rms[0], force.scale), force.name, share]),
+             Row(f"Largest difference, at {with_unit(*at)}", ["largest_difference", "largest_difference_at"],
+                 ["", "", shown(largest[0], force.scale), force.name, ""])]
+    remark = "".join([
+        "The same code reads both curves, from extension and load alone. The RMS difference is compared with the largest load of A over the "
+        f"common extension. Forces are in {force.name} and lengths in {length.name}", "." if units.are_default else "; all files are in SI units.",
+        *(f" Curve {name.upper()} ends at its largest load, which is a peak only where the rod broke there."
+          for name in ("a", "b") if comparison.ends_at_its_largest_load(name))])
+    return render(folder, command, version, "Comparison", "Comparison of two curves", [
+        ("Both curves", [figure(
+            overlay(comparison), "Both curves overlaid, and their difference",
+            "The curves are the pulls alone: the rows that reach a new largest extension. A curve of knot_utm has its own zero; raw data are "
+            "set to zero where their crosshead begins to move, unless the command below says --no-balance. The dashed lines mark the lock of "
+            "each curve, as its load tells it. The dotted lines bound the extensions that both curves have; over these the difference is taken, "
+            "with straight lines between the readings.")]),
+        ("Readings of both curves", [
+            Table(("Reading", "A", "B", "B – A", "Unit", "Share of A"), rows), remark,
+            no_value("Neither curve has", [key for key in READINGS if key in facts and not has_either(facts[key])])]),
+        ("What the curves are", [part for name, file in comparison.files.items()
+                                 for part in side(name.upper(), printable(file), comparison.runs[name], units)])],
+        Markup("A <b>{}</b> · B <b>{}</b>").format(facts["a"], facts["b"]), headlines=[
+            Headline("RMS difference", shown(rms[0], force.scale), "", force.name, share and f"{share} of the largest load of A"),
+            Headline("Largest difference, B – A", shown(largest[0], force.scale), "", force.name, f"at {with_unit(*at)}"),
+            Headline("Common extension", " to ".join(common), "", length.name, "")])
 
 
 def has_either(both):
@@ -171,15 +165,15 @@ def comparison_row(comparison, key, units):
     both, quantity = comparison.facts[key], quantity_of(key)
     unit = units.of(quantity.kind)
     rises = key == "peak_force" and any(map(comparison.ends_at_its_largest_load, ("a", "b")))
-    return (key, "Largest load" if rises else re.split("[,;]", quantity.label)[0], unit.name,
-            *(shown(both[part], unit.scale) if is_number(both.get(part)) else "none" if part != "difference" else ""
-              for part in ("a", "b", "difference")), percent(both.get("relative")))
+    a, b, difference = (shown(both[part], unit.scale) if is_number(both.get(part)) else "none" if part != "difference" else ""
+                        for part in ("a", "b", "difference"))
+    return Row("Largest load" if rises else re.split("[,;]", quantity.label)[0], [key], [a, b, difference, unit.name, percent(both.get("relative"))])
 
 
-def side_facts(run, units):
+def side(name, file, run, units):
     """What a curve is from, and what its run warns of."""
-    if run is None:
-        return "This curve is a file of its own: no run of knot_utm stands beside it.", []
-    words = (f"This curve was simulated: {knot_and_materials(run.method, run.folder)}, "
-             f"knot_utm {run.result.get('version')}, ended by {run.result.get('ended_by')}.")
-    return words, all_in_units(run.result.get("warnings") or [], units)
+    told = "this curve is a file of its own: no run of knot_utm stands beside it." if run is None else (
+        f"this curve was simulated: {knot_and_materials(run.method, run.folder)}, knot_utm {run.result.get('version')}, "
+        f"ended by {run.result.get('ended_by')}.")
+    warnings = all_in_units(run.result.get("warnings") or [], units) if run else []
+    return [Markup("<b>{}</b> <code>{}</code>: {}").format(name, file, told), warnings and Box("warnings", warnings)]

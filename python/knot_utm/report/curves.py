@@ -1,9 +1,20 @@
-"""What is made of curves before they are drawn: fewer points, the band of errors, the mean of several."""
+"""The one drawer of curves: what is made of them before they are drawn, loads over extensions, and those of a test with all that
+happened in it."""
 import math
+from collections import namedtuple
 
 import numpy as np
+from matplotlib.patches import Patch
 
-MOST = 6000
+from knot_utm.report.quantities import with_unit
+from knot_utm.report.run import FORMING
+from knot_utm.report.style import BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, stacked, VIOLET
+
+MOST = 6000  # points of a curve that are drawn
+MANY = 8.0   # a peak above this many plateaus hides the plateau: it gets axes of its own
+FEW = 250    # readings of the cell that are drawn as points
+STEPS = 1000
+DASHED, DOTTED = (0, (4, 3)), (0, (1, 2))
 
 
 def few_points(*columns, most=MOST):
@@ -11,14 +22,206 @@ def few_points(*columns, most=MOST):
     rows = np.arange(len(columns[0]))
     if len(rows) <= most:
         return rows
-    stretches = np.array_split(rows, most // (2 * len(columns) + 1))
     kept = {rows[0], rows[-1]}
-    for stretch in stretches:
+    for stretch in np.array_split(rows, most // (2 * len(columns) + 1)):
         kept.add(stretch[0])
         for column in columns:
             part = np.where(np.isfinite(column[stretch]), column[stretch], 0.0)
             kept.update((stretch[np.argmin(part)], stretch[np.argmax(part)]))
     return np.array(sorted(kept))
+
+
+def draw(axes, x, y, most=MOST, **style):
+    """A curve by as many of its points as can be seen."""
+    rows = few_points(x, y, most=most)
+    return axes.plot(x[rows], y[rows], **style)[0]
+
+
+def small_loads(value, load):
+    """Loads to show once more [N]: those of sliding, or up to a knot's jump, where they are small beside the peak; else None.
+    `value` gives the readings by key."""
+    plateau, peak = value("plateau_force") or value("jump_force"), value("peak_force")
+    if plateau is None or plateau <= 0.0 or peak is None or peak < MANY * plateau:
+        return None
+    top = max(2.5 * plateau, 1.3 * (value("breakaway_force") or 0.0))
+    return max(min(0.0, float(load.min())), -0.5 * top) - 0.05 * top, top
+
+
+def load_axes(units, small=None, more=(), above=0.3):
+    """A figure of loads over extensions: axes of the loads, of the small ones where there are any, and below them of the heights
+    `more` [in]."""
+    figure, axes = stacked([2.8, *([1.7] if small else []), *more], above)
+    axes[0].set_ylabel(f"load F [{units.force.name}]")
+    if small:
+        axes[1].set_ylim(*(units.force.scale * load for load in small))
+        axes[1].set_ylabel(f"small loads [{units.force.name}]")
+    axes[-1].set_xlabel(f"extension s [{units.length.name}]")
+    return figure, axes
+
+
+def reach(axes, extensions):
+    """Lets the axes reach as far as the extensions, in the unit of the page."""
+    axes.set_xlim(min(0.0, extensions.min()), extensions.max() + 0.015 * (np.ptp(extensions) or 1.0))
+
+
+def phases_of(curve):
+    """[(phase, first row, last row)] in order."""
+    changes = np.flatnonzero(curve.phase[1:] != curve.phase[:-1]) + 1
+    edges = [0, *changes.tolist(), len(curve)]
+    return [(str(curve.phase[a]), a, min(b, len(curve) - 1)) for a, b in zip(edges[:-1], edges[1:]) if b > a]
+
+
+# ---- a test ----
+
+
+def course(run):
+    """Load and extension over time, with every phase of the program."""
+    curve, force, length, time = run.curve, run.units.force, run.units.length, run.curve["time"]
+    figure, (axes,) = stacked([1.5], right=0.6)
+    for name, a, b in phases_of(curve):
+        axes.axvspan(time[a], time[b], color=PHASES.get(name, "#eeeeee"), lw=0, zorder=0)
+    names = [name for name in dict.fromkeys(curve.phase.tolist()) if name in PHASES]
+    figure.legend(handles=[Patch(color=PHASES[name], label=name) for name in names], loc="upper center", handlelength=1.0,
+                  ncol=len(names), columnspacing=1.0, handletextpad=0.4, borderpad=0.2)
+    tested, broke = ~np.isin(curve.phase, FORMING), run.time_of_break()
+    if broke is not None:
+        tested &= time <= broke
+    second = axes.twinx()
+    for one, name, unit, colour in ((axes, "load", force, BLUE), (second, "extension", length, ORANGE)):
+        draw(one, time, unit.scale * np.where(tested, curve[name], np.nan), color=colour, lw=1.2)
+        one.set_ylabel(f"{name} {'F' if name == 'load' else 's'} [{unit.name}]", color=colour)
+        one.grid(False)
+    second.spines["right"].set_visible(True)
+    axes.set_xlabel("time [s]")
+    axes.set_xlim(time[0], max(time[-1], time[0] + 1e-9))
+    return figure
+
+
+def force_extension(run, marks):
+    """Load over extension; again where the load is small beside its peak; knot distance where there are two knots."""
+    tested, events, scale = run.tested(), events_of(run), run.units.length.scale
+    small, knots = small_loads(run.value, tested["load"]), tested.has_knot_distance()
+    figure, axes = load_axes(run.units, small, [1.4] if knots else [], 0.25 + 0.15 * len(events))
+    loads = axes[:2 if small else 1]
+    for one in loads:
+        draw_loads(one, run)
+    if tested["load"].min() >= 0.0:
+        axes[0].set_ylim(bottom=0.0)
+    axes[0].legend(loc="upper left", bbox_to_anchor=(0.0, 0.93), borderpad=0.2)
+    draw_plateau(loads[-1], run)
+    put_marks(axes[0], run, [(mark, run.units.force.scale * mark.load) for mark in marks])
+    if knots:
+        draw_knot_distance(axes[-1], run, marks)
+    end = scale * float(tested["extension"].max())
+    for one in axes:
+        shade_motion(one, run, end)
+        for _, place, _, colour, style in events:
+            one.axvline(place, color=colour, lw=0.9, ls=style)
+    name_motion(axes[0], run, events, end)
+    shown = [tested["extension"]]
+    if tested.has_compliant_frame():
+        pull = run.pull()
+        shown = [pull["extension"] if len(pull) else tested["extension"], tested["crosshead_extension"]]
+    reach(axes[-1], scale * np.concatenate(shown))
+    figure.align_ylabels(axes)
+    return figure
+
+
+def draw_loads(axes, run):
+    tested, force, length = run.tested(), run.units.force, run.units.length
+    floor, pull = run.load_cell_floor(), run.pull()
+    if floor:  # below it the cell's error is as large as that of the floor
+        axes.axhspan(force.scale * (-floor if tested["load"].min() < 0.0 else 0.0), force.scale * floor, facecolor="none", edgecolor=GREY,
+                     alpha=0.45, hatch="////", lw=0.0, label=f"cell's floor, {with_unit(floor, force)}")
+    band = error_band(run, pull)
+    if band:
+        rows = few_points(*band)
+        axes.fill_between(length.scale * pull["extension"][rows], *(force.scale * end[rows] for end in band), color=BLUE, alpha=0.22,
+                          lw=0, label="numerical error")
+    named = set()
+    for name, a, b in phases_of(tested):
+        draw(axes, length.scale * tested["extension"][a:b + 1], force.scale * tested["load"][a:b + 1], lw=1.4,
+             color={"hold": VIOLET, "return": GREEN}.get(name, BLUE), label=None if name in named else name)
+        named.add(name)
+    cell = run.tested(run.readings)
+    if len(cell) <= FEW:
+        axes.plot(length.scale * cell["extension"], force.scale * cell["load"], "o", ms=2.6, mfc="white", mec=BLUE, mew=0.7,
+                  label="as the cell reads it")
+    if tested.has_compliant_frame():
+        draw(axes, length.scale * tested["crosshead_extension"], force.scale * tested["load"], color=GREY, lw=0.9, ls=(0, (5, 2)),
+             label="over the crosshead's extension")
+
+
+def draw_plateau(axes, run):
+    plateau, lock = run.value("plateau_force"), run.value("lock_extension_by_load")
+    if plateau is None:
+        return
+    end = run.units.length.scale * (lock if lock is not None else run.pull()["extension"][-1])
+    axes.plot([0.3 * end, 0.8 * end], 2 * [run.units.force.scale * plateau], color=ORANGE, lw=1.6, zorder=4)
+    axes.text(0.55 * end, 0.85, "plateau " + with_unit(plateau, run.units.force, run.value("plateau_force_error")), ha="center",
+              fontsize=SMALL, color=ORANGE, transform=axes.get_xaxis_transform())
+
+
+def draw_knot_distance(axes, run, marks):
+    tested, length, lock = run.tested(), run.units.length, run.value("lock_extension")
+    s, e = length.scale * tested["extension"], length.scale * tested["knot_distance"]
+    draw(axes, s, e, color=VIOLET, lw=1.4)
+    if lock is not None or (run.result.get("motion_pattern") == "sliding" and run.value("jump_force") is None):
+        first, end = np.flatnonzero(np.isfinite(e))[0], length.scale * lock if lock is not None else s[-1]
+        rigid = 2 if run.method["machine"]["grips"] == "rollers" else 1
+        axes.plot([s[first], end], [e[first], e[first] - rigid * (end - s[first])], color=GREY, lw=0.9, ls=DASHED,
+                  label=f"de/ds = –{rigid}: rigid sliding")
+        axes.legend(loc="lower left", borderpad=0.2)
+    axes.set_ylabel(f"knot distance e [{length.name}]")
+    put_marks(axes, run, [(mark, float(np.interp(mark.time, tested["time"], e))) for mark in marks if np.isfinite(mark.load)])
+
+
+def put_marks(axes, run, places):
+    for mark, y in places:
+        if np.isfinite(y):
+            at = (run.units.length.scale * mark.extension, y)
+            axes.plot(*at, "o", ms=10.5, mfc="white", mec=INK, mew=0.9, clip_on=False, zorder=6)
+            axes.annotate(mark.letter, at, ha="center", va="center_baseline", fontsize=SMALL, zorder=7, annotation_clip=False)
+
+
+def events_of(run):
+    """[(key, place in the unit of the page, words, colour, style)] in order of their places."""
+    length, value = run.units.length, run.value
+    words = (("first_contact_extension", VIOLET, DOTTED, lambda _: "the knots touch"),
+             ("jump_extension", RED, DASHED, lambda _: "a knot jumped open at " + with_unit(value("jump_force"), run.units.force)),
+             ("lock_extension", INK, DASHED, lambda lock: "lock " + with_unit(lock, length, value("lock_extension_error"))),
+             ("break_extension", RED, "-", lambda broke: "break " + with_unit(broke, length)))
+    found = [(key, length.scale * value(key), told(value(key)), *style) for key, *style, told in words if value(key) is not None]
+    return sorted(found, key=lambda event: event[1])
+
+
+def shade_motion(axes, run, end):
+    """Up to the lock the knots slide, behind it the rod stretches."""
+    lock, error, scale = run.value("lock_extension"), run.value("lock_extension_error"), run.units.length.scale
+    if lock is not None:
+        axes.axvspan(0.0, scale * lock, color=PHASES["mount"], alpha=0.45, lw=0, zorder=0)
+        axes.axvspan(scale * lock, end, color=PHASES["tie"], alpha=0.5, lw=0, zorder=0)
+        if error:
+            axes.axvspan(scale * (lock - error), scale * (lock + error), color=GREY, alpha=0.2, lw=0, zorder=0)
+
+
+def name_motion(axes, run, events, end):
+    """Each event on a line of its own above the axes; within them what moves where."""
+    above, lock, pattern = axes.get_xaxis_transform(), run.value("lock_extension"), run.result.get("motion_pattern")
+    for line, (_, place, words, colour, _) in enumerate(events):
+        axes.annotate(words, (place, 1.0), xytext=(0, 3 + 10.8 * line), xycoords=above, textcoords="offset points", color=colour,
+                      ha="right" if place > 0.8 * end else "left" if place < 0.1 * end else "center", fontsize=SMALL)
+    parts = [(0.5 * end, f"motion pattern: {pattern}", GREEN)] if pattern not in (None, "none") else []
+    if lock is not None:
+        lock *= run.units.length.scale
+        parts = [(0.5 * lock, "the knots slide", GREEN)]
+        if end - lock > 0.2 * end:
+            parts.append((0.5 * (lock + end), "the rod stretches", GOLD))
+    for place, words, colour in parts:
+        axes.text(place, 0.955, words, ha="center", color=colour, transform=above)
+
+
+# ---- bands ----
 
 
 def error_band(run, pull):
@@ -37,13 +240,12 @@ def error_band(run, pull):
     # Nothing slid: the stiffness is that of the whole pull.
     behind = s >= lock if lock is not None else np.full(len(s), sliding is None)
     relative = np.where(behind, np.nan if locked is None else locked, np.nan if sliding is None else sliding)
-    low, high = force - relative * np.abs(force), force + relative * np.abs(force)
+    lowest = highest = force
     if shift:
-        reach = shift * np.minimum(1.0, np.maximum(s, 0.0) / lock)
-        moved = [np.interp(s + t * reach, s, force) for t in np.linspace(-1.0, 1.0, 21)]
+        along = shift * np.minimum(1.0, np.maximum(s, 0.0) / lock)
+        moved = [np.interp(s + t * along, s, force) for t in np.linspace(-1.0, 1.0, 21)]
         lowest, highest = np.min(moved, axis=0), np.max(moved, axis=0)
-        low, high = lowest - relative * np.abs(lowest), highest + relative * np.abs(highest)
-    return low - run.offset(), high - run.offset()
+    return lowest - relative * np.abs(lowest) - run.offset(), highest + relative * np.abs(highest) - run.offset()
 
 
 def share(run, key):
@@ -52,33 +254,23 @@ def share(run, key):
     return None if value is None or error is None or value == 0.0 else abs(error / value)
 
 
-STEPS = 1000
-
-
-class MeanCurve:
-    """Over `extension` [m] the `mean` of the loads [N], their standard deviation `sd`, and half the width of the 95 %
-    interval of the mean, `half`. `least` and `most` are the loads of the specimens between which all of them lie. Between
-    its readings a load is taken straight from point to point."""
-
-    def __init__(self, pulls, low, high):
-        self.extension = np.linspace(low, high, STEPS + 1)
-        loads = np.array([np.interp(self.extension, s, load) for s, load in pulls])
-        from scipy.stats import t
-
-        n = len(loads)
-        self.mean, self.sd = loads.mean(axis=0), loads.std(axis=0, ddof=1)
-        self.half = t.ppf(0.975, n - 1) * self.sd / math.sqrt(n)
-        self.least, self.most = loads.min(axis=0), loads.max(axis=0)
-
-    def about(self, width):
-        """The mean less and plus a width, no further than a specimen shows: where locks lie apart, loads are no longer
-        normally distributed, and a band would reach below all of them."""
-        return np.maximum(self.mean - width, self.least), np.minimum(self.mean + width, self.most)
+# Over `extension` [m] the mean of the loads [N], and bands about it: one standard deviation, and the 95 % interval of the mean.
+MeanCurve = namedtuple("MeanCurve", "extension mean scatter interval")
 
 
 def mean_curve(pulls):
-    """`pulls`: of each curve extension and load. None: they are not two, or no extension is common to all."""
+    """`pulls`: of each curve extension and load, straight from point to point. None: they are not two, or no extension is common to
+    all. The bands reach no further than a specimen shows: where locks lie apart loads are not normally distributed."""
     if len(pulls) < 2 or any(len(s) < 2 for s, _ in pulls):
         return None
     low, high = max(s[0] for s, _ in pulls), min(s[-1] for s, _ in pulls)
-    return MeanCurve(pulls, low, high) if low < high else None
+    if not low < high:
+        return None
+    from scipy.special import stdtrit  # quantile of Student's distribution
+
+    extension = np.linspace(low, high, STEPS + 1)
+    loads = np.array([np.interp(extension, s, load) for s, load in pulls])
+    mean, sd, n = loads.mean(axis=0), loads.std(axis=0, ddof=1), len(loads)
+    bands = [(np.maximum(mean - width, loads.min(axis=0)), np.minimum(mean + width, loads.max(axis=0)))
+             for width in (sd, stdtrit(n - 1, 0.975) * sd / math.sqrt(n))]
+    return MeanCurve(extension, mean, *bands)

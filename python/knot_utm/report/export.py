@@ -1,14 +1,7 @@
 """Writes the rod of a test for other programs: over time for ParaView, or as it lay at one time for slides and the web.
 
-    scripts/export DIR --vtk OUT
-    scripts/export DIR --gltf OUT.glb [--color NAME] [--time SECONDS] [--overwrite]
-
-DIR is the folder of a test. Its shapes over time are those of shapes.csv (tensile_test --shapes), else of test.bag; without
-them there is the final shape alone.
-
 Sources: Khronos Group, glTF 2.0 Specification, chapters 3 (properties) and 4 (GLB file format); Kitware, VTK File Formats, XML.
 """
-import argparse
 import base64
 import json
 import os
@@ -18,7 +11,7 @@ import xml.etree.ElementTree as xml
 
 import numpy as np
 
-from knot_utm.report.colours import colour_scales, names_known, node_values, UNITS
+from knot_utm.report.colours import colour_scales, LABELS, node_values
 from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
 from knot_utm.report.rod_pictures import UNKNOWN
 from knot_utm.report.run import Run
@@ -33,12 +26,12 @@ Z_UP = [-np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)]
 
 
 def asked():
-    parser = OneLineParser(prog="export", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = OneLineParser(prog="export", description=__doc__.partition("\n")[0])
     parser.add_argument("folder", metavar="DIR", help="the folder of a test")
     to = parser.add_mutually_exclusive_group(required=True)
     to.add_argument("--vtk", metavar="OUT", help="a new folder for rod.pvd and a .vtp file for each shape")
     to.add_argument("--gltf", metavar="OUT", help="a .glb file")
-    parser.add_argument("--color", choices=UNITS, help="what the colours of the .glb show [tension]")
+    parser.add_argument("--color", choices=LABELS, help="what the colours of the .glb show [tension]")
     parser.add_argument("--time", type=float, metavar="SECONDS",
                         help="of the test, for the .glb; the shape nearest to it is taken [the last one]")
     parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
@@ -79,7 +72,8 @@ def export(arguments):
 def over_time(folder, run, shapes):
     """rod.pvd, and of each shape rod_000.vtp and so on. Every file has the same arrays: NaN where a value is not known."""
     os.makedirs(folder, exist_ok=True)
-    names, files = names_known(shapes), [f"rod_{number:03d}.vtp" for number in range(len(shapes))]
+    known = set().union(*map(node_values, shapes))
+    names, files = [name for name in LABELS if name in known], [f"rod_{number:03d}.vtp" for number in range(len(shapes))]
     edges = lengths(shapes[0])
     edges[list(shapes[0].cuts)] = 0.0
     along = np.concatenate([[0.0], np.cumsum(edges)])
@@ -95,7 +89,7 @@ def over_time(folder, run, shapes):
 
 def at_one_time(arguments, run, shapes, shape):
     radius, values = run.method["material"]["radius"], node_values(shape)
-    scales = {scale.name: scale for scale in colour_scales(shapes, radius, run.units) if scale.name in values}
+    scales = {name: scale for name, scale in colour_scales(shapes, radius, run.units).items() if name in values}
     if arguments.color and arguments.color not in scales:
         raise CannotReport(f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
                            f"{', '.join(name for name in values if name in scales)}")

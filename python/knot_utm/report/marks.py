@@ -72,9 +72,7 @@ def together(marks, soon, near):
     return merged
 
 
-# ---- the largest load: the place of the reading that peak_force of result.yaml is. It is a peak of the curve only where the
-# load fell behind it: a test that was stopped while the load rose has a largest load, but no peak.
-
+# The largest load is a peak of the curve only where the load fell behind it.
 NEAR = 0.01  # of the pull: a largest load within this of its end was reached there
 
 # How a test ended that nobody and no program stopped.

@@ -1,9 +1,9 @@
-"""A method as a person reads it: what was tested, on what, and how; and what a laboratory says of a test by a standard."""
+"""A method as a person reads it: what was tested, on what, and how."""
 import os
 
 from knot_utm import tool
 from knot_utm.report import quantities
-from knot_utm.report.quantities import is_number, number, Unit
+from knot_utm.report.quantities import is_number, number, Unit, with_unit
 from knot_utm.report.run import PULLING, read_yaml
 
 # Labels and units of dotted keys.
@@ -67,7 +67,8 @@ class Facts:
 
     def of(self, place, section, keys=None):
         """[(label, text)] of the keys that are there and have a value. `place`: the section's dotted key."""
-        names = [name for name in (keys or section) if section.get(name) is not None and name not in NOT_FACTS]
+        not_facts = (*NOT_FACTS, "friction_coefficient", "friction_couple") if self.around_post else NOT_FACTS  # the post's own counts
+        names = [name for name in (keys or section) if section.get(name) is not None and name not in not_facts]
         return [(self.label(f"{place}.{name}"), self.text(f"{place}.{name}", section[name])) for name in names]
 
     def label(self, key):
@@ -105,11 +106,6 @@ def drawing_of(method, folder=""):
     return next((read_yaml(file) for file in files if name not in TITLES and os.path.isfile(file)), {})
 
 
-def keys_of_specimen(specimen):
-    """Without its knot. A knot that a file describes has the keys that are there."""
-    return KEYS_OF_KNOTS.get(specimen["knot"], [key for key in specimen if key != "knot"])
-
-
 def lies_around_post(method):
     return "post_diameter" in KEYS_OF_KNOTS.get(method.get("specimen", {}).get("knot"), ())
 
@@ -119,48 +115,27 @@ def post_diameter(method):
     return method["specimen"]["post_diameter"] if lies_around_post(method) else None
 
 
-def without_idle_keys(method):
-    """Without the keys that do nothing in this method, and would say what it is not."""
-    def without(section, *keys):
-        return {key: value for key, value in section.items() if key not in keys}
-
-    material, machine, physics = method["material"], method["machine"], method.get("physics", {})
-    if not material.get("friction_couple") and isinstance(physics.get("friction"), dict):
-        physics = {**physics, "friction": without(physics["friction"], "at")}
-    if machine.get("roller_rotation", "fixed") != "turned":
-        machine = without(machine, "roller_rate")
-    if not machine.get("roller_friction"):
-        machine = without(machine, "roller_rotation")
-    if lies_around_post(method):
-        material = without(material, "friction_coefficient", "friction_couple")  # the rod touches the post alone
-    return {**method, "material": material, "machine": machine, "physics": physics}
-
-
 def method_facts(method, units, folder=""):
     """[(title, [(label, text)], remark)]"""
-    method = without_idle_keys(method)
-    specimen, material, machine = method["specimen"], method["material"], method["machine"]
-    other = method.get("other_material")
-    cell = machine.get("load_cell")
-    cell = cell if isinstance(cell, dict) else {}
-    facts = Facts(method, units)
-    return [
-        ("Specimen", [("Knot", knot_of(method, folder)), *facts.of("specimen", specimen, keys_of_specimen(specimen))], ""),
-        ("Material", [("Name", str(material.get("name", "own"))), *facts.of("material", material)], material.get("notes") or ""),
-        *([("Material of the other ropes", [("Name", str(other.get("name", "own"))), *facts.of("other_material", other)],
-            other.get("notes") or "")] if other else []),
-        ("Machine", [*facts.of("machine", machine),
-                     *([("Load cell", str(cell["name"]))] if "name" in cell else []), *facts.of("machine.load_cell", cell)],
-         cell.get("notes") or ""),
-        ("Physics", facts.of("physics", method.get("physics", {})), ""),
-        *([("When the test ends", facts.of("ends", method["ends"]), "")] if method.get("ends") else []),
-    ]
+    specimen, machine, facts = method["specimen"], method["machine"], Facts(method, units)
+    cell = machine.get("load_cell") if isinstance(machine.get("load_cell"), dict) else {}
+    # A knot that a file describes has the keys that are there.
+    found = [("Specimen", [("Knot", knot_of(method, folder)), *facts.of("specimen", specimen, KEYS_OF_KNOTS.get(
+        specimen["knot"], [key for key in specimen if key != "knot"]))], "")]
+    for title, of in (("Material", "material"), ("Material of the other ropes", "other_material")):
+        if material := method.get(of):
+            found.append((title, [("Name", str(material.get("name", "own"))), *facts.of(of, material)], material.get("notes") or ""))
+    return [*found,
+            ("Machine", [*facts.of("machine", machine), *([("Load cell", str(cell["name"]))] if "name" in cell else []),
+                         *facts.of("machine.load_cell", cell)], cell.get("notes") or ""),
+            ("Physics", facts.of("physics", method.get("physics", {})), ""),
+            *([("When the test ends", facts.of("ends", method["ends"]), "")] if method.get("ends") else [])]
 
 
 def program(method, units):
     """[(step, what it asks for)]"""
     facts = Facts(method, units)
-    return [(name, step_text(f"program.{number}.{name}", keys or {}, facts))
+    return [(f"{number + 1}. {name}", step_text(f"program.{number}.{name}", keys or {}, facts))
             for number, step in enumerate(method.get("program", [])) for name, keys in step.items()]
 
 
@@ -178,24 +153,12 @@ def step_text(step, keys, facts):
 
 
 def particulars(report, method, gauge_length, units, specimens=""):
-    """[(key, label, text)]; empty where `report` names no standard."""
+    """[(label, text)] of what a laboratory says of a test by a standard; empty where `report` names none."""
     if not report.get("standard"):
         return []
-    found = [("gauge_length", "Gauge length", with_unit_of(gauge_length, units.length)),
-             ("speed", "Speed of the crosshead", with_unit_of(speed_of(method), units.rate)),
-             ("specimens", "Specimens", specimens)]
-    return [row for row in found if row[2]]
-
-
-def with_unit_of(value, unit):
-    return f"{number(value * unit.scale)} {unit.name}" if is_number(value) else ""
-
-
-def speed_of(method):
-    """Of the last step that pulls [m/s]; None where the load decides it, or where nothing pulls."""
     steps = [keys or {} for step in method.get("program", []) for name, keys in step.items() if name in PULLING]
-    return None if not steps or is_number(steps[-1].get("load_rate")) else steps[-1].get("speed")
-
-
-def counted(tested, rejected):
-    return f"{tested} tested, {tested - rejected} count, {rejected} discarded"
+    # Of the last step that pulls; none where the load decides it.
+    speed = steps[-1].get("speed") if steps and not is_number(steps[-1].get("load_rate")) else None
+    return [(label, text) for label, text in (
+        ("Gauge length", with_unit(gauge_length, units.length) if is_number(gauge_length) else ""),
+        ("Speed of the crosshead", with_unit(speed, units.rate) if is_number(speed) else ""), ("Specimens", specimens)) if text]

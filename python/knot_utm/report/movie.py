@@ -1,29 +1,21 @@
-"""Makes a movie of a test, or of two side by side: the rod above its curve, which is drawn as far as the test has come.
-
-    scripts/movie RUN [RUN] [--out FILE.mp4] [--seconds S] [--rate FPS] [--color NAME] [--overwrite]
-
-RUN is the folder of a test with shapes.csv (tensile_test --shapes) or test.bag. Two tests are shown at the same time since
-their pull began, with the same colours and the same axes.
-"""
-import argparse
+"""Makes a movie of a test, or of two side by side: the rod above its curve, which is drawn as far as the test has come. Two tests are
+shown at the same time since their pull began, with the same colours and the same axes."""
 import multiprocessing
 import os
 import shutil
 import subprocess
 import sys
 
-import matplotlib.pyplot as plt
 import numpy as np
 
-from knot_utm.report.colours import colour_scales, UNITS
+from knot_utm.report.colours import colour_scales, LABELS
 from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
-from knot_utm.report.curve_figures import small_loads
-from knot_utm.report.curves import few_points
+from knot_utm.report.curves import draw, small_loads
 from knot_utm.report.method_facts import knot_and_materials
-from knot_utm.report.rod_pictures import draw_bar, draw_rollers, tubes_of, view
+from knot_utm.report.rod_pictures import draw_rollers, tubes_of, view
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import pieces, series_of
-from knot_utm.report.style import BLUE, FAINT, INK, ORANGE, USUAL
+from knot_utm.report.style import BLUE, FAINT, new_figure, ORANGE, USUAL
 
 SIZE = (1920, 1080)
 DPI = 120
@@ -31,12 +23,12 @@ VIEWS = 12  # shapes of a test that the frame of its pictures is made for
 
 
 def asked():
-    parser = OneLineParser(prog="movie", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = OneLineParser(prog="movie", description=__doc__)
     parser.add_argument("runs", nargs="+", metavar="RUN", help="the folder of a test; at most two")
     parser.add_argument("--out", default="movie.mp4", help="the file [movie.mp4]")
     parser.add_argument("--seconds", type=float, default=12.0, help="that the movie takes [12]")
     parser.add_argument("--rate", type=int, default=25, help="pictures a second [25]")
-    parser.add_argument("--color", choices=UNITS, default="tension", help="what the colours show [tension]")
+    parser.add_argument("--color", choices=LABELS, default="tension", help="what the colours show [tension]")
     parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
     found = parser.parse_args()
     if len(found.runs) > 2:
@@ -101,17 +93,17 @@ class Stage:
     def __init__(self, folders, name, size):
         self.size = size
         self.tests = [OneTest(folder) for folder in folders]
-        shapes = [shape for test in self.tests for shape in test.shapes]
         first = self.tests[0].run
-        scales = {scale.name: scale for scale in colour_scales(shapes, first.method["material"]["radius"], first.units)}
+        scales = colour_scales([shape for test in self.tests for shape in test.shapes], first.method["material"]["radius"], first.units)
         if name not in scales:
             raise CannotReport(f"{folders[0]}: --color {name}: it is not known, or nowhere different from zero; known are: "
                                f"{', '.join(scales)}")
         self.scale = scales[name]
-        self.extensions = joined(test.extension for test in self.tests)
-        self.loads = joined(test.load for test in self.tests)
-        small = [small_loads(test.run.value, test.tested["load"], test.run.units.force.scale) for test in self.tests]
-        self.small = (min(low for low, _ in small), max(high for _, high in small)) if all(small) else None
+        self.extensions, self.loads = ((min(0.0, *(one.min() for one in of_tests)), max(1e-9, *(one.max() for one in of_tests)))
+                                       for of_tests in ([test.extension for test in self.tests], [test.load for test in self.tests]))
+        small = [small_loads(test.run.value, test.tested["load"]) for test in self.tests]
+        unit = first.units.force.scale
+        self.small = (unit * min(low for low, _ in small), unit * max(high for _, high in small)) if all(small) else None
 
     def times(self, count):
         """Evenly spaced since the start of the pull [s]."""
@@ -119,56 +111,39 @@ class Stage:
 
     def picture(self, time):
         """Bytes, four a pixel."""
-        figure = plt.figure(figsize=(self.size[0] / DPI, self.size[1] / DPI), dpi=DPI)
-        try:
-            for column, test in enumerate(self.tests):
-                self.draw(figure, column, test, time)
-            draw_bar(figure.add_axes([0.35, 0.065, 0.3, 0.016]), self.scale, USUAL + 3)
-            figure.canvas.draw()
-            return bytes(figure.canvas.buffer_rgba())
-        finally:
-            plt.close(figure)
+        figure = new_figure(self.size[0] / DPI, self.size[1] / DPI)
+        figure.set_dpi(DPI)
+        for column, test in enumerate(self.tests):
+            self.draw(figure, column / len(self.tests), 1.0 / len(self.tests), test, time)
+        self.scale.draw(figure.add_axes([0.35, 0.065, 0.3, 0.016]), USUAL + 3)
+        figure.canvas.draw()
+        return bytes(figure.canvas.buffer_rgba())
 
-    def draw(self, figure, column, test, time):
-        width = 1.0 / len(self.tests)
-        left, wide = column * width, width
+    def draw(self, figure, left, wide, test, time):
         shape = test.at(time)
         rod = figure.add_axes([left + 0.01, 0.47, wide - 0.02, 0.42])
         tubes_of(test.run, shape, test.shapes[0], self.scale).draw(rod)
         draw_rollers(rod, test.run, shape)
-        rod.set_xlim(*test.box[:2])
-        rod.set_ylim(*test.box[2:])
-        rod.set_aspect("equal")
+        rod.set(xlim=test.box[:2], ylim=test.box[2:], aspect="equal")
         rod.axis("off")
-        figure.text(left + 0.5 * wide, 0.945, test.title, ha="center", fontsize=USUAL + 7, weight="bold", color=INK)
-        figure.text(left + 0.5 * wide, 0.905, test.run.words_at(shape.time), ha="center", fontsize=USUAL + 4, color=INK)
-        margin = 0.06
-        if self.small:  # the peak hides the plateau: small loads again, above
-            axes = figure.add_axes([left + margin, 0.335, wide - margin - 0.02, 0.13])
-            self.draw_curve(axes, test, shape, self.small, "small loads")
-            axes.tick_params(labelbottom=False)
-        axes = figure.add_axes([left + margin, 0.17, wide - margin - 0.02, 0.13 if self.small else 0.28])
-        self.draw_curve(axes, test, shape, self.loads, "load")
+        figure.text(left + 0.5 * wide, 0.945, test.title, ha="center", fontsize=USUAL + 7, weight="bold")
+        figure.text(left + 0.5 * wide, 0.905, test.run.words_at(shape.time), ha="center", fontsize=USUAL + 4)
+        # Where the peak hides the plateau small loads are shown again, above.
+        for loads, name, low in ((self.small, "small loads", 0.335), (self.loads, "load", 0.17)):
+            if loads:
+                axes = figure.add_axes([left + 0.06, low, wide - 0.08, 0.13 if self.small else 0.28])
+                self.draw_curve(axes, test, shape, loads, name)
+                axes.tick_params(labelsize=USUAL + 2, labelbottom=name == "load")
         axes.set_xlabel(f"extension [{test.run.units.length.name}]", fontsize=USUAL + 3)
 
     def draw_curve(self, axes, test, shape, loads, name):
-        rows = few_points(test.extension, test.load)
-        axes.plot(test.extension[rows], test.load[rows], color=FAINT, lw=2.0)
+        draw(axes, test.extension, test.load, color=FAINT, lw=2.0)
         if shape.time >= test.begin:
             extension, load = test.until(shape.time)
-            rows = few_points(extension, load)
-            axes.plot(extension[rows], load[rows], color=BLUE, lw=2.4)
+            draw(axes, extension, load, color=BLUE, lw=2.4)
             axes.plot(extension[-1], load[-1], "o", ms=9, color=ORANGE, clip_on=not loads[0] <= load[-1] <= loads[1], zorder=5)
-        axes.set_xlim(*self.extensions)
-        axes.set_ylim(loads[0], loads[1] + 0.05 * (loads[1] - loads[0]))
+        axes.set(xlim=self.extensions, ylim=(loads[0], loads[1] + 0.05 * (loads[1] - loads[0])))
         axes.set_ylabel(f"{name} [{test.run.units.force.name}]", fontsize=USUAL + 3)
-        axes.tick_params(labelsize=USUAL + 2)
-
-
-def joined(of_tests):
-    """The lowest and the highest value of all of them."""
-    values = [np.append(one, 0.0) for one in of_tests]
-    return min(one.min() for one in values), max(max(one.max() for one in values), 1e-9)
 
 
 class OneTest:

@@ -5,17 +5,16 @@ import shlex
 import string
 import sys
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import to_rgb
 
 from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, refuse, why_not
-from knot_utm.report.curve_figures import phases_of
+from knot_utm.report.curves import draw as draw_line, phases_of
 from knot_utm.report.method_facts import materials_of
 from knot_utm.report.rod_pictures import draw_rollers, Tubes
 from knot_utm.report.run import read_yaml, Run
 from knot_utm.report.shapes import final_shape, pieces, ropes, series_of
-from knot_utm.report.style import BLUE, FAINT, GREEN, INK, ORANGE, PHASES, SMALL, USUAL, VIOLET
+from knot_utm.report.style import BLUE, FAINT, GREEN, INK, new_figure, ORANGE, PHASES, SMALL, USUAL, VIOLET
 from knot_utm.report.tube import to_picture
 
 # The rod's two halves, each with one knot.
@@ -85,7 +84,7 @@ def draw_curve(axes, runs):
     run = runs[-1]
     pull = run.pull()
     s, load = 1e3 * pull["extension"], pull["load"]
-    axes.plot(s, load, color=BLUE, lw=1.4)
+    draw_line(axes, s, load, color=BLUE, lw=1.4)
     # Logarithmic, and linear around zero: the load of sliding knots is a thousandth of that of locked ones.
     usual = np.median(np.abs(load))
     axes.set_yscale("symlog", linthresh=10.0 ** np.floor(np.log10(usual)) if usual > 0.0 else 1.0)
@@ -101,7 +100,7 @@ def draw_curve(axes, runs):
         axes.plot(*end, "o", color="white", mec=INK, ms=11, clip_on=False, zorder=5)
         axes.annotate(letter, end, ha="center", va="center_baseline", fontsize=SMALL, zorder=6, annotation_clip=False)
     second = axes.twinx()
-    second.plot(s, 1e3 * pull["knot_distance"], color=VIOLET, lw=1.2)
+    draw_line(second, s, 1e3 * pull["knot_distance"], color=VIOLET, lw=1.2)
     second.set_ylabel("knot distance e [mm]", color=VIOLET)
     second.spines["right"].set_visible(True)
     second.grid(False)
@@ -113,7 +112,7 @@ def draw_curve(axes, runs):
 
 def draw(runs, file, command):
     shapes = [final_shape(run) for run in runs]
-    figure = plt.figure(figsize=(9.0, 1.45 * len(runs) + 4.9))
+    figure = new_figure(9.0, 1.45 * len(runs) + 4.9)
     grid = figure.add_gridspec(len(runs) + 2, 1, height_ratios=[1.45] * len(runs) + [0.26, 3.4], hspace=0.35)
     for number, (letter, run, shape) in enumerate(zip(string.ascii_lowercase, runs, shapes)):
         axes = figure.add_subplot(grid[number])

@@ -1,5 +1,4 @@
 """A test as tensile_test or the recorder left it in a folder."""
-import contextlib
 import csv
 import os
 import re
@@ -147,9 +146,8 @@ class Run:
     def load_cell_floor(self):
         """Below this load the cell's error is no longer a share of the reading [N]; None: the method says nothing."""
         cell = self.method.get("machine", {}).get("load_cell")
-        if not isinstance(cell, dict) or not is_number(cell.get("floor")) or not is_number(cell.get("capacity")):
-            return None
-        return cell["floor"] * cell["capacity"] or None
+        known = isinstance(cell, dict) and is_number(cell.get("floor")) and is_number(cell.get("capacity"))
+        return cell["floor"] * cell["capacity"] or None if known else None
 
 
 def read_text(file, errors="strict"):
@@ -209,16 +207,6 @@ def numbers(file, name, column):
         raise CannotReport(f"{file}: {name}: {why}") from why
 
 
-def number_columns(file):
-    """The columns by name of a table of nothing but numbers, which may be long."""
-    lines = read_text(file).splitlines()
-    if len(lines) > 2:
-        with contextlib.suppress(ValueError):
-            return dict(zip(lines[0].split(","), np.loadtxt(lines[2:], delimiter=",", comments=None, ndmin=2).T, strict=True))
-    # Slower, this names the column that is not of numbers.
-    return {name: numbers(file, name, column) for name, column in read_columns(file).items()}
-
-
 def read_curve(file):
     columns = read_columns(file)
     for name in ("time", "extension", "load", "knot_distance", "end_to_end", "phase"):
@@ -229,8 +217,4 @@ def read_curve(file):
     if "crosshead_travel" in columns:  # the frame is compliant
         travel = curve["crosshead_travel"]
         curve.columns["crosshead_extension"] = np.where(np.isfinite(travel), travel, curve["extension"])
-    if "corrected_extension" in columns:  # the same of a run by an earlier version
-        own = curve["corrected_extension"]
-        curve.columns["crosshead_extension"] = curve["extension"]
-        curve.columns["extension"] = np.where(np.isfinite(own), own, curve["extension"])
     return curve

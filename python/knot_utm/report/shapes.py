@@ -5,7 +5,7 @@ from collections import namedtuple
 import numpy as np
 
 from knot_utm.report.commands import CannotReport
-from knot_utm.report.run import number_columns, numbers, read_columns
+from knot_utm.report.run import numbers, read_columns, read_text
 
 SHAPE, STATE = "knot/shape", "knot/state"
 
@@ -90,11 +90,17 @@ def only_the_final(run):
 
 
 def series_of_csv(file):
-    columns = number_columns(file)
-    missing = {"time", "node", "x", "y", "z", "tension", "twist", "contact_force"} - set(columns)
-    begins = np.flatnonzero(columns["node"] == 0) if not missing else []
+    names, _, *rows = read_text(file).splitlines() + 2 * [""]
+    try:  # which may be long, and holds nothing but numbers
+        columns = dict(zip(names.split(","), np.loadtxt(filter(None, rows), delimiter=",", comments=None, ndmin=2).T))
+    except ValueError:  # slower, this names the column that is not of numbers
+        columns = {name: numbers(file, name, column) for name, column in read_columns(file).items()}
+    for name in ("time", "node", "x", "y", "z", "tension", "twist", "contact_force"):
+        if name not in columns:
+            raise CannotReport(f"{file}: no column {name}")
+    begins = np.flatnonzero(columns["node"] == 0)
     if not len(begins):
-        raise CannotReport(f"{file}: no column {sorted(missing)[0]}" if missing else f"{file}: it holds no shape")
+        raise CannotReport(f"{file}: it holds no shape")
     ends = [*begins[1:], len(columns["node"])]
 
     def shape(i):

@@ -3,8 +3,9 @@ itself, turnable.js: those of all shapes would be too many bytes for a page.)"""
 import numpy as np
 
 SIDES = 16
-LIGHT = np.array([-0.35, 0.55, 0.76])  # in the picture's frame: right, up, towards the eye
+LIGHT = np.array([-0.35, 0.55, 0.76]) / np.linalg.norm([-0.35, 0.55, 0.76])  # in the picture's frame: right, up, towards the eye
 TILT = np.radians(12.0)                # the eye stands this much above the plane of x and z
+LENGTH, TURN = 1.5, np.radians(6.0)    # of a face: how long it is at most [radii], and by how much the line turns along it
 
 
 class Mesh:
@@ -45,19 +46,13 @@ def tube(line, radius, sides=SIDES):
     return Mesh(points, normals, along.astype(float), quads)
 
 
-def joined(meshes):
-    """One mesh of several pieces, whose places `along` go on from piece to piece as its caller numbered them."""
-    before = np.cumsum([0, *(len(mesh.points) for mesh in meshes)])
-    return Mesh(*(np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in ("points", "normals", "along")),
-                np.concatenate([mesh.quads + begin for mesh, begin in zip(meshes, before)]))
-
-
 def rod_mesh(points, pieces, radii):
-    """Around each piece, a slice of the nodes. `along` is the number of the node."""
+    """One mesh around all pieces, slices of the nodes. `along` is the number of the node."""
     meshes = [tube(points[piece], radius) for piece, radius in zip(pieces, radii)]
-    for mesh, piece in zip(meshes, pieces):
-        mesh.along += piece.start
-    return joined(meshes)
+    before = np.cumsum([0, *(len(mesh.points) for mesh in meshes)])
+    return Mesh(*(np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in ("points", "normals")),
+                np.concatenate([mesh.along + piece.start for mesh, piece in zip(meshes, pieces)]),
+                np.concatenate([mesh.quads + begin for mesh, begin in zip(meshes, before)]))
 
 
 def to_picture(points):
@@ -74,9 +69,6 @@ def smooth(points, pieces=4):
     return np.vstack([points[0], *segments, points[-1]])
 
 
-LENGTH, TURN = 1.0, np.radians(5.0)  # of a face: how long it is at most [radii], and by how much the line turns along it
-
-
 def enough_points(line, radius):
     """Numbers of those points of a line, its ends among them, between which a tube of flat faces looks round."""
     edges = np.diff(line, axis=0)
@@ -86,24 +78,19 @@ def enough_points(line, radius):
     return np.unique([*np.searchsorted(faces, np.arange(faces[-1])), len(line) - 1])
 
 
-class SeenTube:
-    """The faces of a tube in a plane that face the eye, as polygons. `along`: where each lies along the line, 0 to 1."""
-
-    def __init__(self, line, radius, sides=24):
-        kept = enough_points(line, radius)
-        mesh = tube(line[kept], radius, sides)
-        normals = mesh.normals[mesh.quads].mean(axis=1)
-        normals /= np.linalg.norm(normals, axis=1)[:, None]
-        facing = normals[:, 2] > -0.05
-        corners = mesh.points[mesh.quads[facing]]
-        self.outlines, self.depth, self.normals = corners[:, :, :2], corners[:, :, 2].mean(axis=1), normals[facing]
-        places = kept[mesh.along.astype(int)]
-        self.along = places[mesh.quads[facing]].mean(axis=1) / (len(line) - 1)
-
-    def shaded(self, base):
-        """Colours under the light, of a colour each."""
-        light = LIGHT / np.linalg.norm(LIGHT)
-        half = light + [0.0, 0.0, 1.0]
-        diffuse = np.clip(self.normals @ light, 0.0, 1.0)[:, None]
-        shine = np.clip(self.normals @ (half / np.linalg.norm(half)), 0.0, 1.0)[:, None] ** 30
-        return np.clip(base * (0.30 + 0.75 * diffuse) + 0.35 * shine, 0.0, 1.0)
+def seen(points, radius, colours_at):
+    """The faces of a tube around nodes that face the eye, under a light: outlines in the picture, depths, and colours. `colours_at`:
+    of places along the nodes, 0 to 1."""
+    line = smooth(to_picture(points))
+    kept = enough_points(line, radius)
+    mesh = tube(line[kept], radius)
+    normals = mesh.normals[mesh.quads].mean(axis=1)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    facing = normals[:, 2] > -0.05
+    normals, quads = normals[facing], mesh.quads[facing]
+    half = LIGHT + [0.0, 0.0, 1.0]
+    diffuse = np.clip(normals @ LIGHT, 0.0, 1.0)[:, None]
+    shine = np.clip(normals @ (half / np.linalg.norm(half)), 0.0, 1.0)[:, None] ** 30
+    base = colours_at(kept[mesh.along.astype(int)][quads].mean(axis=1) / (len(line) - 1))
+    corners = mesh.points[quads]
+    return corners[:, :, :2], corners[:, :, 2].mean(axis=1), np.clip(base * (0.30 + 0.75 * diffuse) + 0.35 * shine, 0.0, 1.0)

@@ -1,4 +1,4 @@
-// The rod as a thing to turn: a tube for each shape of the test, tied to its force curve by a slider. Where the browser has
+// The rod as a thing to turn: a tube for each shape of the test, chosen by a slider. Where the browser has
 // no WebGL nothing of it is shown, and the page has its pictures all the same.
 "use strict";
 (function () {
@@ -97,65 +97,19 @@
 
   function draw() { renderer.render(scene, camera); }
 
-  // ---- the curve ----------------------------------------------------------------------------------------------------
-
-  const chart = part("course"), HIGH = 120, edge = {left: 62, right: 10, top: 8, bottom: 36};
-  const put = (name, values, text, into) => {
-    const element = document.createElementNS(chart.namespaceURI, name);
-    Object.keys(values).forEach(key => element.setAttribute(key, values[key]));
-    if (text !== undefined) element.textContent = text;
-    return (into || chart).appendChild(element);
-  };
-  const place = (axis, from, to) => value => from + (value - axis.low) / (axis.high - axis.low) * (to - from);
-  let across = null, markers = [];  // a mark on each pair of axes
-
-  // Axes one below the other over the same extensions; what leaves them is not drawn.
-  function drawCurve() {
-    chart.textContent = "";
-    const width = chart.clientWidth, curve = data.curve, right = width - edge.right;
-    const low = edge.top + HIGH * curve.ys.length;
-    chart.style.height = `${low + edge.bottom}px`;
-    across = place(curve.x, edge.left, right);
-    markers = curve.ys.map((y, i) => {
-      const top = edge.top + HIGH * i, bottom = top + HIGH - 8, middle = 0.5 * (top + bottom), up = place(y, bottom, top);
-      put("path", {class: "axis", d: `M${edge.left},${top}V${bottom}H${right}`});
-      y.ticks.forEach(([value, text]) => put("text", {x: edge.left - 6, y: up(value) + 4, "text-anchor": "end"}, text));
-      put("text", {x: 13, y: middle, "text-anchor": "middle", transform: `rotate(-90 13 ${middle})`}, y.label);
-      const window = put("svg", {x: 0, y: top, width: right + 1, height: bottom - top, viewBox: `0 ${top} ${right + 1} ${bottom - top}`});
-      put("polyline", {class: "load", points: curve.rows.map(([s, load]) => `${across(s)},${up(load)}`).join(" ")}, "", window);
-      return {element: put("circle", {class: "marker", r: 6}), up, holds: load => load >= y.low && load <= y.high};
-    });
-    curve.x.ticks.forEach(([value, text]) => put("text", {x: across(value), y: low + 9, "text-anchor": "middle"}, text));
-    put("text", {x: 0.5 * (edge.left + right), y: low + 27, "text-anchor": "middle"}, curve.x.label);
-  }
-
-  chart.addEventListener("click", event => {
-    const at = event.clientX - chart.getBoundingClientRect().left;
-    const far = data.states.map(state => state.place ? Math.abs(across(state.place[0]) - at) : Infinity);
-    show(far.indexOf(Math.min(...far)));
-  });
-
   // ---- together -----------------------------------------------------------------------------------------------------
 
   const slider = part("time"), choice = part("quantity");
 
   function show(shape) {
     now = shape;
-    const state = data.states[shape];
     rod.children.forEach(part_of_rod => part_of_rod.geometry.dispose());
     rod.remove(...rod.children);
     data.pieces[shape].forEach(([first, end, radius]) =>
       piece(shape, first, end, radius).forEach(geometry => rod.add(new THREE.Mesh(geometry, paint_of_rod))));
     wheels.forEach((wheel, i) => wheel.position.set(data.rollers[shape][i][1], 0, data.rollers[shape][i][0]));
     slider.value = shape;
-    part("words").textContent = state.words;
-    markers.forEach(({element, up, holds}) => {
-      const is_there = state.place && holds(state.place[1]);
-      element.style.display = is_there ? "" : "none";
-      if (!is_there) return;
-      element.setAttribute("cx", across(state.place[0]));
-      element.setAttribute("cy", up(state.place[1]));
-    });
+    part("words").textContent = data.words[shape];
     draw();
   }
 
@@ -183,11 +137,9 @@
     renderer.setSize(width, height);
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
-    if (data.curve) drawCurve();
     show(now);
   }
 
-  chart.style.display = data.curve ? "" : "none";
   slider.max = shapes - 1;
   slider.hidden = shapes < 2;
   slider.addEventListener("input", () => show(Number(slider.value)));

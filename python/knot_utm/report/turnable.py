@@ -4,12 +4,9 @@ import json
 import os
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
 
 from knot_utm.report.colours import colour_scales, node_values
-from knot_utm.report.curve_figures import small_loads
-from knot_utm.report.curves import few_points
-from knot_utm.report.quantities import number
+from knot_utm.report.page import Turnable
 from knot_utm.report.rod_pictures import rollers, UNKNOWN
 from knot_utm.report.run import read_text
 from knot_utm.report.shapes import pieces, ropes
@@ -23,12 +20,12 @@ FINEST = 65535  # places along an axis are whole numbers up to this
 
 
 def turnable(run, series, marks):
-    """{scripts, data} of a page; None where the library is not installed."""
+    """None where the library is not installed."""
     if not all(os.path.exists(file) for file in SCRIPTS):
         return None
-    return {"scripts": [read_text(file) for file in SCRIPTS],
-            # No "<" that could end the element that holds it.
-            "data": json.dumps(content(run, series, marks), separators=(",", ":")).replace("<", "\\u003c")}
+    # No "<" that could end the element that holds it.
+    return Turnable(json.dumps(content(run, series, marks), separators=(",", ":")).replace("<", "\\u003c"),
+                    [read_text(file) for file in SCRIPTS])
 
 
 def content(run, series, marks):
@@ -38,7 +35,7 @@ def content(run, series, marks):
     points = 1e3 * np.array([shape.points for shape in shapes])
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     step = np.maximum(high - low, 1e-6) / FINEST
-    scales = colour_scales(shapes, run.method["material"]["radius"], run.units)
+    scales = colour_scales(shapes, run.method["material"]["radius"], run.units).values()
     values = [node_values(shape) for shape in shapes]
     wheels = [rollers(run, shape) for shape in shapes]
     return {"radius": 1e3 * run.method["material"]["radius"], "nodes": points.shape[1],
@@ -47,7 +44,7 @@ def content(run, series, marks):
             "pieces": [pieces_of(run, shape, shapes[0]) for shape in shapes], "unknown": list(UNKNOWN),
             "quantities": [coloured(scale, values, points.shape[1]) for scale in scales],
             "rollers": [[[z, x] for z, x, _ in one] for one in wheels], "roller_radii": [radius for _, _, radius in wheels[0]],
-            "curve": curve_of(run), "states": [state(run, shape) for shape in shapes]}
+            "words": [run.words_at(shape.time) for shape in shapes]}
 
 
 def encoded(values, kind):
@@ -73,34 +70,4 @@ def coloured(scale, values, nodes):
     known = [i for i, of_nodes in enumerate(values) if scale.name in of_nodes]
     places[known] = np.rint((KNOWN - 1) * scale.places(np.array([values[i][scale.name] for i in known])))
     palette = np.rint(255.0 * scale.colours(np.linspace(0.0, 1.0, KNOWN))[:, :3])
-    return {"label": scale.label(), "ticks": scale.ticks(), "palette": encoded(palette, "u1"),
-            "places": encoded(places, "u1")}
-
-
-def curve_of(run):
-    """Load over extension in the units of the page; None: nothing was tested."""
-    tested = run.tested()
-    if not len(tested):
-        return None
-    extension, load = run.units.length.scale * tested["extension"], run.units.force.scale * tested["load"]
-    rows = few_points(extension, load)
-    small = small_loads(run.value, tested["load"], run.units.force.scale)
-    return {"x": axis(np.append(extension, 0.0), f"extension [{run.units.length.name}]", 8),
-            "ys": [axis(np.append(load, 0.0), f"load [{run.units.force.name}]", 4),
-                   *([axis(np.array(small), f"small loads [{run.units.force.name}]", 4)] if small else [])],
-            "rows": [[float(f"{s:.5g}"), float(f"{force:.5g}")] for s, force in zip(extension[rows], load[rows])]}
-
-
-def axis(values, label, most):
-    low, high = float(values.min()), float(values.max())
-    high = high if high > low else low + 1.0
-    ticks = [float(tick) for tick in MaxNLocator(most).tick_values(low, high) if low <= tick <= high]
-    return {"label": label, "low": low, "high": high, "ticks": [(tick, number(tick)) for tick in ticks]}
-
-
-def state(run, shape):
-    """What is said of a shape, and where it lies on the curve; None: the test proper has not begun, or the rod has
-    parted."""
-    place = run.place_at(shape.time)
-    return {"words": run.words_at(shape.time),
-            "place": place and [run.units.length.scale * place[0], run.units.force.scale * place[1]]}
+    return {"label": scale.label(), "ticks": scale.ticks(), "palette": encoded(palette, "u1"), "places": encoded(places, "u1")}

@@ -10,18 +10,16 @@ from unittest import mock
 import numpy as np
 import yaml
 
-from knot_utm.report import page
+from knot_utm.report import run_page
 from knot_utm.report.quantities import Units
 from knot_utm.report.run import Curve, Run
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
-SCRIPT = os.path.join(ROOT, "scripts/report")
 TOOLS = os.environ["KNOT_UTM_TOOLS_DIR"]
 os.environ["KNOT_UTM_CACHE_LIMIT"] = "0"  # a test takes up nothing that another one has left
 
-
 STRAIGHT = ["config/straight.yaml", "--set", "physics.accuracy=draft", "--set", "material.breaking_force=none"]
-# Coarse and heavy-handed, but tied, slid and locked in a second or two.
+# Tied, slid and locked in a second or two.
 FISHERMAN = ["config/tighten.yaml", "--set", "material=polypropylene", "--set", "material.breaking_force=none"]
 
 
@@ -30,17 +28,9 @@ def tool(name, *arguments):
                           errors="surrogateescape", check=False)
 
 
-def script(*arguments):
-    return subprocess.run([SCRIPT, *arguments], cwd=ROOT, capture_output=True, text=True, check=False)
-
-
-def page_of(folder):
-    """report.html with images cut short and without its scripts, as no message should be a megabyte long."""
-    return re.sub(r'(src="data:[^"]{80})[^"]*', r"\1…", without_scripts(read(folder, "report.html")))
-
-
-def without_scripts(html):
-    return re.sub(r"<script.*?</script>", "", html, flags=re.DOTALL)
+def script(name, *arguments):
+    return subprocess.run([os.path.join(ROOT, "scripts", name), *arguments], cwd=ROOT, capture_output=True, text=True, check=False,
+                          env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1"})
 
 
 def read(*parts):
@@ -53,25 +43,19 @@ def write(text, *parts):
         out.write(text)
 
 
-def put_into(folder, name, old, new):
-    """Changes a file that must hold `old`."""
-    text = read(folder, name)
-    assert old in text, f"{name} holds no {old}"
-    write(text.replace(old, new, 1), folder, name)
+def without_data(html):
+    """Without its scripts, and with images cut short, as no message should be a megabyte long."""
+    return re.sub(r'(src="data:[^"]{80})[^"]*', r"\1…", re.sub(r"<script.*?</script>", "", html, flags=re.DOTALL))
 
 
-def open_bytes(*parts):
-    with open(os.path.join(*parts), "rb") as content:
-        return content.read()
+def page_of(folder):
+    return without_data(read(folder, "report.html"))
 
 
-def html_of(folder, with_figures=False):
-    """The page as the script makes it, without its scripts and the time that its PDF takes, and mostly without figures."""
-    if with_figures:
-        return without_scripts(page.report_on_run(folder, "of the test", ""))
-    with mock.patch.object(page, "figures_of", lambda _, marks: {
-            "curve": ["", ""] if marks else None, "course": None, "pictures": None, "note": "", "turnable": None}):
-        return page.report_on_run(folder, "of the test", "")
+def html_of(folder):
+    """The page of a run as the script makes it, without its figures, which take long."""
+    with mock.patch.object(run_page, "figures_of", lambda *_: ([], [], None)):
+        return run_page.report_on_run(folder, "of the test", "")
 
 
 def command_of(html):
@@ -80,13 +64,24 @@ def command_of(html):
 
 
 def keys_on(html):
-    return set(re.findall(r'data-key="(\w+)"', html))
+    """Those whose values the rows of its tables show, and those that it names."""
+    return {key for keys in re.findall(r'data-key="([\w. ]+)"', html) for key in keys.split()} | set(re.findall(r"<code>(\w+)</code>", html))
+
+
+def cells_of(row):
+    return [" ".join(re.sub(r"<[^>]+>", " ", cell).split()) for cell in re.findall(r"<t[dh].*?</t[dh]>", row, re.DOTALL)]
 
 
 def row_of(html, key, table=0):
     """Cells of the row of a key, in the first table that has it or in a later one."""
-    rows = [row for row in re.findall(r"<tr>.*?</tr>", html, re.DOTALL) if f'data-key="{key}"' in row]
-    return [re.sub(r"<[^>]+>", " ", cell).strip() for cell in re.findall(r"<td.*?</td>", rows[table], re.DOTALL)]
+    rows = [row for row in re.findall(r"<tr.*?</tr>", html, re.DOTALL) if re.search(rf'data-key="(\w+ )*{key}[" ]', row)]
+    return cells_of(rows[table])
+
+
+def table_of(html, head):
+    """Rows of the first table whose first head is that."""
+    return next(rows for rows in ([cells_of(row) for row in re.findall(r"<tr.*?</tr>", table, re.DOTALL)]
+                                  for table in re.findall(r"<table.*?</table>", html, re.DOTALL)) if rows[0][0] == head)
 
 
 def a_pull(extension, load):
@@ -120,16 +115,8 @@ class Folders:
         self.copies += 1
         return shutil.copytree(of, f"{of}-{self.copies}")
 
-    def with_report(self, of, report="", specification="", **results):
-        """A copy of a run whose method has a report and a specification, and whose result has other values."""
+    def changed(self, of, name, **values):
+        """A copy of a run, of whose YAML file some keys have other values."""
         folder = self.copy(of)
-        method = re.sub(r"^(report|specification):.*?(?=^\S|\Z)", "", read(folder, "method.yaml"), flags=re.M | re.S)
-        write(f"{method}report: {{{report}}}\nspecification: {{{specification}}}\n", folder, "method.yaml")
-        result = {**yaml.safe_load(read(folder, "result.yaml")), **results}
-        write(yaml.safe_dump(result, sort_keys=False), folder, "result.yaml")
+        write(yaml.safe_dump({**yaml.safe_load(read(folder, name)), **values}, sort_keys=False), folder, name)
         return folder
-
-def two_runs(*more):
-    """Folders with a run of a straight rod and one of a loop, which takes `more` arguments: for setUpModule."""
-    folders = Folders()
-    return folders, folders.run("straight", STRAIGHT), folders.run("fisherman", FISHERMAN, *more)
