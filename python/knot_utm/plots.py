@@ -9,6 +9,7 @@ from matplotlib import cm
 from knot_utm import axes, pattern_plots, trends
 from knot_utm.errors import WrongInput
 from knot_utm.groups import dimensionless, scale, UNITS
+from knot_utm.report.curves import draw
 from knot_utm.table import NUMBERS, result_columns
 
 SPECIMEN = "specimen"  # the column that tells repeats apart
@@ -169,8 +170,9 @@ def figure_of_curves(table, keys, result, cases, runs, rods=None):
         named = set()
         for run, (shade, value) in zip(rows["run"], shades(rows)):
             x, y = _from(runs.curve(run), phase, across, result)
-            panel.plot(x / _unit(across, rod_of.get(run)), y / _unit(result, rod_of.get(run)), color=shade, linewidth=0.8,
-                       label=None if value in named else value)
+            if len(x):
+                draw(panel, x / _unit(across, rod_of.get(run)), y / _unit(result, rod_of.get(run)), color=shade, linewidth=0.8,
+                     label=None if value in named else value)
             named.add(value)
         panel.set_title(name, fontsize="small")
         panel.set_xlabel(f"{across} [{_unit_name(across, rods)}]")

@@ -114,7 +114,7 @@ def report_on_batch(folder, command, version):
                 *tables, "± 95 % is half of the interval that holds the mean of all such specimens with 95 % confidence, and n the number of "
                 "specimens that have the reading. SD is the standard deviation of single specimens, over n – 1, and CV its share of the mean; what is the same for all "
                 "of them, but for rounding, is constant. Scatter says nothing about the numerical error that all specimens share: it stands "
-                "in the report of each one.", no_value("No specimen has", unmeasured)]),
+                "in the report of each one.", no_value("No specimen has a", unmeasured)]),
             ("Quality certificate", certificates if batch.counted else []),
             ("What was tested, and how", [[*method_facts(batch.method, units, batch.folder), ("Specimens", [
                 ("Count", str(len(batch.specimens))), ("Seed of the drawing", str(specimens.get("seed", ""))), *scatter(batch)], "")],

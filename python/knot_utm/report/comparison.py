@@ -1,6 +1,7 @@
-"""Two curves beside each other, as `compare --report` left them in a folder: what is known of them, their figure, their page."""
+"""Two curves beside each other, as `compare --report` left them in a folder."""
 import os
 import re
+from collections import namedtuple
 
 import numpy as np
 from markupsafe import Markup
@@ -18,26 +19,42 @@ READINGS = ("peak_force", "plateau_force", "plateau_force_low", "plateau_force_h
             "locked_stiffness")
 
 
-class Pull:
-    def __init__(self, file):
-        columns = read_columns(file)
-        for name in ("extension", "load"):
-            if name not in columns:
-                raise CannotReport(f"{file}: no column {name}")
-        self.extension, self.load = (numbers(file, name, columns[name]) for name in ("extension", "load"))
+# A curve: extension [m] and load [N].
+Pull = namedtuple("Pull", "extension load")
+# The run that a curve is from.
+Simulated = namedtuple("Simulated", "folder method report result")
+
+
+def read_pull(file):
+    columns = read_columns(file)
+    for name in Pull._fields:
+        if name not in columns:
+            raise CannotReport(f"{file}: no column {name}")
+    return Pull(*(numbers(file, name, columns[name]) for name in Pull._fields))
+
+
+def run_beside(file):
+    """None where the curve is from none."""
+    folder = os.path.dirname(file) or "."
+    if os.path.basename(file) not in ("curve.csv", "curve_full.csv", "test.bag", "saved.bag"):
+        return None
+    method, result = (os.path.join(folder, name) for name in ("method.yaml", "result.yaml"))
+    try:
+        return Simulated(folder, read_yaml(method), texts_of(method, "report"), read_yaml(result))
+    except CannotReport:
+        return None
 
 
 class Comparison:
     def __init__(self, folder):
-        self.folder = folder
-        self.facts = read_yaml(os.path.join(folder, "comparison.yaml"), errors="surrogateescape")
-        self.a, self.b = (Pull(os.path.join(folder, name)) for name in ("a.csv", "b.csv"))
+        file = os.path.join(folder, "comparison.yaml")
+        self.facts = read_yaml(file, errors="surrogateescape")
+        self.a, self.b = (read_pull(os.path.join(folder, name)) for name in ("a.csv", "b.csv"))
         for key in ("a", "b", "common_extension"):
             if key not in self.facts:
-                raise CannotReport(f"{os.path.join(folder, 'comparison.yaml')}: no key {key}")
-        self.files = {name: str(self.facts[name]) for name in ("a", "b")}
-        self.facts.update({name: printable(file) for name, file in self.files.items()})
-        self.runs = {name: run_beside(file) for name, file in self.files.items()}
+                raise CannotReport(f"{file}: no key {key}")
+        self.runs = {name: run_beside(str(self.facts[name])) for name in ("a", "b")}
+        self.facts.update({name: printable(str(self.facts[name])) for name in ("a", "b")})
         asked = [units_of(run.report) for run in self.runs.values() if run]
         self.units = next((units for units in asked if not units.are_default), Units())
 
@@ -58,27 +75,6 @@ class Comparison:
         s = np.union1d(self.a.extension, self.b.extension)
         s = np.concatenate([[low], s[(s > low) & (s < high)], [high]])
         return s, np.interp(s, self.b.extension, self.b.load) - np.interp(s, self.a.extension, self.a.load)
-
-
-class Simulated:
-    """The run that a curve is from: its method, its result, and what its method says of reports."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        method = os.path.join(folder, "method.yaml")
-        self.method, self.report = read_yaml(method), texts_of(method, "report")
-        self.result = read_yaml(os.path.join(folder, "result.yaml"))
-
-
-def run_beside(file):
-    """The run that a curve is from; None where it is from none."""
-    folder = os.path.dirname(file) or "."
-    if os.path.basename(file) not in ("curve.csv", "curve_full.csv", "test.bag", "saved.bag"):
-        return None
-    try:
-        return Simulated(folder)
-    except CannotReport:
-        return None
 
 
 def overlay(comparison):
@@ -148,9 +144,9 @@ def report_on_comparison(folder, command, version):
             "with straight lines between the readings.")]),
         ("Readings of both curves", [
             Table(("Reading", "A", "B", "B – A", "Unit", "Share of A"), rows), remark,
-            no_value("Neither curve has", [key for key in READINGS if key in facts and not has_either(facts[key])])]),
-        ("What the curves are", [part for name, file in comparison.files.items()
-                                 for part in side(name.upper(), printable(file), comparison.runs[name], units)])],
+            no_value("Neither curve has a", [key for key in READINGS if key in facts and not has_either(facts[key])])]),
+        ("What the curves are", [part for name, run in comparison.runs.items()
+                                 for part in side(name.upper(), facts[name], run, units)])],
         Markup("A <b>{}</b> · B <b>{}</b>").format(facts["a"], facts["b"]), headlines=[
             Headline("RMS difference", shown(rms[0], force.scale), "", force.name, share and f"{share} of the largest load of A"),
             Headline("Largest difference, B – A", shown(largest[0], force.scale), "", force.name, f"at {with_unit(*at)}"),

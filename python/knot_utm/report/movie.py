@@ -48,10 +48,7 @@ def asked():
 
 
 def main():
-    make(asked())
-
-
-def make(arguments):
+    arguments = asked()
     if shutil.which("ffmpeg") is None:
         raise CannotReport("there is no ffmpeg: install Debian's package ffmpeg")
     stage = Stage(arguments.runs, arguments.color, SIZE)

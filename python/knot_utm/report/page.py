@@ -61,8 +61,8 @@ def checks_table(name, kept_by, checks):
                  [Row(check.words, [check.key], (check.value, check.limit, "pass" if check.kept else "fail")) for check in checks])
 
 
-def no_value(whose, keys):
-    return Markup("{} no value of {}.").format(whose, Markup(", ").join(Markup("<code>{}</code>").format(key) for key in keys)) if keys else ""
+def no_value(who_has_none, keys):
+    return Markup("{} value of {}.").format(who_has_none, Markup(", ").join(Markup("<code>{}</code>").format(key) for key in keys)) if keys else ""
 
 
 def verdict_box(words_and_whether):

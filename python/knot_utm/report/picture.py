@@ -72,31 +72,26 @@ def draw_phases(axes, run):
     for name, begin, end in phases_of(curve):
         axes.axvspan(time[begin], time[end], color=PHASES.get(name, FAINT), lw=0)
         if time[end] - time[begin] > 0.04 * time[-1]:
-            axes.text(0.5 * (time[begin] + time[end]), 0.5, name, ha="center", va="center", fontsize=SMALL, color=INK,
+            axes.text(0.5 * (time[begin] + time[end]), 0.5, name, ha="center", va="center", fontsize=SMALL,
                       transform=axes.get_xaxis_transform())
-    axes.set_xlim(time[0], time[-1])
-    axes.set_yticks([])
-    axes.set_xlabel("time [s]")
+    axes.set(xlim=(time[0], time[-1]), yticks=[], xlabel="time [s]")
     axes.grid(False)
 
 
 def draw_curve(axes, runs):
     run = runs[-1]
-    pull = run.pull()
+    pull, lock, pattern = run.pull(), run.value("lock_extension"), run.result.get("motion_pattern")
     s, load = 1e3 * pull["extension"], pull["load"]
     draw_line(axes, s, load, color=BLUE, lw=1.4)
     # Logarithmic, and linear around zero: the load of sliding knots is a thousandth of that of locked ones.
     usual = np.median(np.abs(load))
     axes.set_yscale("symlog", linthresh=10.0 ** np.floor(np.log10(usual)) if usual > 0.0 else 1.0)
-    axes.set_xlabel("extension s [mm]")
-    axes.set_ylabel("load F [N]")
-    axes.set_xlim(0.0, s[-1])
-    lock, pattern = run.result.get("lock_extension"), run.result.get("motion_pattern")
+    axes.set(xlabel="extension s [mm]", ylabel="load F [N]", xlim=(0.0, s[-1]))
     if lock is not None:
         axes.axvline(1e3 * lock, color=INK, lw=0.9, ls=(0, (4, 3)))
-        axes.text(1e3 * lock, 1.02, f"lock {1e3 * lock:.1f} mm", ha="center", fontsize=SMALL, color=INK, transform=axes.get_xaxis_transform())
-    ends = [(1e3 * other.pull()["extension"][-1], other.pull()["load"][-1]) for other in runs]
-    for letter, end in zip(string.ascii_lowercase, ends):
+        axes.text(1e3 * lock, 1.02, f"lock {1e3 * lock:.1f} mm", ha="center", fontsize=SMALL, transform=axes.get_xaxis_transform())
+    for letter, other in zip(string.ascii_lowercase, runs):
+        end = 1e3 * other.pull()["extension"][-1], other.pull()["load"][-1]
         axes.plot(*end, "o", color="white", mec=INK, ms=11, clip_on=False, zorder=5)
         axes.annotate(letter, end, ha="center", va="center_baseline", fontsize=SMALL, zorder=6, annotation_clip=False)
     second = axes.twinx()

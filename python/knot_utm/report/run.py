@@ -122,22 +122,17 @@ class Run:
         tested, broke = (self.curve if curve is None else curve).tested(), self.time_of_break()
         return tested if broke is None else tested.where(tested["time"] <= broke)
 
-    def place_at(self, time):
-        """Extension [m] and load [N] at a time; None before the test proper and behind a break."""
-        tested = self.tested()
-        behind = self.time_of_break() is not None and len(tested) and time > tested["time"][-1]
-        if behind or not len(tested) or time < tested["time"][0]:
-            return None
-        return tuple(float(np.interp(time, tested["time"], tested[name])) for name in ("extension", "load"))
-
     def words_at(self, time):
-        """What happens at a time."""
+        """What happens at a time; no place before the test proper and behind a break."""
         phase = self.curve.phase[min(int(np.searchsorted(self.curve["time"], time)), len(self.curve) - 1)]
-        place, broke = self.place_at(time), self.time_of_break()
-        said = f"{phase}, {time:.2f} s"
-        if place:
-            return f"{said}: s = {with_unit(place[0], self.units.length)}, F = {with_unit(place[1], self.units.force)}"
-        return said + (": the rod has parted" if broke is not None and time > broke else "")
+        tested, broke, said = self.tested(), self.time_of_break(), f"{phase}, {time:.2f} s"
+        if broke is not None and time > (tested["time"][-1] if len(tested) else broke):
+            return said + ": the rod has parted"
+        if not len(tested) or time < tested["time"][0]:
+            return said
+        place = [with_unit(float(np.interp(time, tested["time"], tested[name])), unit)
+                 for name, unit in (("extension", self.units.length), ("load", self.units.force))]
+        return f"{said}: s = {place[0]}, F = {place[1]}"
 
     def offset(self):
         """True force less load [N]."""

@@ -44,7 +44,7 @@ def report_on_run(folder, command, version):
             ("Results", [*tables, "Forces are the balanced load. They are relative to the last zeroing of the load cell (the step balance of "
                          "the program), if there is one. True forces are absolute. The numerical error is estimated; it is given only "
                          "where a convergence study covers the case. It does not tell how well the model of the rod describes a real one."
-                         + ("" if run.units.are_default else " All files are in SI units."), no_value("This test has", unmeasured)]),
+                         + ("" if run.units.are_default else " All files are in SI units."), no_value("This test has no", unmeasured)]),
             ("Quality certificate", [
                 *([asked_verdict and verdict_box(asked_verdict), checks_table("Specification", "Value", asked)] if asked else []),
                 verdict_box(verdict(checks)), checks_table("Trust in the computation", "Value", checks),

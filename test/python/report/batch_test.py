@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""The report of a batch: every specimen, their mean curve with its band, the statistics, and the specimens that are rejected."""
+"""The reports of a batch, with every specimen, their statistics, and those that are rejected, and of a comparison."""
 import os
+import shutil
 import unittest
 
-from runs import FISHERMAN, STRAIGHT, Folders, command_of, keys_on, page_of, read, row_of, table_of, tool, without_data, write
+from runs import FISHERMAN, STRAIGHT, Folders, command_of, keys_on, page_of, read, row_of, script, tables_of, tool, without_data, write
 
 import yaml
 
@@ -12,17 +13,14 @@ from knot_utm.report.certificate import Check
 from knot_utm.report.quantities import number
 
 SCATTER = ["--set", "specimens.scatter={material.stretching_stiffness: {normal: 0.05}, program.pull.speed: {uniform: 0.1}}"]
-# Of these three specimens the second one comes undone before it is pulled.
-LOOSE = ["config/tighten.yaml", "--set", "compatibility=1", "--set", "physics.accuracy=draft", "--set", "specimen.preload=20",
-         "--set", "specimens.scatter={material.friction_coefficient: {normal: 0.3}}", "--set", "material.friction_coefficient=0.3"]
 
 
 def setUpModule():
-    global folders, loops, rods, loose
+    global folders, loops, rods, single
     folders = Folders()
     loops = folders.run("loops", [*FISHERMAN, "--specimens", "3"], "--report")
     rods = folders.run("rods", [*STRAIGHT, *SCATTER, "--specimens", "2"])
-    loose = folders.run("loose", [*LOOSE, "--specimens", "3"])
+    single = os.path.join(rods, "specimen_001")
 
 
 def html_of(folder):
@@ -35,8 +33,9 @@ def facts_of(*parts):
 
 class PageOfABatch(unittest.TestCase):
     def test_has_every_key_of_the_statistics(self):
-        for html, folder in ((page_of(loops), loops), (html_of(rods), rods), (html_of(loose), loose)):
+        for html, folder in ((page_of(loops), loops), (html_of(rods), rods)):
             self.assertEqual(set(facts_of(folder, "statistics.yaml")) - keys_on(html) - {"specimens", "rejected", "motion_pattern"}, set())
+            self.assertIn("specimens keep all limits.", html)
 
     def test_has_the_statistics_and_a_row_for_each_specimen(self):
         html, plateau = page_of(loops), facts_of(loops, "statistics.yaml")["plateau_force"]
@@ -45,18 +44,10 @@ class PageOfABatch(unittest.TestCase):
             *(number(plateau[key], sd) for key in ("mean", "minimum", "maximum")), "3", "N"])
         self.assertAlmostEqual(float(row[2]), plateau["high"] - plateau["mean"], delta=0.06 * plateau["high"])
         self.assertAlmostEqual(float(row[4].split()[0]), 100.0 * plateau["cv"], delta=0.01)
-        rows = table_of(html, "Specimen")
+        rows = tables_of(html, "Specimen")
         column = rows[0].index("Plateau force [N]")
         self.assertEqual([row[column] for row in rows[1:]], [
             number(facts_of(loops, f"specimen_{one:03d}", "result.yaml")["plateau_force"], sd) for one in (1, 2, 3)])
-
-    def test_begins_with_means_their_intervals_and_their_scatter(self):
-        lock = facts_of(loops, "statistics.yaml")["lock_extension"]
-        found = {one.label: one for one in batch_page.headlines(batch_page.Batch(loops))}["Mean of lock extension"]
-        half = 1e3 * (lock["high"] - lock["mean"])
-        self.assertEqual((found.value, found.unit), (number(1e3 * lock["mean"], half), "mm"))
-        self.assertAlmostEqual(float(found.error), half, delta=0.05 * half)
-        self.assertRegex(found.remark, r"^CV [\d.]+ %, n = 3$")
 
     def test_says_what_was_drawn_in_the_units_of_its_method(self):
         for units, heads, scales in (({}, ["Stretching stiffness [N]", "Speed, pull [mm/s]", "Stiffness of the pull [N/mm]", "Largest load [N]"],
@@ -64,7 +55,7 @@ class PageOfABatch(unittest.TestCase):
                                                     "Stiffness of the pull [kN/in]", "Largest load [kN]"], (1e-3, 1.0 / 0.0254))):
             folder = folders.changed(rods, "method.yaml", report={"units": units, "specimen_id": "0012", "standard": "ISO 1"})
             html = html_of(folder)
-            rows = table_of(html, "Specimen")
+            rows = tables_of(html, "Specimen")
             self.assertEqual(rows[0][1:], heads)
             for one in (1, 2):
                 method = facts_of(rods, f"specimen_{one:03d}", "method.yaml")
@@ -78,29 +69,18 @@ class PageOfABatch(unittest.TestCase):
             self.assertNotRegex(html, rf"\d {unit}\b(?! (?:s/)?m²)", unit)
 
     def test_says_which_specimens_are_rejected_and_why(self):
-        html = html_of(loose)
-        for words in ("3 specimens, of which 2 count and 1 is rejected", "motion pattern untangling 2", "Specimen 2</td>",
-                      "the knot came undone before it was pulled"):
-            self.assertIn(words, html)
-        rows = table_of(html, "Specimen")
-        self.assertEqual([row[0] for row in rows[1:]], ["1", "2, rejected", "3"])
-        self.assertEqual(rows[2][-1], "none")
+        why = "the knot came undone before it was pulled"
+        for numbers, words in (([2], ("2 specimens, of which 1 count and 1 is rejected", "Of one specimen there is no band")),
+                               ([1, 2], ("No specimen counts: all 2 are rejected",))):
+            folder = folders.changed(rods, "statistics.yaml", rejected=[{"specimen": number, "reason": why} for number in numbers])
+            rows = read(folder, "specimens.csv").splitlines()
+            rows[2:] = [row.replace(",false,", ",true,") if number in numbers else row for number, row in enumerate(rows[2:], 1)]
+            write("\n".join(rows) + "\n", folder, "specimens.csv")
+            html = html_of(folder)
+            for one in (*words, "Specimen 2</td>", why):
+                self.assertIn(one, html)
+            self.assertIn(["2, rejected", "none"], [[row[0], row[-1]] for row in tables_of(html, "Specimen")])
         self.assertNotIn("Rejected specimens", page_of(loops))
-
-    def test_names_the_command_that_made_it_and_every_file(self):
-        html = page_of(loops)
-        self.assertTrue(command_of(html).endswith(f"--specimens 3 --quiet --out {loops} --report"), command_of(html))
-        self.assertEqual({name for name in os.listdir(loops) if not name.startswith("specimen_") and f"<code>{name}</code>" not in html}, set())
-        self.assertIn("<code>specimen_001/ to specimen_003/</code>", html)
-
-    def test_gives_each_warning_once(self):
-        folder = folders.copy(rods)
-        for one, lines in ((1, ["a < 1.5 mm", "b"]), (2, ["a < 2e-3 mm", "b"])):
-            result = facts_of(folder, f"specimen_00{one}", "result.yaml")
-            write(yaml.safe_dump({**result, "warnings": lines}), folder, f"specimen_00{one}", "result.yaml")
-        html = html_of(folder)
-        self.assertIn("<p>specimens 1 to 2: a &lt; 1.5 mm (the numbers are those of specimen 1)</p>", html)
-        self.assertIn("<p>specimens 1 to 2: b</p>", html)
 
     def test_gives_no_spread_of_what_is_constant_or_rounding(self):
         constant = {"mean": 31.000374, "sd": None, "cv": None, "low": None, "high": None, "minimum": 31.00033, "maximum": 31.00042, "n": 2}
@@ -110,13 +90,6 @@ class PageOfABatch(unittest.TestCase):
             found = {"mean": mean, "sd": sd, "cv": sd / mean, "low": mean - 9.0 * sd, "high": mean + 9.0 * sd, "n": 2}
             html = html_of(folders.changed(rods, "statistics.yaml", **{key: found}))
             self.assertEqual(row_of(html, key)[1:4], shown)
-
-    def test_of_which_no_specimen_counts_says_so(self):
-        out = os.path.join(folders.path, "none")
-        done = tool("tensile_test", *LOOSE, "--set", "material.friction_coefficient=0.15", "--set", "specimens.scatter=none",
-                    "--specimens", "2", "--quiet", "--out", out, "--report")
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("No specimen counts", page_of(out))
 
 
 class CertificateOfABatch(unittest.TestCase):
@@ -128,15 +101,6 @@ class CertificateOfABatch(unittest.TestCase):
                          [("deep; not so specimens 2 to 4 and 6", "1 of 5 specimens", False), ("wide", "2 of 2 specimens", True)])
         self.assertEqual(batch_page.verdict_of_all(checks, "%s keep it."), ("1 of 5 specimens keep it.", False))
 
-    def test_is_of_the_results_of_the_specimens(self):
-        folder = folders.copy(rods)
-        self.assertIn("2 of 2 specimens keep all limits.", html_of(folder))
-        result = facts_of(folder, "specimen_002", "result.yaml")
-        write(yaml.safe_dump({**result, "max_penetration": 0.9}), folder, "specimen_002", "result.yaml")
-        html = html_of(folder)
-        self.assertIn("1 of 2 specimens keep all limits.", html)
-        self.assertIn("; not so specimen 2", row_of(html, "max_penetration", -1)[0])
-
     def test_says_how_many_meet_the_specification(self):
         loads = [facts_of(rods, f"specimen_00{one}", "result.yaml")["energy_to_peak"] for one in (1, 2)]
         folder = folders.run("asked", [*STRAIGHT, *SCATTER, "--specimens", "2", "--set",
@@ -144,7 +108,45 @@ class CertificateOfABatch(unittest.TestCase):
         html = html_of(folder)
         self.assertIn("1 of 2 specimens meet the specification.", html)
         self.assertIn(f"not so specimen {1 + int(loads[0] > loads[1])}", html)
-        self.assertIn("Energy to peak [J]", table_of(html, "Specimen")[0])
+        self.assertIn("Energy to peak [J]", tables_of(html, "Specimen")[0])
+
+
+class PageOfAComparison(unittest.TestCase):
+    def compare(self, out, *more):
+        return tool("compare", f"{single}/curve.csv", f"{single}/curve_full.csv", "--report", out, *more)
+
+    def test_has_what_compare_prints(self):
+        out = os.path.join(folders.path, "comparison")
+        done = self.compare(out, "--tolerance", "1", "--yaml")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(read(out, "comparison.yaml"), done.stdout)
+        html = page_of(out)
+        self.assertEqual(set(yaml.safe_load(done.stdout)) - keys_on(html), {"a", "b", "common_extension"})
+        self.assertTrue(command_of(html).endswith(f"curve_full.csv --report {out} --tolerance 1 --yaml"), command_of(html))
+        for words in ("simulated: Straight rod, nylon", "Forces are in N and lengths in mm", "Curve A ends at its largest load"):
+            self.assertIn(words, html)
+        self.assertIn("Largest load", row_of(html, "peak_force")[0])
+        self.assertEqual(script("report", out).returncode, 0)
+
+    def test_takes_files_of_any_name(self):
+        odd, out = os.path.join(folders.path, "a$b$ <c> it's_ä.csv"), os.path.join(folders.path, "odd")
+        write(read(single, "curve.csv"), odd)
+        bytes_only = os.fsencode(folders.path) + b"/\xff"
+        shutil.copytree(os.fsencode(single), bytes_only)
+        self.assertEqual(tool("compare", bytes_only + b"/curve.csv", odd, "--report", out).stderr, "")
+        for words in ("a$b$ &lt;c&gt; it&#39;s_ä.csv", "/\\udcff/curve.csv", "simulated: Straight rod, nylon"):
+            self.assertIn(words, page_of(out))
+
+    def test_takes_no_run_and_no_file_that_it_compares(self):
+        before = set(os.listdir(single))
+        done = self.compare(single)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+        self.assertEqual(set(os.listdir(single)), before)
+        own = os.path.join(folders.path, "own")
+        os.makedirs(own)
+        write(read(single, "curve.csv"), own, "a.csv")
+        done = tool("compare", f"{own}/a.csv", f"{single}/curve.csv", "--report", own)
+        self.assertEqual((done.returncode, os.listdir(own)), (2, ["a.csv"]))
 
 
 if __name__ == "__main__":

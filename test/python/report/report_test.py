@@ -1,22 +1,23 @@
 #!/usr/bin/python3
-"""The report of a run: what is on its page, and what is said where it cannot be made."""
+"""The report of a run: numbers, verdicts, facts and figures of its page, and what is said where it cannot be made."""
 import base64
 import json
 import os
 import re
-import subprocess
 import unittest
+from types import SimpleNamespace
 
-from runs import FISHERMAN, STRAIGHT, Folders, command_of, html_of, keys_on, page_of, read, row_of, script, tool, without_data, write
+from runs import (FISHERMAN, ROOT, STRAIGHT, Folders, OfValues, a_pull, command_of, html_of, keys_on, page_of, read, row_of, script, tool,
+                  without_data, write)
 
+import matplotlib.text
 import numpy as np
 import yaml
 
-from knot_utm.report import page, quantities, run_page, turnable
+from knot_utm.report import certificate, colours, curves, marks, method_facts, quantities, rod_pictures, run_page, shapes, turnable
 from knot_utm.report.commands import CannotReport
-from knot_utm.report.marks import marks_of
+from knot_utm.report.quantities import Units
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import series_of
 
 
 def setUpModule():
@@ -33,9 +34,16 @@ def bytes_of(folder):
     return found
 
 
+def texts_of(figure):
+    return [text for text in figure.findobj(matplotlib.text.Text) if text.get_text().strip()]
+
+
 class PageOfARun(unittest.TestCase):
     def test_has_every_key_of_the_result_and_those_that_it_never_heard_of(self):
-        self.assertEqual(set(yaml.safe_load(read(fisherman, "result.yaml"))) - keys_on(page_of(fisherman)) - {*quantities.GROUPS["head"]}, set())
+        page = page_of(fisherman)
+        self.assertEqual(set(yaml.safe_load(read(fisherman, "result.yaml"))) - keys_on(page) - {*quantities.GROUPS["head"]}, {"no_plateau_because"})
+        self.assertTrue(command_of(page).endswith(f"tensile_test {' '.join(FISHERMAN)} --quiet --out {fisherman} --report"), command_of(page))
+        self.assertEqual({name for name in os.listdir(fisherman) if f"<code>{name}</code>" not in page}, set())
         html = html_of(folders.changed(straight, "result.yaml", loop_energy=2.5, knots_of_loop=[1, 2]))
         self.assertEqual((row_of(html, "loop_energy")[1], row_of(html, "knots_of_loop")[1]), ("2.5", "1; 2"))
 
@@ -73,21 +81,9 @@ class PageOfARun(unittest.TestCase):
             self.assertIn(words, full)
         self.assertNotIn("Standard</span>", html_of(straight))
 
-    def test_begins_with_warnings_and_with_the_reason_where_the_physics_gave_up(self):
-        html = html_of(folders.changed(straight, "result.yaml", ended_by="solver", reason="no step converged", warnings=["a & b < c"]))
-        for words in ("The physics gave up before the test ended", "no step converged", "<p>a &amp; b &lt; c</p>"):
-            self.assertLess(html.index(words), html.index("<h2>"))
-        self.assertNotIn("The test gave no warning", html)
-
-    def test_names_the_command_that_made_it_and_every_file(self):
-        html = page_of(fisherman)
-        self.assertTrue(command_of(html).endswith(
-            f"tensile_test {' '.join(FISHERMAN)} --quiet --out {fisherman} --report"), command_of(html))
-        self.assertEqual({name for name in os.listdir(fisherman) if f"<code>{name}</code>" not in html}, set())
-
     def test_holds_every_shape_in_a_millionth_of_its_size(self):
         given = json.loads(re.search(r'id="turnable-data">(.*?)</script>', read(fisherman, "report.html"))[1])
-        series, _ = series_of(Run(fisherman))
+        series, _ = shapes.series_of(Run(fisherman))
         points = np.frombuffer(base64.b64decode(given["points"]), "<u2").reshape(len(series), given["nodes"], 3)
         for i, (time, places) in enumerate(zip(given["times"], points)):
             shape = series.shape(i)
@@ -117,7 +113,7 @@ class PageOfARun(unittest.TestCase):
         for remark in ("no test.bag", "test.bag cannot be read"):
             html = run_page.report_on_run(folder, "", "")
             self.assertTrue(remark in html)
-            self.assertEqual(html.count(' src="data:image/png'), 3)
+            self.assertEqual(html.count(' src="data:image/'), 3)
             write("#ROSBAG V2.0\n", folder, "test.bag")
 
     def test_of_a_test_that_ended_before_it_was_pulled(self):
@@ -128,7 +124,7 @@ class PageOfARun(unittest.TestCase):
                 write("\n".join(rows[:count]) + "\n", folder, name)
             html = without_data(run_page.report_on_run(folder, "", ""))
             self.assertIn("there is no curve", html)
-            self.assertEqual(html.count(' src="data:image/png'), pictures)
+            self.assertEqual(html.count(' src="data:image/'), pictures)
 
 
 class NumbersOfThePage(unittest.TestCase):
@@ -142,7 +138,7 @@ class NumbersOfThePage(unittest.TestCase):
         for folder, html in ((fisherman, page_of(fisherman)), (self.broken, html_of(self.broken))):
             run, seen = Run(folder), 0
             for key, value in run.result.items():
-                if f'data-key="{key}' not in html or not isinstance(value, float):
+                if not re.search(f'data-key="{key}[ "]', html) or not isinstance(value, float) or key == "plateau_force_error":
                     continue
                 text = row_of(html, key)[1].replace("–", "-").replace(" · 10", "e")
                 shown, error = float(text.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))), run.value(key + "_error")
@@ -152,15 +148,6 @@ class NumbersOfThePage(unittest.TestCase):
                 seen += 1
             self.assertGreater(seen, 20)
             self.assertNotRegex(html, r">[-–]0(\.0+)?[ <]")
-
-    def test_of_every_mark_are_of_one_row(self):
-        for folder in (fisherman, self.broken):
-            run = Run(folder)
-            places = {tuple(row) for curve in (run.curve, run.readings)
-                      for row in np.column_stack([curve[name] for name in ("time", "extension", "load")]).tolist()}
-            for mark in marks_of(run):
-                if not np.isnan(mark.load):
-                    self.assertIn((float(mark.time), float(mark.extension), float(mark.load)), places, mark.title())
 
     def test_that_were_given_are_no_result(self):
         self.assertIn("parted at the breaking force that was given, 400 N, which the peak force repeats", html_of(self.broken))
@@ -193,12 +180,6 @@ class Failures(unittest.TestCase):
             with self.assertRaisesRegex(CannotReport, name):
                 html_of(folder)
 
-    def test_a_package_that_is_not_there_is_named(self):
-        blocked = (f"import sys; sys.modules['weasyprint'] = None; sys.argv[1:] = [{straight!r}]\n"
-                   "from knot_utm.report import __main__; __main__.main()")
-        done = subprocess.run(["/usr/bin/python3", "-B", "-c", blocked], capture_output=True, text=True, check=False)
-        self.assertIn("install Debian's package weasyprint\n", self.one_line(done, 1))
-
     def test_a_report_that_cannot_be_written_leaves_the_results(self):
         out = os.path.join(folders.path, "no_room")
         os.makedirs(os.path.join(out, "report.html", "in_the_way"))
@@ -206,14 +187,227 @@ class Failures(unittest.TestCase):
         self.assertEqual(self.one_line(done, 1), f"report: {out}/report.html: cannot be written: Is a directory\n")
         self.assertIn("ended_by: extension", read(out, "result.yaml"))
 
-    def test_a_page_that_cannot_be_written_leaves_the_old_one_and_no_part(self):
-        out = os.path.join(folders.path, "parts")
-        os.makedirs(os.path.join(out, "report.pdf.part"))
-        write("old", out, "report.html")
-        with self.assertRaisesRegex(CannotReport, "report.pdf: cannot be written"):
-            page.write(out, "new")
-        self.assertEqual(sorted(os.listdir(out)), ["report.html", "report.pdf.part"])
-        self.assertEqual(read(out, "report.html"), "old")
+
+class Certificate(unittest.TestCase):
+    def test_limits_are_those_of_the_program(self):
+        source = read(ROOT, "include/knot_utm/verdict/run_warnings.hpp") + read(ROOT, "src/verdict/run_warnings.cpp")
+        for name, limit in certificate.LIMITS.items():
+            self.assertEqual(float(re.search(rf"constexpr double {name} = ([\d.]+);", source).group(1)), limit, name)
+
+    def test_misses_where_the_program_warns(self):
+        good = yaml.safe_load(read(fisherman, "result.yaml"))
+        checks = certificate.certificate(good)
+        self.assertTrue(certificate.verdict(checks)[1])
+        self.assertLessEqual(set(quantities.GROUPS[quantities.CERTIFICATE]), {check.key for check in checks})
+        for key, bad in (("max_penetration", 0.06), ("jump_force", 1.0), ("energy_balance_error", 0.02),
+                         ("force_balance_error", 0.02), ("knot_type_preserved", False), ("not_equilibrated", True),
+                         ("ended_by", "solver"), ("plateau_force_error", 0.3 * good["true_plateau_force"])):
+            missed = [check.key for check in certificate.certificate({**good, key: bad}) if not check.kept]
+            self.assertEqual(missed, [key])
+
+
+class Specification(unittest.TestCase):
+    def test_verdicts_are_those_of_the_program(self):
+        folder = folders.run("specified", [*STRAIGHT, "--set", "specification={peak_force: {min: 1}, chord_stiffness: {min: 1, max: 2}, "
+                                           "untangled_at: {max: 9}}"])
+        run = Run(folder)
+        checks = certificate.specification_checks(run.method, run.result, run.units)
+        self.assertEqual([check.kept for check in checks], [True, False, False])
+        self.assertEqual(checks[2].value, "not measured")
+        self.assertEqual([line.split()[0] for line in run.result["specification_failed"]],
+                         [check.key for check in checks if not check.kept])
+        html = html_of(folder)
+        self.assertEqual(html.count("The test does not meet its specification: 2 of 3 requirements are not met."), 2)
+        self.assertEqual(row_of(html, "chord_stiffness", 1)[2:], ["at least 0.001 and at most 0.002 N/mm", "fail"])
+        self.assertNotIn("specification.", html_of(straight))
+
+
+class Facts(unittest.TestCase):
+    def test_have_the_labels_and_units_of_every_law(self):
+        method = {"specimen": {"knot": "capstan", "wrap": 3.0, "end_to_end": 0.2},
+                  "machine": {"roller_friction": 0.3, "load_cell": {"accuracy": 0.005}, "travel": 1.0},
+                  "material": {"stretching_law": "linear", "bending_law": "plastic", "friction_coefficient": 0.46},
+                  "physics": {"gravity": [0, 0, -9.81], "friction": {"law": "memory", "slip_tolerance": 0.001, "presliding": 0.02}},
+                  "ends": {"break_at_fraction_of_peak": 0.2}, "automatic": {"machine.travel": 1}}
+        found = {row for _, rows, _ in method_facts.method_facts(method, Units("lbf", "in")) for row in rows}
+        self.assertLessEqual({
+            ("Knot", "Strand around a post (capstan)"), ("Angle around the post", "3 rad"), ("End to end L", "7.874 in"),
+            ("Accuracy of the cell", "0.005 of the reading"), ("Gravity", "[0, 0, –9.81] m/s²"), ("Travel", "39.37 in (auto)"),
+            ("Friction", "law memory, slip tolerance 0.001 m/s, presliding 0.02 of the radius"),
+            ("Break at no more than", "0.2 of the peak"), ("Bending law", "plastic")}, found)
+        self.assertEqual([row for row in found if "riction c" in row[0]], [("Friction coefficient of the rod on the post", "0.3")])
+
+    def test_of_a_step_have_the_units_of_the_page(self):
+        steps = [{"pull": {"speed": 0.002, "until": {"extension": 0.1, "load": 5.0, "break": True}}},
+                 {"cycle": {"extension": [0.0, 0.01], "count": 3}}]
+        self.assertEqual(method_facts.program({"program": steps}, Units()), [
+            ("1. pull", "speed 2 mm/s, until extension 100 mm or load 5 N or break"),
+            ("2. cycle", "extension [0, 10] mm, count 3")])
+
+
+class Numbers(unittest.TestCase):
+    def test_have_the_digits_that_their_error_leaves(self):
+        self.assertEqual(quantities.number(6.08745, 0.4664), "6.09")
+        self.assertEqual(quantities.number(-1.94937), "–1.949")
+        self.assertEqual(quantities.number(5.55e-8), "5.55 · 10⁻⁸")
+        self.assertEqual(quantities.shown(float("nan")), "–")
+        # Both end with the same digit, also where an error of 9.97 is one of 10.
+        for value, error, words in ((4985.24, 9.97, ("4985", "10")), (2500.06, 5.0002, ("2500.1", "5.0")), (0.001234, 9.96e-5, ("0.00123", "0.00010"))):
+            self.assertEqual((quantities.number(value, error), quantities.error_shown(error, 1.0)), words)
+
+    def test_keep_the_zeros_that_were_read_and_not_those_that_were_given(self):
+        self.assertEqual([quantities.number(value) for value in (103.0345, 34.6502, 1.6003e-7)], ["103.0", "34.65", "1.600 · 10⁻⁷"])
+        self.assertEqual([quantities.number(value) for value in (250.0, 0.3, 2.5e-8, 1e3 * 0.0254)], ["250", "0.3", "2.5 · 10⁻⁸", "25.4"])
+
+    def test_that_are_nothing_have_no_sign(self):
+        for value, error in ((-0.0, None), (-2.2e-15, None), (-0.0004, 0.2)):
+            self.assertRegex(quantities.shown(value, 1.0, error), r"^0(\.0+)?$")
+        self.assertEqual(quantities.number(-0.4, 0.2), "–0.40")
+
+    def test_in_sentences_are_in_the_units_of_the_page(self):
+        said = ("parted 0.370498 m along at 2500.08 N (2 strands of 3 radii), from 44.48 to 4.448 N, at 0.0254 m/s, where k_b/h^2 is "
+                "-4.448 N; 175.1 N/m, 2e-05 m, 8 N/m², 5 mm and 1e-7 s")
+        self.assertEqual(quantities.in_units(said, Units("lbf", "in")),
+                         "parted 14.59 in along at 562.0 lbf (2 strands of 3 radii), from 10.00 to 1.000 lbf, at 1 in/s, where k_b/h^2 is "
+                         "–1.000 lbf; 0.9998 lbf/in, 0.0007874 in, 8 N/m², 5 mm and 1e-7 s")
+
+
+class Band(unittest.TestCase):
+    def test_behind_the_lock_it_moves_along_the_extension(self):
+        s = np.linspace(0.0, 0.1, 1001)
+        load = np.where(s < 0.05, 2.0, 2.0 + 1e4 * (s - 0.05))
+        run = OfValues(a_pull(s, load), plateau_force=2.0, plateau_force_error=0.2, lock_extension=0.05,
+                       lock_extension_error=0.002, locked_stiffness=1e4, locked_stiffness_error=0.0)
+        low, high = curves.error_band(run, run.curve)
+        np.testing.assert_allclose((low[200], high[200]), (1.8, 2.2))
+        # 2 mm at 1e4 N/m
+        np.testing.assert_allclose((low[800], high[800]), (load[800] - 20.0, load[800] + 20.0))
+
+
+class FewPoints(unittest.TestCase):
+    def test_keep_the_first_the_last_and_every_extreme(self):
+        load = np.sin(np.linspace(0.0, 40.0, 300001))
+        load[123456], load[200001] = 7.0, -7.0
+        rows = curves.few_points(load)
+        self.assertLess(len(rows), 10000)
+        self.assertEqual((rows[0], rows[-1], load[rows].max(), load[rows].min()), (0, 300000, 7.0, -7.0))
+        self.assertEqual(len(curves.few_points(load[:500])), 500)
+
+
+class ABrokenRod(unittest.TestCase):
+    def test_has_no_load_behind_its_break(self):
+        s = np.minimum(np.linspace(0.0, 0.1, 101), 0.08)
+        run = OfValues(a_pull(s, np.where(np.arange(101) <= 80, 100.0 * s, -50.0)), break_extension=0.08, peak_force=8.0)
+        run.curve.columns["time"] = np.arange(101.0)
+        self.assertEqual(run.time_of_break(), 80.0)
+        self.assertEqual(run.tested()["load"].min(), 0.0)
+        end = marks.marks_of(run)[-1]
+        self.assertEqual((end.title(), np.isnan(end.load)), ("end of the test", True))
+
+
+class APlateau(unittest.TestCase):
+    def test_has_its_range_beside_it(self):
+        s = np.linspace(0.0, 0.1, 101)
+        for slope, words in ((60.0, "rises from 3.9 to 6.7 N"), (1.0, "between 3.9 and 6.7 N")):
+            run = OfValues(a_pull(s, s), plateau_force=5.0, plateau_force_low=3.92, plateau_force_high=6.73,
+                           plateau_force_slope=slope, lock_extension_by_load=0.084)
+            self.assertEqual(run_page.range_of_plateau(run), words)
+        level = OfValues(a_pull(s, s), plateau_force=5.0, plateau_force_low=4.999, plateau_force_high=5.001)
+        self.assertEqual(run_page.range_of_plateau(level), "")
+
+
+class TheMeanCurve(unittest.TestCase):
+    def test_is_that_of_the_loads_at_each_extension_that_all_have(self):
+        # Loads s, 2 s and 6 s: mean 3 s, standard deviation sqrt(7) s; with 2 degrees of freedom t is 4.3027.
+        pulls = [(np.array([0.0, 0.4, 4.0]), np.array([0.0, 0.4, 4.0])), (np.array([0.5, 3.0]), np.array([1.0, 6.0])),
+                 (np.array([0.0, 1.0, 5.0]), np.array([0.0, 6.0, 30.0]))]
+        found = curves.mean_curve(pulls)
+        self.assertEqual((found.extension[0], found.extension[-1]), (0.5, 3.0))
+        np.testing.assert_allclose(found.mean, 3.0 * found.extension)
+        # Neither band goes beyond what a specimen shows.
+        np.testing.assert_allclose(found.scatter[1], (3.0 + np.sqrt(7.0)) * found.extension)
+        np.testing.assert_allclose(found.scatter[0], found.extension)
+        np.testing.assert_allclose(found.interval[1], 6.0 * found.extension)
+
+
+class APicture(unittest.TestCase):
+    def test_has_the_rollers_of_every_loop_and_the_post_of_a_strand_around_one(self):
+        shape = shapes.Shape(0.0, np.zeros((2, 3)), None)
+        for knot, grips, expected in (("fisherman", "rollers", [(0.0, 0.0, 20.0), (250.0, 0.0, 20.0)]),
+                                      ("multiple_fisherman", "rollers", [(0.0, 0.0, 20.0), (250.0, 0.0, 20.0)]),
+                                      ("fisherman", "clamps", []), ("capstan", "nodes", [(0.0, 0.0, 15.0)]),
+                                      ("straight", "clamps", []), ("overhand", "nodes", []), ("reef", "clamps", []),
+                                      ("bowline", "clamps", [(0.0, 0.0, 10.0)])):
+            run = SimpleNamespace(method={"specimen": {"knot": knot, "post_diameter": 0.03},
+                                          "machine": {"grips": grips, "roller_diameter": 0.04}},
+                                  curve={"time": [0.0, 1.0], "end_to_end": [0.25, 0.3]}, folder="", thickest=lambda: 0.002)
+            self.assertEqual(rod_pictures.rollers(run, shape), expected, (knot, grips))
+
+    def test_a_ring_is_two_sections_on_either_side_of_its_hole(self):
+        drawing = {"upper": ["upper"], "posts": [{"through": [1, 0, 5], "along": [0, 0, 2], "radius": 1, "ring": 3},
+                                                 {"through": [0, 0, 9], "along": [0, 1, 0], "radius": 1, "ring": 3}]}
+        self.assertEqual(rod_pictures.posts_of(drawing, "lower", 0.0, 2.0), [(0.0, -4.0, 2.0), (0.0, 8.0, 2.0)])
+
+
+class ACompliantFrame(unittest.TestCase):
+    def test_readings_are_held_against_the_specimens_own_extension(self):
+        folder = folders.copy(straight)
+        for name in ("curve.csv", "curve_full.csv"):
+            rows = [row.split(",") for row in read(folder, name).splitlines()]
+            rows = [rows[0] + ["crosshead_travel"], rows[1] + ["m"], *(row + [str(2.0 * float(row[1]))] for row in rows[2:])]
+            write("\n".join(map(",".join, rows)) + "\n", folder, name)
+        run = Run(folder)
+        np.testing.assert_array_equal(run.curve["extension"], Run(straight).curve["extension"])
+        np.testing.assert_array_equal(run.curve["crosshead_extension"], 2.0 * run.curve["extension"])
+        found = marks.marks_of(run)
+        self.assertIn("the deflection of the frame is taken off", run_page.caption(run, found, marks.largest_load(run)))
+        axes = curves.force_extension(run, found).axes[-1]
+        self.assertGreater(axes.get_xlim()[1], 1e3 * run.tested()["crosshead_extension"].max())
+
+
+class TheLargestLoad(unittest.TestCase):
+    S = np.linspace(0.0, 0.1, 101)
+
+    def of(self, load, **result):
+        return marks.largest_load(OfValues(a_pull(self.S, load), peak_force=1.0, **result))
+
+    def test_is_a_peak_only_where_the_load_fell_behind_it_or_the_rod_parted(self):
+        broken = {"ended_by": "break", "break_extension": 0.0992}
+        for end, result, is_peak, where in ((0.06, {"ended_by": "extension"}, True, "at an extension of 59 mm"),
+                                            (0.0995, broken, True, "where the rod parted, at 99.2 mm"),
+                                            (1.0, {"ended_by": "extension"}, False, "at 100 mm, where the test was stopped"),
+                                            (1.0, {"ended_by": "solver"}, False, "at 100 mm, where the physics gave up")):
+            found = self.of(np.where(self.S < end, self.S, 0.0), **result)
+            self.assertEqual((found.is_peak, found.where), (is_peak, where))
+
+    def test_is_where_the_load_cell_read_it(self):
+        run = OfValues(a_pull(self.S, self.S), peak_force=0.099, ended_by="extension")
+        run.readings = a_pull(self.S[:-1:3], self.S[:-1:3])  # the last reading is at 99 mm, the line ends at 100
+        found = marks.largest_load(run)
+        self.assertEqual(found.where, "at 99 mm, before the test was stopped")
+        self.assertEqual((found.rows["extension"][found.row], found.rows["load"][found.row]), (0.099, 0.099))
+        self.assertEqual(run_page.between_readings(run), "0.1 N")
+
+
+class Figures(unittest.TestCase):
+    def test_show_where_a_knot_jumped_open_and_the_small_loads(self):
+        run = Run(folders.changed(fisherman, "result.yaml", jump_force=1.626, jump_extension=0.0121, lock_extension=None,
+                                  plateau_force=None, lock_extension_by_load=None, locked_stiffness=None))
+        found = marks.marks_of(run)
+        self.assertIn("a knot jumped open", [mark.title() for mark in found])
+        texts = [text.get_text() for text in texts_of(curves.force_extension(run, found))]
+        self.assertLessEqual({"a knot jumped open at 1.626 N", "small loads [N]"}, set(texts))
+
+    def test_draw_the_floor_of_the_load_cell_and_the_line_of_rigid_sliding(self):
+        for grips, slope in (("rollers", 2), ("nodes", 1)):
+            run = Run(fisherman)
+            cell = {"floor": 0.002, "capacity": 100.0}
+            run.method = {**run.method, "machine": {**run.method["machine"], "grips": grips, "load_cell": cell}}
+            figure = curves.force_extension(run, [])
+            self.assertIn("cell's floor, 0.2 N", [text.get_text() for text in texts_of(figure)])
+            line, = [line for line in figure.axes[-1].lines if line.get_label() == f"de/ds = –{slope}: rigid sliding"]
+            (s_from, s_to), (e_from, e_to) = line.get_data()
+            self.assertAlmostEqual((e_to - e_from) / (s_to - s_from), -slope)
 
 
 if __name__ == "__main__":

@@ -73,15 +73,16 @@ def cells_of(row):
 
 
 def row_of(html, key, table=0):
-    """Cells of the row of a key, in the first table that has it or in a later one."""
+    """Cells of the row of a key without its name, in the first table that has it or in a later one."""
     rows = [row for row in re.findall(r"<tr.*?</tr>", html, re.DOTALL) if re.search(rf'data-key="(\w+ )*{key}[" ]', row)]
-    return cells_of(rows[table])
+    return cells_of(re.sub(r'<td class="key">.*?</td>', "", rows[table]))
 
 
-def table_of(html, head):
-    """Rows of the first table whose first head is that."""
-    return next(rows for rows in ([cells_of(row) for row in re.findall(r"<tr.*?</tr>", table, re.DOTALL)]
-                                  for table in re.findall(r"<table.*?</table>", html, re.DOTALL)) if rows[0][0] == head)
+def tables_of(html, head):
+    """Rows of all tables whose first head is that, beside each other."""
+    tables = [[cells_of(row) for row in re.findall(r"<tr.*?</tr>", table, re.DOTALL)]
+              for table in re.findall(r"<table.*?</table>", html, re.DOTALL)]
+    return [[rows[0][0], *(cell for row in rows for cell in row[1:])] for rows in zip(*(rows for rows in tables if rows[0][0] == head))]
 
 
 def a_pull(extension, load):
