@@ -83,7 +83,7 @@ def report_on_fit(folder, command, version):
             ("Values", [
                 Table(("Key", "Value", "From", "To", "Identifiable"), [
                     Row(name, [name], [*(told(key.get(part)) for part in ("value", "low", "high")), "yes" if key.get("identifiable") else "no"])
-                    for name, key in keys.items()]),
+                    for name, key in keys.items()], "keys"),
                 "The interval is one of 95 %. Where an end is open, the data do not bound the key within its range. Values are in the units of "
                 "the method: m, kg, s, N."]),
             *(("Curve" if len(records) == 1 else name, [number in means and figure(

@@ -14,7 +14,7 @@ from knot_utm.report.curves import draw, small_loads
 from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.rod_pictures import draw_rollers, tubes_of, view
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import pieces, series_of
+from knot_utm.report.shapes import series_of
 from knot_utm.report.style import BLUE, FAINT, new_figure, ORANGE, USUAL
 
 SIZE = (1920, 1080)
@@ -152,8 +152,7 @@ class OneTest:
             raise CannotReport(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
         if not len(self.tested):
             raise CannotReport(f"{folder}: the test ended before the specimen was pulled")
-        self.shapes = [series.shape(i) for i in range(len(series))]
-        self.seconds = series.times
+        self.series, self.shapes = series, [series.shape(i) for i in range(len(series))]
         self.begin = float(self.tested["time"][0])
         self.extension = run.units.length.scale * self.tested["extension"]
         self.load = run.units.force.scale * self.tested["load"]
@@ -163,33 +162,20 @@ class OneTest:
         self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())
 
     def first(self):
-        return self.seconds[0] - self.begin
+        return self.series.times[0] - self.begin
 
     def last(self):
-        return self.seconds[-1] - self.begin
+        return self.series.times[-1] - self.begin
 
     def at(self, time):
-        """On the straight way between two shapes; a rod that parts between them is whole until the second."""
-        at = float(np.clip(time + self.begin, self.seconds[0], self.seconds[-1]))
-        i = min(int(np.searchsorted(self.seconds, at, side="right")) - 1, len(self.shapes) - 2)
-        before, after = self.shapes[i], self.shapes[i + 1]
-        part = (at - before.time) / (after.time - before.time)
-        if part >= 1.0:
-            return after
-        if len(pieces(after, self.shapes[0])) > len(pieces(before, self.shapes[0])):
-            return before._replace(time=at)
-        return before._replace(time=at, **{name: between(getattr(before, name), getattr(after, name), part)
-                                           for name in ("points", "tension", "twist", "contact_force")})
+        """The shape that was computed nearest to it; of a time before a break one from before that."""
+        return self.series.at(time + self.begin, self.run.time_of_break())
 
     def until(self, time):
         """Extension and load up to a time [s], in the units of the page."""
         times = self.tested["time"]
         past = times < time
         return [np.append(values[past], np.interp(time, times, values)) for values in (self.extension, self.load)]
-
-
-def between(before, after, part):
-    return None if before is None or after is None else (1.0 - part) * before + part * after
 
 
 if __name__ == "__main__":

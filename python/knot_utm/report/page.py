@@ -96,21 +96,17 @@ def render(folder, command, version, kind, title, sections, under="", head=(), n
 
 
 def write(folder, html):
-    """Both files, whole: neither is touched before both could be written."""
-    contents = {os.path.join(folder, "report.html"): html.encode("utf-8"),
-                os.path.join(folder, "report.pdf"): as_pdf(html)}
-    try:
-        for file, content in contents.items():
+    """Both files, each whole, once both could be made."""
+    for name, content in (("report.pdf", as_pdf(html)), ("report.html", html.encode("utf-8"))):
+        file = os.path.join(folder, name)
+        try:
             with open(file + ".part", "wb") as out:
                 out.write(content)
-        for file in contents:
             os.replace(file + ".part", file)
-    except OSError as why:
-        raise CannotReport(f"{file}: cannot be written: {why.strerror}") from why
-    finally:
-        for part in (file + ".part" for file in contents):
-            if os.path.isfile(part):
-                os.remove(part)
+        except OSError as why:
+            if os.path.isfile(file + ".part"):
+                os.remove(file + ".part")
+            raise CannotReport(f"{file}: cannot be written: {why.strerror}") from why
 
 
 def as_pdf(html):
@@ -120,9 +116,8 @@ def as_pdf(html):
 
     for name in ("weasyprint", "fontTools"):
         logging.getLogger(name).setLevel(logging.ERROR)
-    on_paper = html.partition("<!-- to turn -->")
-    rest = on_paper[2].partition("<!-- turned -->")
-    return weasyprint.HTML(string=on_paper[0] + (rest[2] or on_paper[2]), url_fetcher=own_images_only).write_pdf()
+    head, _, rest = html.partition("<!-- to turn -->")
+    return weasyprint.HTML(string=head + rest.partition("<!-- turned -->")[2] if rest else html, url_fetcher=own_images_only).write_pdf()
 
 
 def own_images_only(url, *_, **__):

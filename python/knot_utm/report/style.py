@@ -45,14 +45,18 @@ def stacked(heights, above=0.3, right=RIGHT):
     return figure, list(axes)
 
 
-def embedded(figure, kind="PNG"):
-    """The figure as a data: URI, so that a page needs no other file; without transparency. JPEG, which is quicker to pack, is for
-    pictures without lines and small letters."""
+def image_of(figure):
+    """Its pixels, without transparency, which is quicker to pack."""
     figure.set_dpi(DPI)
     figure.canvas.draw()
+    return Image.frombuffer("RGBA", figure.canvas.get_width_height(), figure.canvas.buffer_rgba()).convert("RGB")
+
+
+def embedded(figure, kind="PNG"):
+    """The figure as a data: URI, so that a page needs no other file. JPEG, which is quicker to pack, is for pictures without lines and
+    small letters."""
     out, how = io.BytesIO(), {"quality": 92, "subsampling": 0} if kind == "JPEG" else {"compress_level": 3}
-    picture = Image.frombuffer("RGBA", figure.canvas.get_width_height(), figure.canvas.buffer_rgba())
-    picture.convert("RGB").save(out, kind, dpi=(DPI, DPI), **how)
+    image_of(figure).save(out, kind, dpi=(DPI, DPI), **how)
     return f"data:image/{kind.lower()};base64," + base64.b64encode(out.getvalue()).decode("ascii")
 
 

@@ -137,17 +137,6 @@ class PageOfAComparison(unittest.TestCase):
         for words in ("a$b$ &lt;c&gt; it&#39;s_ä.csv", "/\\udcff/curve.csv", "simulated: Straight rod, nylon"):
             self.assertIn(words, page_of(out))
 
-    def test_takes_no_run_and_no_file_that_it_compares(self):
-        before = set(os.listdir(single))
-        done = self.compare(single)
-        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
-        self.assertEqual(set(os.listdir(single)), before)
-        own = os.path.join(folders.path, "own")
-        os.makedirs(own)
-        write(read(single, "curve.csv"), own, "a.csv")
-        done = tool("compare", f"{own}/a.csv", f"{single}/curve.csv", "--report", own)
-        self.assertEqual((done.returncode, os.listdir(own)), (2, ["a.csv"]))
-
 
 if __name__ == "__main__":
     unittest.main()

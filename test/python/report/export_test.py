@@ -15,7 +15,7 @@ from vtkmodules.vtkIOGeometry import vtkGLTFReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from knot_utm.report.colours import node_values
-from knot_utm.report.movie import OneTest, Stage
+from knot_utm.report.movie import OneTest
 from knot_utm.report.quantities import number
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import series_of
@@ -24,14 +24,12 @@ HIGH, WIDE = 1080, 1920
 
 
 def setUpModule():
-    global folders, broken, twisted, series
+    global folders, broken, series, radius
     folders = Folders()
     broken = folders.run("broken", ["config/tighten.yaml", "--set", "physics.accuracy=draft", "--set", "machine.after_break=follow"],
                          "--shapes")
-    # A knot that is drawn and held in clamps solves for twist from the beginning.
-    twisted = folders.run("twisted", ["config/overhand.yaml", "--set", "physics.accuracy=draft", "--set",
-                                      "program=[{balance: {}}, {hold: {duration: 1}}]"], "--shapes")
-    series, note = series_of(Run(broken))
+    run = Run(broken)
+    (series, note), radius = series_of(run), run.method["material"]["radius"]
     assert not note
 
 
@@ -43,10 +41,6 @@ def exported(*arguments):
 
 def out(name):
     return os.path.join(folders.path, name)
-
-
-def radius_of(folder):
-    return Run(folder).method["material"]["radius"]
 
 
 def mesh_of(file):
@@ -89,7 +83,7 @@ class ForParaView(unittest.TestCase):
         middle = len(series) // 2
         shape, mesh = series.shape(middle), mesh_of(self.files[middle][1])
         away = np.linalg.norm(places_of(mesh)[:, None] - shape.points[None], axis=2)
-        np.testing.assert_allclose(away.min(axis=1), radius_of(broken), rtol=0.1)
+        np.testing.assert_allclose(away.min(axis=1), radius, rtol=0.1)
         nearest, arrays, known = away.argmin(axis=1), arrays_of(mesh), node_values(shape)
         self.assertLessEqual({"tension", "curvature", "contact_force"}, set(known))
         for name, values in known.items():
@@ -122,7 +116,7 @@ class ForSlides(unittest.TestCase):
 
     def test_a_glb_is_the_rod_in_colours_with_y_up(self):
         exported(broken, "--gltf", out("rod.glb"), "--time", "40")
-        mesh, shape, radius = self.read(out("rod.glb")), series.at(40.0), radius_of(broken)
+        mesh, shape = self.read(out("rod.glb")), series.at(40.0)
         turned = shape.points[:, [0, 2, 1]] * [1.0, 1.0, -1.0]
         places, arrays = places_of(mesh), arrays_of(mesh)
         away = np.linalg.norm(places[:, None] - turned[None], axis=2).min(axis=1)
@@ -139,7 +133,7 @@ class ForSlides(unittest.TestCase):
         volume = (corners[:, 0] * faces).sum() / 6.0
         points = series.at(40.0).points
         length = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
-        self.assertAlmostEqual(volume / (np.pi * radius_of(broken) ** 2 * length), 1.0, delta=0.1)
+        self.assertAlmostEqual(volume / (np.pi * radius ** 2 * length), 1.0, delta=0.1)
 
 
 class Refused(unittest.TestCase):
@@ -186,15 +180,11 @@ class Pictures(unittest.TestCase):
         for before, after in zip(shown[:-1], shown[1:]):
             self.assertGreater(int((np.abs(before - after).max(axis=2) > 60).sum()), 5000)
 
-    def test_of_a_movie_lie_between_the_shapes_that_are_known(self):
+    def test_of_a_movie_show_what_was_computed_and_the_rod_whole_until_it_has_parted(self):
         test = OneTest(broken)
-        before, after = test.shapes[20], test.shapes[21]
-        middle = test.at(0.5 * (before.time + after.time) - test.begin)
-        np.testing.assert_allclose(middle.points, 0.5 * (before.points + after.points), rtol=1e-9)
-        whole, parted = test.shapes[-2:]  # the rod is whole until it has parted
-        np.testing.assert_array_equal(test.at(0.9 * parted.time + 0.1 * whole.time - test.begin).points, whole.points)
-        times = Stage([broken], "tension", (WIDE, HIGH)).times(5)
-        self.assertEqual((times[0], times[-1]), (test.first(), test.last()))
+        whole, parted = test.shapes[-2:]
+        for time, shape in ((test.shapes[20].time, test.shapes[20]), (parted.time, parted), (Run(broken).time_of_break(), whole)):
+            np.testing.assert_array_equal(test.at(time - test.begin).points, shape.points)
         extension, _ = test.until(20.03)
         self.assertIn(f"s = {number(float(extension[-1]))} mm", test.run.words_at(20.03))
 
