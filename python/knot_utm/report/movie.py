@@ -14,7 +14,7 @@ from knot_utm.report.curves import draw, small_loads
 from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.rod_pictures import draw_rollers, tubes_of, view
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import series_of
+from knot_utm.report.shapes import nearest, series_of
 from knot_utm.report.style import BLUE, FAINT, new_figure, ORANGE, USUAL
 
 SIZE = (1920, 1080)
@@ -152,7 +152,7 @@ class OneTest:
             raise CannotReport(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
         if not len(self.tested):
             raise CannotReport(f"{folder}: the test ended before the specimen was pulled")
-        self.series, self.shapes = series, [series.shape(i) for i in range(len(series))]
+        self.seconds, self.shapes = series.times, [series.shape(i) for i in range(len(series))]
         self.begin = float(self.tested["time"][0])
         self.extension = run.units.length.scale * self.tested["extension"]
         self.load = run.units.force.scale * self.tested["load"]
@@ -162,14 +162,14 @@ class OneTest:
         self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())
 
     def first(self):
-        return self.series.times[0] - self.begin
+        return self.seconds[0] - self.begin
 
     def last(self):
-        return self.series.times[-1] - self.begin
+        return self.seconds[-1] - self.begin
 
     def at(self, time):
         """The shape that was computed nearest to it; of a time before a break one from before that."""
-        return self.series.at(time + self.begin, self.run.time_of_break())
+        return self.shapes[nearest(self.seconds, time + self.begin, self.run.time_of_break())]
 
     def until(self, time):
         """Extension and load up to a time [s], in the units of the page."""

@@ -14,7 +14,7 @@ import matplotlib.text
 import numpy as np
 import yaml
 
-from knot_utm.report import certificate, colours, curves, marks, method_facts, quantities, rod_pictures, run_page, shapes, turnable
+from knot_utm.report import certificate, curves, marks, method_facts, quantities, rod_pictures, run_page, shapes, turnable
 from knot_utm.report.commands import CannotReport
 from knot_utm.report.quantities import Units
 from knot_utm.report.run import Run
