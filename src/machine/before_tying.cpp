@@ -22,7 +22,6 @@ namespace {
 constexpr double kClosed = 2.0;        // radius of a coil that lies on the strands in it [h]
 constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
 constexpr double kCoarsestEdge = 0.9;  // of a rope whose knots slide as with finer ones [h]: doc/developers/history.md
-constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which a law of tension was ever measured [-]
 // Pink VPS was tied and mounted with a linear law up to a strain of 4.8 (4.8 k_s) and with a neo-Hookean one up to 5.6
 // (2.2 k_s); at 6 and 6.8 the tail grips came to the end of their way first (config/tighten.yaml with material=pink_vps
 // and specimen.preload= at draft).
@@ -33,7 +32,6 @@ constexpr double kMuchStretch = 0.2;    // by choice: no shipped rope is stretch
 // with 20 to 60 k_b/h^2, 12 of 34 did (the Sobol sequence of config/studies/pattern_map.yaml with compatibility: 1).
 constexpr double kHoldsLoosely = 0.5, kLimp = 300.0;    // friction [-]; k_s h^2/k_b of a rope [-]
 constexpr double kTightly = 20.0, kVeryTightly = 60.0;  // [k_b/h^2]
-constexpr double kMetal = 20e9;  // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
 
 double drawn_coil(const SpecimenOptions& specimen) { return knot_of(specimen).about().drawn_coil; }  // R_0 [h]
 
@@ -80,12 +78,7 @@ std::string strain_warning(double stretch, const Material& material) {
   if (material.yield_strain && *material.yield_strain < strain)
     return needed + ", and the material yields at a strain of " + short_number(*material.yield_strain) +
            " (material.yield_strain), which only material.bending_law: plastic simulates";
-  if (parts_by_bending(material) || material.yield_strain || !is_solid(material)) return "";
-  const double modulus = material.stretching_stiffness / (M_PI * material.radius * material.radius);
-  if (modulus < kMetal) return "";
-  return needed + ", but a solid rod with a modulus of " + short_number(1e-9 * modulus) +
-         " GPa yields or breaks at a much smaller strain, which is not simulated; set material.yield_strain or "
-         "material.breaking if you know them";
+  return "";
 }
 
 /// Warns of edges that are too long for the bends of a tied rope. Knots of solid rods were the same with edges of 2 h.
@@ -166,11 +159,7 @@ void add_preload_warnings(const SpecimenOptions& specimen, const Material& mater
                   short_number(std::min(coil_radius(material, preload) / material.radius, drawn_coil(specimen))) +
                   " radii of the rod: they close at " + short_number(closing) + " N");
   const std::string automatic = automatic_warning(preload, stretch, material);
-  if (!automatic.empty())
-    all.push_back(automatic);
-  else if (stretch > kMostStretch)
-    all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " + short_number(1.0 + stretch) +
-                  " times its length");
+  if (!automatic.empty()) all.push_back(automatic);
 }
 
 }  // namespace

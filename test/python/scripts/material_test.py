@@ -508,9 +508,7 @@ class Material(unittest.TestCase):
         self.assertIn("times as stiff as a solid rod of this E\n", done.stdout)
         def times(group, key, factor):
             return {**good, group: {**good[group], key: [factor * number for number in good[group][key]]}}
-        for measured, asked in ((times("stretched", "elongation", 1e-3), "is stretched.mass in kg"),
-                                (times("weighed", "length", 10), "is weighed.mass in kg, and are"),
-                                ({**good, "twisted": {"length": [0.5, 2e-3], "mass": [0.03, 1e-3], "radius": [0.1, 1e-3], "period": [0.2, 0.01]}},
+        for measured, asked in (({**good, "twisted": {"length": [0.5, 2e-3], "mass": [0.03, 1e-3], "radius": [0.1, 1e-3], "period": [0.2, 0.01]}},
                                  "is twisted.period in s"),
                                 ({**good, "rolled": {"masses": [[8, 0.1]], "rises": [[0.3, 0.01]], "run": [0.5, 1e-3], "length": [0.3, 1e-3]}},
                                  "did the pieces roll")):
