@@ -1,19 +1,14 @@
 #include "knot_utm/verdict/foreseen.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/preparing_steps.hpp"
-#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/specimen/knot_drawing.hpp"
 
 namespace knot_utm {
 namespace {
@@ -34,26 +29,6 @@ std::string near_the_rollers(const Method& method) {
          "up to a quarter; it does not depend on the rollers from " +
          short_number(kClearOfRollers) + " radii more on, which is a specimen.end_to_end of " + short_number(clear) +
          " m";
-}
-
-constexpr double kTakenUp = 0.5;  // of the slack, by choice: a loop such as a butterfly keeps the rest of it
-
-/// Warns of a knot that is drawn so wide that its pull does not tighten it.
-std::string drawn_wide(const Method& method) {
-  const KnotDrawing* drawing = method.specimen.drawing.get();
-  if (!drawing) return "";
-  const double h = thickest(method.material), slack = slack_between_grips(*drawing) * h;
-  double pulled = 0.0;
-  for (const ProgramStep& step : method.program)
-    if (const PullStep* pull = step.as<PullStep>()) {
-      if (!pull->until.extension) return "";
-      pulled = std::max(pulled, *pull->until.extension);
-    }
-  if (pulled == 0.0 || pulled >= kTakenUp * slack) return "";
-  return "the pull takes up " + short_number(pulled / h) + " radii of a rope that is drawn with " +
-         short_number(slack / h) +
-         " radii of slack, so its knot is not tight by then; until.extension: " + short_number(slack) +
-         " would take it up";
 }
 
 constexpr double kLightest = 150.0, kHeaviest = 12000.0;    // [kg/m3]
@@ -116,35 +91,13 @@ constexpr double kPulledSlow = 5.0 * kPulledAsShipped;
 constexpr const char* kPulledFast =
     "; ten times that changes a sliding force by up to 3 %, so choose a lower program.pull.speed";
 
-/// Advises longer tails where those of a loop are shorter than by default: an end that slips out of its coil unties the
-/// knot, however hard it was tied. It is empty where they are not.
-std::string longer_tail(const Method& method) {
-  const Knot& knot = knot_of(method.specimen);
-  if (!knot.about().loop || !knot.has("tail")) return "";
-  const double h = method.material.radius;
-  SpecimenOptions usual = knot.defaults(h);
-  knot.suit(method.specimen, method.machine.roller_diameter, h, usual);
-  constexpr double kShorter = 0.99;
-  if (!(method.specimen.tail < kShorter * usual.tail)) return "";
-  return "a longer specimen.tail (now " + short_number(method.specimen.tail) + " m; auto is " +
-         short_number(usual.tail) + " m)";
-}
-
-std::string higher_preload(const Method& method) {
-  const double usual = default_preload(method.material), preload = method.specimen.preload.value_or(usual);
-  std::string now = short_number(preload) + " N";
-  if (preload < usual) now += "; auto is " + short_number(usual) + " N";
-  return "a higher specimen.preload (now " + now + ")";
-}
-
 }  // namespace
 
 std::vector<std::string> foreseen_warnings(const Method& method) {
   std::vector<std::string> all;
   if (method.specimen.to_be_tied) all = tying_warnings(method.specimen, method.material, method.physics);
   all.insert(all.end(), method.overruled.begin(), method.overruled.end());
-  for (const std::string& found : {near_the_rollers(method), drawn_wide(method)})
-    if (!found.empty()) all.push_back(found);
+  if (const std::string found = near_the_rollers(method); !found.empty()) all.push_back(found);
   ask_about(method.material, "material.", all);
   if (method.material.other) ask_about(*method.material.other, "other_material.", all);
   return all;
@@ -174,26 +127,12 @@ std::string rod_in_words(const Material& material) {
 
 std::string what_keeps_a_knot(const Method& method) {
   const Material& material = method.material;
-  const bool rolls = method.specimen.to_be_tied && friction_rolls(material, method.machine, method.physics);
-  std::vector<std::string> remedies{longer_tail(method)};
-  if (rolls) {
-    if (const std::optional<double> moment = material.bending.value("friction_moment")) {
-      if (tied_by_preload(method.specimen)) remedies.push_back(higher_preload(method));
-      remedies.push_back("a larger material.friction_moment (now " + short_number(*moment) + ")");
-    } else if (!remembers_bends(material)) {
-      remedies.emplace_back("material.bending_law: frictional, if it is a rope,");
-    }
-    remedies.push_back("a larger material.rolling_resistance (now " + short_number(material.rolling_resistance) + ")");
-  } else {
-    if (method.specimen.to_be_tied && tied_by_preload(method.specimen)) remedies.push_back(higher_preload(method));
-    remedies.push_back("a higher material.friction_coefficient (now " + short_number(material.friction_coefficient) +
-                       ")");
-    remedies.push_back(knot_of(method.specimen).what_keeps_it());
-  }
-  std::string all;
-  for (const std::string& remedy : remedies)
-    if (!remedy.empty()) all += (all.empty() ? "" : " or ") + remedy;
-  return (rolls ? "the couple of friction rolls its strands: " : "") + all + " may keep it";
+  if (method.specimen.to_be_tied && friction_rolls(material, method.machine, method.physics))
+    return "the couple of friction rolls its strands: a larger material.rolling_resistance (now " +
+           short_number(material.rolling_resistance) + ") may keep it";
+  const double preload = method.specimen.preload.value_or(default_preload(material));
+  return (method.specimen.to_be_tied ? "a higher specimen.preload (now " + short_number(preload) + " N) or " : "") +
+         "a higher material.friction_coefficient (now " + short_number(material.friction_coefficient) + ") may keep it";
 }
 
 }  // namespace knot_utm

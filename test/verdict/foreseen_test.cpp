@@ -43,14 +43,6 @@ TEST(Foreseen, KnotsThatAreTiedNearTheRollers) {
       << "there are no rollers";
 }
 
-TEST(Foreseen, AKnotThatIsDrawnTooWideForItsPull) {
-  EXPECT_THAT(warnings_of("knot", {"specimen.knot=surgeon_1"}),
-              ElementsAre(AllOf(HasSubstr("the pull takes up 80 radii of a rope that is drawn with 1210 radii"),
-                                HasSubstr("until.extension: 3.8"))));
-  EXPECT_THAT(warnings_of("knot", {"specimen.knot=surgeon_1", "program.3.pull.until.extension=3.5"}), IsEmpty());
-  EXPECT_THAT(warnings_of("knot", {"specimen.knot=butterfly_loop"}), IsEmpty());
-}
-
 TEST(Foreseen, NoShippedRodIsAskedAbout) {
   for (const auto& entry : std::filesystem::directory_iterator(kConfig + "materials/"))
     EXPECT_THAT(warnings_of("straight", {"material=" + entry.path().string(), "program=[{hold: {duration: 1}}]"}),

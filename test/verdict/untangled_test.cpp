@@ -66,17 +66,5 @@ TEST_F(Untangled, AKnotThatLetsGoOfItsWeightsOrOfAnotherRope) {
   std::filesystem::remove(heavy);
 }
 
-TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {
-  Method method;
-  method.material.friction_coefficient = 0.3;
-  method.material.friction_couple = 0.0;
-  method.material.tying_preload = 50.0;
-  method.specimen.preload = 20.0;
-  method.specimen.to_be_tied = true;
-  EXPECT_EQ(what_keeps_a_knot(method),
-            "a higher specimen.preload (now 20 N; auto is 50 N) or a higher material.friction_coefficient (now 0.3) "
-            "may keep it");
-}
-
 }  // namespace
 }  // namespace knot_utm
