@@ -22,6 +22,7 @@ namespace {
 constexpr double kClosed = 2.0;        // radius of a coil that lies on the strands in it [h]
 constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
 constexpr double kCoarsestEdge = 0.9;  // of a rope whose knots slide as with finer ones [h]: doc/developers/history.md
+constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which a law of tension was ever measured [-]
 // Pink VPS was tied and mounted with a linear law up to a strain of 4.8 (4.8 k_s) and with a neo-Hookean one up to 5.6
 // (2.2 k_s); at 6 and 6.8 the tail grips came to the end of their way first (config/tighten.yaml with material=pink_vps
 // and specimen.preload= at draft).
@@ -140,6 +141,9 @@ std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const M
       all.push_back("a pre-load of " + short_number(preload) + " N leaves the coils open, at a radius of about " +
                     short_number(std::min(coil_radius(material, preload) / material.radius, drawn_coil(specimen))) +
                     " radii of the rod: they close at " + short_number(closing) + " N");
+    if (stretch > kMostStretch)
+      all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " +
+                    short_number(1.0 + stretch) + " times its length");
   }
   const double edge = specimen.edge_length / tolerances(physics, specimen, material).refinement;
   for (const std::string& found : {strain_warning(stretch, material), mesh_warning(edge, material)})

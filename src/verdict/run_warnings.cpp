@@ -96,6 +96,20 @@ class Warnings {
           short_number(plateau) + " N: see true_plateau_force");
   }
 
+  /// An overhand whose pull left it a loose loop, as its force tells where nothing measured its hole: a loop of the
+  /// radius R under the tension T has 2 T R^2 = k_b, and is wider with friction and fibres that rub.
+  void of_a_loose_knot() {
+    constexpr double kClosed = 2.0;  // radius of a loop that lies on the strands in it [h]
+    const double force = results_.true_peak_force.value_or(0.0), h = facts_.material.radius;
+    const bool whole = results_.knot_type == KnotType::kKept && results_.break_place == BreakPlace::kNone;
+    if (!facts_.one_knot_in_a_strand || facts_.knot_hole || !whole || !(force > 0.0)) return;
+    const double radius = std::sqrt(facts_.material.bending_stiffness / (2.0 * force)) / h;
+    if (radius > kClosed)
+      say("the knot was still loose as the test ended: the largest force, " + short_number(force) +
+          " N, leaves its loop a radius of at least " + short_number(radius) +
+          " radii of the rod; a longer pull brings it tight");
+  }
+
   /// Where speed affects the forces of a test, which is meant to be quasi-static.
   void of_speed() {
     const double by_drag = results_.rate.drag.value_or(0.0), by_inertia = results_.rate.inertia.value_or(0.0);
@@ -220,6 +234,7 @@ std::vector<std::string> printed_warnings(const Results& results, const RunFacts
   Warnings found(results, facts);
   found.of_the_physics();
   found.of_events();
+  found.of_a_loose_knot();
   found.of_twist();
   found.of_thrust();
   found.of_speed();

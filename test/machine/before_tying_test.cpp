@@ -123,6 +123,10 @@ TEST(BeforeTying, ARodThatYieldsIsAWarning) {
   Loop loop;
   loop.material.yield_strain = 0.07;
   EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("the material yields at a strain of 0.07")));
+  loop.material.yield_strain.reset();
+  loop.material.stretching_stiffness = 4.0 * bending_force(loop.material);
+  loop.specimen.preload = 10.0 * bending_force(loop.material);
+  EXPECT_THAT(loop.warnings(), testing::Contains(HasSubstr("stretches the rod to 3.5 times its length")));
 }
 
 TEST(BeforeTying, EdgesTooLongForTheBendsOfARopeAreAWarning) {

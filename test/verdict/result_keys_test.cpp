@@ -377,6 +377,20 @@ TEST_F(Warnings, BeginAtTheirLimits) {
     }
 }
 
+/// A free loop of the radius R bears 2 T R^2 = k_b: at 0.05 k_b/h^2 it is 3.16 h.
+TEST_F(Warnings, TellOfAnOverhandThatWasNotPulledTight) {
+  results.motion_pattern = MotionPattern::kNone;
+  facts.one_knot_in_a_strand = true;
+  facts.material.radius = 0.002;
+  facts.material.bending_stiffness = 4e-6;  // k_b/h^2 is 1 N
+  results.true_peak_force = 0.13;
+  EXPECT_THAT(printed(), IsEmpty());
+  results.true_peak_force = 0.05;
+  EXPECT_THAT(printed(), ElementsAre(HasSubstr("a radius of at least 3.16 radii of the rod")));
+  facts.knot_hole = 0.005;
+  EXPECT_THAT(printed(), IsEmpty()) << "which is measured";
+}
+
 TEST_F(Warnings, TellOfAPlateauThatMayNotBeOne) {
   results.true_plateau_force = 3.8;
   EXPECT_THAT(printed(), ElementsAre(HasSubstr("the pull ended while the knots still slid")));
