@@ -139,7 +139,6 @@ const Wrong kWrong[] = {
      "other_material.twisting_stiffness is 1e-09", "knot"},
     {"specimen.natural_curvature=20 | material.bending_law=plastic | material.yield_strain=0.05",
      "specimen.natural_curvature is 20", "from_file"},
-    {"material=steel_wire | specimen.pre_twist=3 | machine.grips=nodes", "specimen.pre_twist is 3", "from_file"},
 };
 
 /// What can be set beside these, which no check is to forbid.
@@ -150,8 +149,7 @@ const Wrong kRight[] = {
     {"material.bending_law=plastic | material.yield_strain=0.05", ""},
     {"material=steel_wire | material.bending_law=frictional | material.friction_moment=0.06", ""},
     {"program.pull.until.extension=0.2 | specimen.tail=0.25", "", "capstan"},
-    {"material=steel_wire | specimen.natural_curvature=20 | specimen.pre_twist=3 | machine.grips=clamps", "",
-     "from_file"},
+    {"material=steel_wire | specimen.natural_curvature=20 | machine.grips=clamps", "", "from_file"},
 };
 
 std::string complaint(const std::string& file, const std::vector<std::string>& overrides = {}) {

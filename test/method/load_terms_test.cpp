@@ -54,12 +54,14 @@ TEST(LoadTerms, AreWrittenAsNewtons) {
 
 TEST(LoadTerms, WhatIsNoneIsRefused) {
   EXPECT_THAT(refused({"material.breaking_force=none", "program.0={preload: {load: 50 %}}"}),
-              HasSubstr("program.0.preload.load: cannot take \"50 %\""));
-  for (const char* term : {"fifty %", "\" %\"", "half", "-5 %"})
+              HasSubstr("program.0.preload.load: cannot take \"50 %\": material has no breaking_force, of which this "
+                        "is a percentage"));
+  for (const char* term : {"fifty %", "\"%\"", "\" %\"", "half", "50 percent"})
     EXPECT_THAT(refused({std::string("program.0={preload: {load: ") + term + "}}"}),
-                HasSubstr("program.0.preload.load"))
+                HasSubstr("a percentage of material.breaking_force, such as \"50 %\", or reference_tension"))
         << term;
-  EXPECT_THAT(refused({"material.breaking_force=50 %"}), HasSubstr("material.breaking_force"));
+  EXPECT_THAT(refused({"program.0={preload: {load: -5 %}}"}), HasSubstr("1e-6 to 1e8 N"));
+  EXPECT_THAT(refused({"material.breaking_force=50 %"}), HasSubstr("a number from 1e-6 to 1e8 (in N)"));
 }
 
 }  // namespace

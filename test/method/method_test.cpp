@@ -187,6 +187,12 @@ TEST(Method, WhatAReportSaysAndWhatIsAskedOfATestWriteBackToTheSame) {
   fs::remove_all(folder);
 }
 
+TEST(Method, CharactersOfATextAreCountedNotItsBytes) {
+  std::string umlauts;
+  for (int i = 0; i < 80; ++i) umlauts += "ä";
+  EXPECT_EQ(load_method(kTighten, {"report.specimen_id=" + umlauts}).report.specimen_id, umlauts);
+}
+
 TEST(Method, EveryStepWritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip_steps.yaml";
   const std::string record = ::testing::TempDir() + "knot_utm_record.csv";
@@ -214,6 +220,18 @@ TEST(Method, EveryStepWritesBackToTheSame) {
   std::ofstream(copy) << text;
   EXPECT_EQ(method_yaml(load_test(copy)), text);
   fs::remove(copy);
+  fs::remove(record);
+}
+
+TEST(Method, ARecordIsNoFasterThanACrosshead) {
+  const std::string record = ::testing::TempDir() + "knot_utm_fast_record.csv";
+  std::ofstream(record) << "Time (s),Extension (m),Load (N)\n0,0,0\n1.0,1.5,0.5\n";
+  try {
+    load_test(kTighten, {"program=[{follow: {record: " + record + "}}]"});
+    ADD_FAILURE();
+  } catch (const InvalidInput& invalid) {
+    EXPECT_THAT(invalid.what(), HasSubstr("moves at 1.5 m/s at 0 s, but must be no faster than 0.5 m/s"));
+  }
   fs::remove(record);
 }
 
@@ -262,6 +280,11 @@ TEST(Method, PreloadAutoIsTheMaterialsOrFourBendingForces) {
   EXPECT_EQ(m.material.name, "own");
   EXPECT_EQ(m.machine.load_cell.name, "auto");
   EXPECT_EQ(load_method(kTighten, {"specimen.preload=3"}).specimen.preload, 3.0);
+}
+
+TEST(Method, ASpecimenIsToBeTiedWhereTheProgramTies) {
+  EXPECT_TRUE(load_method(kTighten).specimen.to_be_tied);
+  EXPECT_FALSE(load_method(kTighten, {"program=[{balance: {}}]"}).specimen.to_be_tied);
 }
 
 TEST(Method, FilesBesideTheMethodComeFirst) {
