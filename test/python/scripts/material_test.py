@@ -418,7 +418,7 @@ class Material(unittest.TestCase):
         def without(*groups):
             return {name: content for name, content in good.items() if name not in groups}
 
-        mandrel, speeds = good["mandrel"], good["creeping"]["speeds"]
+        speeds = good["creeping"]["speeds"]
         for measured, named in (
                 (without("mandrel", "light_cantilever"), "pulled tells nothing without mandrel"),
                 ({**without("cantilever"), "loop": {"length": [0.5, 1e-3], "height": [0.22, 1e-3]}}, "mandrel needs cantilever"),
