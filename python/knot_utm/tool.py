@@ -73,7 +73,7 @@ def package_version():
 
 @functools.cache
 def listing(name):
-    """A table that tensile_test prints, as rows by column: results, method-keys, knots or phases."""
+    """A table that tensile_test prints, as rows by column: results, limits, fields, method-keys, knots or phases."""
     return list(csv.DictReader(_said("--list-" + name).splitlines()))
 
 

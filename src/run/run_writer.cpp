@@ -167,7 +167,6 @@ RunFacts RunWriter::facts() const {
   RunFacts facts = known_;
   facts.peak_memory = peak_memory();
   facts.weight = weight_per_length_ * length_;
-  if (radius_on_rollers_) facts.slid_along = turn_.along();
   if (radius_on_rollers_ && turn_.largest() > kLargestLoopTurn * *radius_on_rollers_)
     facts.warnings.push_back(
         "the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +

@@ -14,6 +14,7 @@
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/run/cache_folder.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/command_hint.hpp"
@@ -26,6 +27,7 @@
 #include "knot_utm/study/specimens.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
+#include "knot_utm/verdict/trust_limits.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
 #endif
@@ -382,6 +384,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   from_samples->excludes(show)->excludes(out);
   add_list(app);
   add_listing(app, "--list-results", result_keys_csv, "say which keys result.yaml has, with unit, kind and meaning");
+  add_listing(app, "--list-limits", trust_limits_csv, "say up to which limits a result is trusted");
+  add_listing(app, "--list-fields", sample_fields_csv, "say which fields a sample has, with type, unit and meaning");
   add_listing(app, "--list-method-keys", method_keys_csv, "say which keys methods may have, with label and unit");
   add_listing(app, "--list-knots", knots_csv, "say which knots there are, and their keys");
   add_listing(app, "--list-phases", phases_csv, "say which phases a test has: which prepare it, form a knot, and pull");

@@ -131,13 +131,6 @@ TEST(KnotDrawing, HasFinerEdgesByItsRefinement) {
   }
 }
 
-TEST(KnotDrawing, HasTheSlackOfItsStrandsBetweenTheGrips) {
-  KnotDrawing knot = hooks();
-  EXPECT_EQ(slack_between_grips(knot), 0.0) << "each strand has a free end";
-  knot.strands = {{{"lower", "upper"}, {{0, 0, -8}, {0, 0, -4}, {3, 0, 0}, {0, 0, 4}, {0, 0, 8}}}};
-  EXPECT_DOUBLE_EQ(slack_between_grips(knot), 2.0) << "twice the side of a triangle of 3, 4 and 5";
-}
-
 TEST(KnotDrawing, RopesOfTwoRadiiMayComeAsNearAsBothAreThick) {
   DrawnSize one = kSize, thin = kSize, first_thin = kSize;
   thin.others = first_thin.first = 0.5;

@@ -88,9 +88,6 @@ class Knot {
   virtual std::vector<HeldNode> held_below(const Centreline& centreline, bool clamped) const;
   virtual std::vector<HeldNode> held_above(const Centreline& centreline, bool clamped) const;
 
-  /// The change of its keys that would keep a knot which came undone, "a larger specimen.end_to_end"; empty: none.
-  virtual std::string what_keeps_it() const { return ""; }
-
  protected:
   explicit Knot(KnotDescription about) : about_(std::move(about)) {}
 

@@ -37,7 +37,6 @@ struct RunFacts {
   std::uint64_t peak_memory = 0;      ///< largest memory of the process [bytes]; 0: not known
   double inertia = 1.0;               ///< accelerated mass over the rod's own mass [-]
   double weight = 0.0;                ///< weight of the rod [N]; 0: no gravity acts
-  double slid_along = 0.0;            ///< largest motion of a loop on rollers along their axes [m]
   Material material;                  ///< material of the rod
   int strands = 1;                    ///< number of strands that bear the load: two of a loop
   double buckling_factor = 0.0;       ///< Euler's load of a straight specimen times L^2/k_b [-]; 0: it is none

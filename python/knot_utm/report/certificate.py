@@ -1,17 +1,10 @@
 """How far a result may be trusted, and whether it is what the user asked for: each check with value, limit and verdict.
 
-The limits of trust are those at which the program itself warns (src/verdict/run_warnings.cpp, whose names they bear). What has
-no limit has no verdict, and stands among the results alone.
+The limits of trust are those at which the program itself warns (`tensile_test --list-limits`). What has no limit has no verdict,
+and stands among the results alone.
 """
+from knot_utm import tool
 from knot_utm.report.quantities import is_number, number, quantity_of
-
-LIMITS = {
-    "kDeepContact": 0.05,  # contact [of the radius]
-    "kDeepSoftContact": 1.0,  # the same of sections that give
-    "kUnbalanced": 0.01,   # energies [of the largest]
-    "kForcesDiffer": 0.01,  # forces on both grips [of the largest]
-    "kUnsure": 0.2,        # plateau force [of itself]
-}
 
 
 class Check:
@@ -39,18 +32,19 @@ def certificate(result, has_knot=True, soft=False):
 
 
 def checks_of(result, has_knot=True, soft=False):
+    limits = {row["name"]: float(row["limit"]) for row in tool.listing("limits")}
     value, ended_by, moved, jump = result.get, result.get("ended_by"), result.get("not_equilibrated"), jumped(result)
     return [
         so_it_is("The physics solved every time step", "ended_by", None if ended_by is None else ended_by != "solver"),
         so_it_is("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved") if has_knot else None),
         so_it_is("The specimen was at rest as its pull began", "not_equilibrated", None if moved is None else not moved),
         at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"),
-                LIMITS["kDeepSoftContact" if soft else "kDeepContact"]),
+                limits["deep_soft_contact" if soft else "deep_contact"]),
         so_it_is("No knot jumped open", "jump_force", None if jump is None else not jump),
-        *(at_most(quantity_of(key).label, key, value(key), LIMITS[limit])
-          for key, limit in (("energy_balance_error", "kUnbalanced"), ("force_balance_error", "kForcesDiffer"))),
+        *(at_most(quantity_of(key).label, key, value(key), limits[name])
+          for key, name in (("energy_balance_error", "energies_differ"), ("force_balance_error", "forces_differ"))),
         at_most("Estimated numerical error of the plateau force, as a share of it", "plateau_force_error",
-                share_of_plateau(result), LIMITS["kUnsure"]),
+                share_of_plateau(result), limits["plateau_unsure"]),
     ]
 
 
