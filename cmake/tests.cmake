@@ -97,7 +97,7 @@ knot_utm_python_tests(launched python/sweep/design_test.py python/sweep/rank_tes
                       python/report/report_test.py python/report/certificate_test.py python/report/figures_test.py
                       python/report/comparison_test.py python/report/batch_test.py python/report/browser_test.py
                       python/report/export_test.py python/report/movie_test.py python/scripts/material_test.py
-                      python/scripts/knot_test.py doc/readme_test.py)
+                      python/scripts/knot_test.py doc/readme_test.py examples_test.py)
 # The longest of them begin first.
 set_tests_properties(browser_test sweep_test report_test workflow_test fit_test batch_test PROPERTIES COST 90)
 
