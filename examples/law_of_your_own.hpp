@@ -1,7 +1,7 @@
-// A friction law of your own: Tresca's limit. A law is this header and its name in the list of laws (CONTRIBUTING.md); its keys are
-// then known to methods, and what it remembers is saved with the rod. A bending law is added in the same way.
+// A friction law of your own: Tresca's limit. A law is this header and its name in the list of laws (CONTRIBUTING.md,
+// "A friction law", has these two edits); methods then know its keys. A bending law is added in the same way.
 // Run:  cp examples/law_of_your_own.hpp include/knot_utm/contact/tresca_friction.hpp
-//       (the two edits of the diff in CONTRIBUTING.md, "A friction law", then) scripts/build tensile_test
+//       edit include/knot_utm/contact/friction.hpp && scripts/build tensile_test
 //       build/devel/lib/knot_utm/tensile_test tighten --set 'physics.friction={law: tresca, shear_limit: 300}'
 // Test: test/contributing/friction_law_test.py
 #pragma once

@@ -1,6 +1,7 @@
 // Ties the knot of a method, pulls it, and prints the force against the extension: pull_a_knot [METHOD [KEY=VALUE...]].
-// Run:  cmake -S examples -B build-example -DCMAKE_PREFIX_PATH="$HOME/knot_utm"   (where it is installed: doc/install.md)
-//       cmake --build build-example && build-example/pull_a_knot tighten material=polypropylene
+// The package is installed in ~/knot_utm (doc/install.md).
+// Run:  cmake -S examples -B build-example -DCMAKE_PREFIX_PATH="$HOME/knot_utm" && cmake --build build-example &&
+//       build-example/pull_a_knot tighten material=polypropylene
 // Test: test/package_test.py
 #include <cstdio>
 #include <string>
