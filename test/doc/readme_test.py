@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""README.md: its command gives the numbers that it shows, its lines read the curve, and the pictures are of
-this program."""
+"""README.md: its command gives the numbers that it shows, its lines read the curve, and the pictures are of this program."""
 import csv
 import glob
 import os
