@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What `cmake --install` puts into an empty folder, which is then moved. By find_package(knot_utm) examples/ is built with it and
-runs, with the readings of the installed tensile_test; by import knot_utm Python runs the installed tensile_test with the installed
-files. package_test.py BUILD_FOLDER"""
+"""What `cmake --install` puts into an empty folder, which is then moved. By find_package(knot_utm) examples/pull_a_knot.cpp is
+built with it and runs, with the readings of the installed tensile_test; by import knot_utm Python runs the installed tensile_test with
+the installed files. package_test.py BUILD_FOLDER"""
 import importlib.util
 import os
 import re

@@ -44,9 +44,8 @@ class Tutorial(unittest.TestCase):
             self.follow([with_build] + commands(), home, environment)
             self.is_what_it_says(clone, opened, "mine")
             # Once more in the same clone, with a rod that is another one: what follows is read of the new run.
-            again = [commands()[1].replace("friction_coefficient: 0.6 ", "friction_coefficient: 0.7 ")] + commands()[2:]
-            self.assertNotEqual(again[0], commands()[1])
-            self.follow(again, clone, environment)
+            edit = "grep -q 'friction_coefficient: 0.6 ' my_test.yaml && sed -i 's/\\(friction_coefficient: 0.\\)6/\\17/' my_test.yaml"
+            self.follow([edit] + commands()[2:], clone, environment)
             self.is_what_it_says(clone, opened, "mine-2")
 
     def follow(self, lines, folder, environment):

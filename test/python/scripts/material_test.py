@@ -18,9 +18,15 @@ from scipy import integrate, optimize
 from knot_utm import material
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
+EXAMPLE = os.path.join(ROOT, "examples/measure_a_rope.yaml")
 TOOLS = os.environ.get("KNOT_UTM_TOOLS_DIR", os.path.join(ROOT, "build/devel/lib/knot_utm"))
 os.environ["KNOT_UTM_CACHE_LIMIT"] = "0"  # a test takes up nothing that another one has left
 GRAVITY = 9.81
+
+
+def content(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
 
 
 def solved(slopes, ends, s, y, p=None):
@@ -408,8 +414,7 @@ class Material(unittest.TestCase):
             self.assertAlmostEqual(8.0 * share * material.cantilever_stiffness(1.0, 1.0, share), 1.0, delta=1e-3)
 
     def test_what_is_wrong_is_named(self):
-        with open(os.path.join(ROOT, "doc/measure.md"), encoding="utf-8") as file:
-            good = yaml.safe_load(file.read().split("```yaml\n")[1].split("```")[0])
+        good = yaml.safe_load(content(EXAMPLE))
         material.usable(*self.understood(good))
 
         def has(group, **changed):
@@ -475,9 +480,8 @@ class Material(unittest.TestCase):
 
 class Example(unittest.TestCase):
     def test_the_worked_example_gives_what_doc_measure_says(self):
-        with open(os.path.join(ROOT, "doc/measure.md"), encoding="utf-8") as file:
-            page = file.read()
-        measured, said = (block.split("```")[0] for block in page.split("```yaml\n")[1:3])
+        page, measured, said = (content(os.path.join(ROOT, file)) for file in (
+            "doc/measure.md", EXAMPLE, "test/python/scripts/measured_rope.yaml"))
         values, errors = material.read(measured)[1:]
         here = material.properties(values)
         power, error = material.power_of_rolling(values, errors)
@@ -488,9 +492,7 @@ class Example(unittest.TestCase):
                       f"c_m = {here['compaction']:.5f}.", f"grown by {(kept - 25) * here['bending_stiffness']:.3g} N m."):
             self.assertIn(words.replace("e-0", "e-"), page)
         with tempfile.TemporaryDirectory(prefix="knot_utm_material_") as folder:
-            files = os.path.join(folder, "measured.yaml"), os.path.join(folder, "rope.yaml")
-            with open(files[0], "w", encoding="utf-8") as file:
-                file.write(measured)
+            files = EXAMPLE, os.path.join(folder, "rope.yaml")
             subprocess.run([os.path.join(ROOT, "scripts/material"), files[0], "--out", files[1]], check=True)
             with open(files[1], encoding="utf-8") as file:
                 self.assertEqual(file.read(), said)

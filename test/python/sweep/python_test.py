@@ -218,40 +218,5 @@ class Arguments(Sweeps):
                     call(out)
 
 
-class Examples(Sweeps):
-    """Those of examples/python/, with tests that take tenths of a second."""
-
-    def example(self, name, *words, code=0):
-        done = subprocess.run([sys.executable, "-B", os.path.join(ROOT, "examples/python", name), *words], cwd=self.folder,
-                              env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "python")}, check=False, text=True,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done.stdout if code == 0 else done.stderr
-
-    def assert_is_a_picture(self, *path):
-        self.assertTrue(content(self.path(*path)).startswith(b"\x89PNG"))
-
-    def test_a_batch_is_pulled_and_its_mean_curve_drawn(self):
-        with open(os.path.join(CONFIG, "straight.yaml"), encoding="utf-8") as file:
-            method = file.read() + "physics: {accuracy: draft}\nspecimens: {scatter: {material.breaking_force: {normal: 0.1}}}\n"
-        said = self.example("pull_a_batch.py", write(self.path("method.yaml"), method), "out").splitlines()
-        peak = load(self.path("out/batch/statistics.yaml"))["peak_force"]
-        self.assertEqual(said, [f"one test: {load(self.path('out/one/result.yaml'))['peak_force']:.4g} N",
-                                f"8 specimens: {peak['mean']:.4g} N, from {peak['low']:.4g} to {peak['high']:.4g}"])
-        self.assert_is_a_picture("out/curves.png")
-        again = self.example("pull_a_batch.py", self.path("method.yaml"), "out", code=1)
-        self.assertRegex(again, r"^pull_a_batch: .*/out/one holds a run already: choose another folder, or overwrite=True\n$")
-
-    def test_a_sweep_is_drawn_and_a_hidden_value_found(self):
-        *table, found = self.example("sweep_and_fit.py", "out").splitlines()
-        self.assertEqual(len(table), 6, table)
-        forces = [float(line.split()[1]) for line in table[1:]]
-        self.assertEqual(forces, sorted(forces), "a stiffer rod pulls harder")
-        self.assert_is_a_picture("out/sweep.png")
-        value, low, high = (float(number) for number in re.findall(r"\d[\d.]*(?:e[+-]?\d+)?", found))
-        self.assertTrue(4e4 < low < value < high < 8e4, found)
-        self.assertTrue(low < 6.1e4 < high, found)
-
-
 if __name__ == "__main__":
     unittest.main()
