@@ -198,7 +198,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"program=[{cycle: {load: [0, 6e4], count: 1}}]", "program.0.cycle.load", "60000", "capacity"},
       {"program=[{hold: {duration: 1, load: 3}}]", "program.0.hold.load", "3", "only with control: load"},
       {"program=[{hold: {duration: 1, speed: 0.1}}]", "program.0.hold.speed", "", "the keys of program.0.hold are"},
-      {"program=[{follow: {}}]", "program.0.follow.record is missing", "", "a curve.csv, or raw data"},
+      {"program=[{follow: {}}]", "program.0.follow.record is missing", "", "a curve.csv, or the folder"},
       {"program=[{follow: {record: nowhere.csv}}]", "program.0.follow.record: cannot read", "nowhere.csv",
        "no such file"},
       {"ends.load=60000", "ends.load", "60000", "capacity, 50000 N"},
