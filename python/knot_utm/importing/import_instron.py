@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Writes the raw data of a testing machine as a curve.csv, or as a bag with the topics utm/crosshead and utm/load_cell."""
+import math
 import os
-import stat
 import subprocess
 import sys
 import tempfile
@@ -11,6 +11,7 @@ if not __package__:  # called as a program: by its link beside the others, or as
     installed = os.path.join(own, "../python3/dist-packages")
     sys.path[0] = installed if os.path.isdir(installed) else os.path.join(own, "../..")
 
+from knot_utm import tool
 from knot_utm.errors import WrongInput
 from knot_utm.importing.table import INVERT, parsed_columns, read_record, Reading
 from knot_utm.importing.text import number, shown
@@ -23,14 +24,13 @@ MOST = 100000
 
 
 def main(words):
-    # Its value only stands behind "=": a file may follow.
-    asked = _parser().parse_args(["--invert=falling" if word == "--invert" else word for word in words])
+    for stream in (sys.stdout, sys.stderr):  # names of files are bytes
+        stream.reconfigure(errors="surrogateescape")
     try:
-        if asked.version:
-            from knot_utm import tool
+        if "--version" in words:
             print(tool.package_version())
-            return 0
-        _import(asked)
+        else:  # a value of --invert only stands behind "=": a file may follow
+            _import(_parser().parse_args(["--invert=falling" if word == "--invert" else word for word in words]))
         return 0
     except WrongInput as wrong:
         return _end(wrong, 2)
@@ -54,10 +54,9 @@ def _import(asked):
     if asked.quiet:
         return
     times = record.columns["time"]
-    print(*notes, f"{len(times)} {'reading was' if len(times) == 1 else 'readings were'} written to {out}"
-          if times[0] != times[0] else
-          f"{len(times)} reading{'' if len(times) == 1 else 's'} over {times[-1] - times[0]:g} s "
-          f"{'was' if len(times) == 1 else 'were'} written to {out}", sep="\n")
+    over = f" over {times[-1] - times[0]:g} s" if times and math.isfinite(times[0]) else ""
+    print(*notes, f"{len(times)} reading{'' if len(times) == 1 else 's'}{over} {'was' if len(times) == 1 else 'were'} written to {out}",
+          sep="\n")
 
 
 def reading_of(asked, needs_time):
@@ -81,8 +80,6 @@ def write_curve(file, record):
 
 def _write_bag(file, record, source):
     """By a program in C++, which writes the messages of a test."""
-    from knot_utm import tool
-
     beside = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), HELPER)
     helper = beside if os.path.exists(beside) else os.path.join(os.path.dirname(tool.tensile_test()), HELPER)
     with tempfile.TemporaryDirectory() as folder:
@@ -100,8 +97,8 @@ def _write_bag(file, record, source):
 
 def _require_new(out, file, overwrite, begins):
     if why := why_not(out, [file], overwrite):
-        raise (RuntimeError if why.startswith("cannot") else WrongInput)(f"OUT: {why}" if not why.startswith("cannot") else why)
-    if os.path.isfile(out) and stat.S_ISREG(os.stat(out).st_mode):
+        raise RuntimeError(why) if why.startswith("cannot") else WrongInput(f"OUT: {why}")
+    if os.path.isfile(out):
         with open(out, "rb") as opened:
             if opened.read(len(begins)) != begins:
                 raise WrongInput(f"OUT: {out} is a file of another kind, which --overwrite does not replace: give another name")
@@ -124,7 +121,7 @@ def _parser():
                         "--invert=both, of these")
     parser.add_argument("--overwrite", action="store_true", help="replace a file that an import wrote")
     parser.add_argument("--quiet", action="store_true", help="say only what went wrong")
-    parser.add_argument("--version", action="store_true", help="print the version and end")
+    parser.add_argument("--version", action="store_true", help="say which version this is")
     return parser
 
 

@@ -8,29 +8,17 @@ from knot_utm.importing.text import folded
 
 TIME = """
     time;test time;total time;elapsed time;running time;machine time
-    zeit;prüfzeit;pruefzeit;testzeit;versuchszeit;messzeit;laufzeit
-    czas;czas próby;czas badania;godzina
-    temps;temps d'essai;durée;durée d'essai
-    tiempo;tiempo de ensayo;tiempo de prueba
-    tempo;tempo di prova;tempo prova;tempo de ensaio
-    tijd;testtijd;proeftijd
-    čas;čas zkoušky;tid;zaman;süre;idő
-    время;время испытания
-    时间;试验时间;测试时间;測試時間;試驗時間
-    時間;試験時間;経過時間;測定時間"""
+    zeit;prüfzeit;pruefzeit;testzeit;versuchszeit;messzeit;laufzeit;czas;czas próby;czas badania;godzina
+    temps;temps d'essai;durée;durée d'essai;tiempo;tiempo de ensayo;tiempo de prueba
+    tempo;tempo di prova;tempo prova;tempo de ensaio;tijd;testtijd;proeftijd;čas;čas zkoušky;tid;zaman;süre;idő
+    время;время испытания;时间;试验时间;测试时间;測試時間;試驗時間;時間;試験時間;経過時間;測定時間"""
 
 # What may be the travel of the crosshead or of an extensometer on the specimen.
 EXTENSION = """
     extension;tensile extension;tensile displacement;compressive extension;compressive displacement;standard travel;deformation;ext
-    standardweg;verlängerung;verformung
-    wydłużenie;droga standardowa
-    course standard;allongement
-    extensión;alargamiento;recorrido estándar
-    estensione;allungamento;corsa standard
-    extensão;alongamento;curso padrão
-    standaardweg;verlenging
-    prodloužení;förlängning;uzama;удлинение
-    伸长;伸长量;伸長;伸長量;标准行程;伸び"""
+    standardweg;verlängerung;verformung;wydłużenie;droga standardowa;course standard;allongement
+    extensión;alargamiento;recorrido estándar;estensione;allungamento;corsa standard;extensão;alongamento;curso padrão
+    standaardweg;verlenging;prodloužení;förlängning;uzama;удлинение;伸长;伸长量;伸長;伸長量;标准行程;伸び"""
 
 # The travel of the crosshead alone.
 TRAVEL = """
@@ -38,34 +26,24 @@ TRAVEL = """
     displacement(linear|digital position);crosshead position;position;crosshead absolute;crosshead abs.;absolute crosshead travel
     grip to grip separation;grip separation;machine displacement;actuator displacement;actuator position;axial disp
     traversenweg;verfahrweg;maschinenweg;kolbenweg;weg;traverse;traverse abs.;traverse absolut;traversenweg absolut
-    traversenposition;werkzeugabstand;einspannabstand
-    przemieszczenie;droga;droga trawersy;trawersa
+    traversenposition;werkzeugabstand;einspannabstand;przemieszczenie;droga;droga trawersy;trawersa
     déplacement;déplacement de la traverse;déplacement traverse;course;traverse absolue;course traverse;course traverse absolue
     écartement entre outils;écartement entre mors
     desplazamiento;desplazamiento del cabezal;desplazamiento de la cruceta;carrera;recorrido;travesaño;travesaño absoluto
     separación de mordazas
     spostamento;spostamento traversa;spostamento della traversa;corsa;corsa traversa;traversa;traversa assoluta
-    deslocamento;deslocamento da travessa;curso;travessa;travessa absoluta
-    verplaatsing;traverseweg;slag;traverse absoluut
-    dráha;posuv;příčník;väg;rörelse;yer değiştirme;elmozdulás
-    перемещение;перемещение траверсы;ход
-    位移;横梁位移;行程;橫樑位移
+    deslocamento;deslocamento da travessa;curso;travessa;travessa absoluta;verplaatsing;traverseweg;slag;traverse absoluut
+    dráha;posuv;příčník;väg;rörelse;yer değiştirme;elmozdulás;перемещение;перемещение траверсы;ход;位移;横梁位移;行程;橫樑位移
     変位;ストローク;クロスヘッド変位;クロスヘッド;変位量;移動量"""
 
 LOAD = """
     load;force;standard force;test force;axial force;axial load;tensile force;tensile load
     load(linear|load);compressive load;compressive force;machine load;machine force;load cell
-    last;kraft;standardkraft;prüfkraft;pruefkraft;zugkraft;druckkraft
-    obciążenie;siła;siła standardowa
-    charge;force standard;force d'essai;effort
-    carga;fuerza;fuerza estándar;fuerza de ensayo
-    carico;forza;forza standard;forza di prova
-    força;força padrão;força de ensaio
-    kracht;standaardkracht;trekkracht;belasting
-    síla;standardní síla;standardkraft;dragkraft;kuvvet;yük;erő
-    нагрузка;сила;усилие;стандартная сила
-    力;力值;试验力;载荷;荷载;负荷;拉力;标准力;试验载荷;負荷;載荷;試驗力
-    試験力;荷重;引張荷重;引張力"""
+    last;kraft;standardkraft;prüfkraft;pruefkraft;zugkraft;druckkraft;obciążenie;siła;siła standardowa
+    charge;force standard;force d'essai;effort;carga;fuerza;fuerza estándar;fuerza de ensayo
+    carico;forza;forza standard;forza di prova;força;força padrão;força de ensaio;kracht;standaardkracht;trekkracht;belasting
+    síla;standardní síla;standardkraft;dragkraft;kuvvet;yük;erő;нагрузка;сила;усилие;стандартная сила
+    力;力值;试验力;载荷;荷载;负荷;拉力;标准力;试验载荷;負荷;載荷;試驗力;試験力;荷重;引張荷重;引張力"""
 
 # The size of a unit in SI units, and its spellings.
 TIME_UNITS = {
