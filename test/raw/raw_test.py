@@ -289,7 +289,7 @@ class Raw(unittest.TestCase):
         done = self.imported("raw.csv", "curve.csv", "--invert")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("raw.csv: 2 readings: time is column 1 \"Time\" in s", done.stdout)
-        self.assertIn("2 readings over 1 s were written to curve.csv", done.stdout)
+        self.assertIn("2 readings over 1 s written to curve.csv", done.stdout)
         with open(os.path.join(self.folder, "curve.csv"), encoding="utf-8") as file:
             self.assertEqual(file.read().splitlines()[::3], ["time,extension,load,knot_distance,end_to_end,load_lower,phase,balance_offset",
                                                              "1,0.001,2,nan,nan,nan,pull,0"])

@@ -16,15 +16,14 @@ HANDFUL = 4             # of known names in a message
 
 @dataclasses.dataclass(frozen=True)
 class Column:
-    """One that may have a quantity. `label`: as given; `unit`: that behind the name; `rank`: the lower, the better; `base`: the name
-    alone, folded, without the number of a specimen; `of_machine`: its name says that it is the crosshead's travel."""
+    """One that may have a quantity."""
 
     place: int
-    label: str
-    unit: str = None
-    rank: int = 0
-    base: str = ""
-    of_machine: bool = False
+    label: str                # as given
+    unit: str = None          # that behind the name
+    rank: int = 0             # the lower, the better
+    base: str = ""            # the name alone, folded, without the number of a specimen
+    of_machine: bool = False  # its name says that it is the crosshead's travel
 
 
 class Head:
@@ -40,14 +39,14 @@ class Head:
 
     def specimens(self):
         """How many stand side by side. Each has an extension and a load of its own; the time may be common."""
-        loads = len(_best_alike(self.columns[LOAD]))
-        return loads if loads == len(_best_alike(self.columns[EXTENSION])) else 1
+        loads = len(_alike(self.columns[LOAD]))
+        return loads if loads == len(_alike(self.columns[EXTENSION])) else 1
 
     def of_specimen(self, specimen):
         """Its columns of time, extension and load; only that of time may be None."""
         count = self.specimens()
-        extension, load = (_best_alike(self.columns[i])[specimen] if count > 1 else self.columns[i][0] for i in (EXTENSION, LOAD))
-        times = _best_alike(self.columns[TIME])
+        extension, load = (_alike(self.columns[i])[specimen] if count > 1 else self.columns[i][0] for i in (EXTENSION, LOAD))
+        times = _alike(self.columns[TIME])
         if not times:
             return [None, extension, load]
         if len(times) == count:
@@ -57,13 +56,10 @@ class Head:
 
     def others(self, quantity, specimen):
         """Columns that may have a quantity of this specimen beside the one that `of_specimen` gives."""
-        own, count, found = self.of_specimen(specimen)[quantity], self.specimens(), []
-        for column in self.columns[quantity]:
-            same = _alike(self.columns[quantity], column.base)
-            of_another = 1 < count == len(same) and same[specimen].place != column.place
-            if column.place != own.place and not of_another:
-                found.append(column)
-        return found
+        own, count, all_ = self.of_specimen(specimen)[quantity], self.specimens(), self.columns[quantity]
+        alike = {column.base: _alike(all_, column) for column in all_}
+        of_another = {column for same in alike.values() if 1 < count == len(same) for column in same if column != same[specimen]}
+        return [column for column in all_ if column.place != own.place and column not in of_another]
 
 
 def without_brackets(text):
@@ -79,11 +75,6 @@ def head_in(row, index, given, with_time):
             if head.is_complete(with_time):
                 return head
     return None
-
-
-def first_head(rows, given, with_time):
-    head = _head_by_numbers(rows, given, with_time)
-    return head or next(filter(None, (head_in(row, i, given, with_time) for i, row in enumerate(rows))), None)
 
 
 def nearest_head(rows, given, with_time):
@@ -102,7 +93,7 @@ def nearest_head(rows, given, with_time):
     return found
 
 
-def _head_by_numbers(rows, given, with_time):
+def head_by_numbers(rows, given, with_time):
     """The head of a table whose columns are given by their numbers: the last row of names and the first of units before its first row
     of numbers, where there are such. None where the columns are not given so."""
     wanted = given if with_time or given[TIME] else given[1:]
@@ -118,9 +109,10 @@ def _head_by_numbers(rows, given, with_time):
             head.names_row, head.first = None, index
             for above in range(index - 1, max(index - 3, -1), -1):  # at most two rows of words, the upper one of names
                 cells = split_names(rows[above], separator)
-                if not _are_words(cells, places):
+                own = [cells[place] if place < len(cells) else "0" for place in places]
+                if any(map(has_digit, own)) or not any(own):
                     break
-                has_units = QUANTITIES[LOAD].si(without_brackets(cells[places[-1]])) is not None
+                has_units = QUANTITIES[LOAD].si(without_brackets(own[-1])) is not None
                 head.columns = Head(cells, above, separator, given).columns
                 head.first = above if has_units else above + 1
                 head.cells = max(head.cells, len(cells))
@@ -129,12 +121,6 @@ def _head_by_numbers(rows, given, with_time):
                     break
             return head
     return None
-
-
-def _are_words(cells, places):
-    """Whether none of the cells is a number and one says something."""
-    own = [cells[place] if place < len(cells) else "0" for place in places]
-    return not any(map(has_digit, own)) and any(own)
 
 
 def _number_in(given):
@@ -147,7 +133,7 @@ def _columns_in(quantity, given, cells):
     of another channel."""
     found = [column for i, cell in enumerate(cells) if (column := _as_column(quantity, given, cell, i))]
     own = [column for column in found if column.unit is None or given or QUANTITIES[quantity].si(column.unit) is not None]
-    return sorted(own or found, key=lambda column: column.rank // 2)
+    return sorted(own or found, key=lambda column: column.rank)
 
 
 @functools.lru_cache(maxsize=1024)
@@ -160,14 +146,11 @@ def _as_column(quantity, given, cell, place):
         for name, unit in filter(None, (_name_of(text), (text, None), _name_before_unit(of, text))):
             whole = folded(name)
             base = _without_number(whole)
-            if given:
-                if whole == folded(given):
-                    return Column(place, cell, unit, 0, base)
-                continue
-            for folded_name in (whole, base):
-                if folded_name in of.ranks:
-                    rank = of.ranks[folded_name]
-                    return Column(place, cell, unit, 2 * rank + (folded_name == base), base, rank >= of.machines)
+            if given and whole == folded(given):
+                return Column(place, cell, unit, 0, base)
+            rank = None if given else of.ranks.get(whole, of.ranks.get(base))
+            if rank is not None:
+                return Column(place, cell, unit, rank, base, rank >= of.machines)
     return None
 
 
@@ -195,24 +178,19 @@ def _without_number(name):
     return behind[1] if behind and has_digit(name) else name
 
 
-def _alike(columns, base):
+def _alike(columns, like=None):
+    """Those of the same name as this one, or else as the best one."""
+    base = (like or columns[0]).base if columns else None
     return sorted((column for column in columns if column.base == base), key=lambda column: column.place)
 
 
-def _best_alike(columns):
-    """Those of the same name as the best one."""
-    return _alike(columns, columns[0].base) if columns else []
-
-
 def _missing_names(head, given, cells, with_time):
-    """What the row does not name, and names that it might have."""
-    return "; ".join(f"{QUANTITIES[i].name}, whose known names are " + (f'"{shown(given[i])}" alone' if given[i] else
-                                                                        _some_of(QUANTITIES[i].names, cells))
-                     for i in range(TIME if with_time else EXTENSION, 3) if not head.columns[i])
-
-
-def _some_of(known, cells):
-    """A handful of the known names, those first that a cell nearly is."""
-    near = [name for cell in cells for name in difflib.get_close_matches(_name_of(cell)[0].lower(), known, 1, 0.75)]
-    some = list(dict.fromkeys([*near, *known]))[:HANDFUL]
-    return f"{', '.join(some)} and {len(known) - len(some)} others"
+    """What the row does not name, and a handful of known names, those first that a cell nearly is."""
+    found = []
+    for quantity, columns, name in list(zip(QUANTITIES, head.columns, given))[0 if with_time else 1:]:
+        near = [word for cell in cells for word in difflib.get_close_matches(_name_of(cell)[0].lower(), quantity.names, 1, 0.75)]
+        some = list(dict.fromkeys([*near, *quantity.names]))[:HANDFUL]
+        others = len(quantity.names) - len(some)
+        known = f'"{shown(name)}" alone' if name else f"{', '.join(some)} and {others} others"
+        found += [] if columns else [f"{quantity.name}, whose known names are {known}"]
+    return "; ".join(found)

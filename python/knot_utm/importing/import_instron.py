@@ -12,32 +12,25 @@ if not __package__:  # called as a program: by its link beside the others, or as
     sys.path[0] = installed if os.path.isdir(installed) else os.path.join(own, "../..")
 
 from knot_utm import tool
+from knot_utm.command_line import exit_code_of
 from knot_utm.errors import WrongInput
 from knot_utm.importing.table import INVERT, parsed_columns, read_record, Reading
-from knot_utm.importing.text import number, shown
 from knot_utm.report.commands import OneLineParser, why_not
 
 PROGRAM = "import_instron"
 HELPER = "write_curve_bag"
 BEGINS = {True: b"#ROSBAG", False: b"time,"}  # of what --overwrite replaces: a bag, or a curve.csv
-MOST = 100000
 
 
 def main(words):
     for stream in (sys.stdout, sys.stderr):  # names of files are bytes
         stream.reconfigure(errors="surrogateescape")
-    try:
-        if "--version" in words:
-            print(tool.package_version())
-        else:  # a value of --invert only stands behind "=": a file may follow
-            _import(_parser().parse_args(["--invert=falling" if word == "--invert" else word for word in words]))
+    if "--version" in words:
+        print(tool.package_version())
         return 0
-    except WrongInput as wrong:
-        return _end(wrong, 2)
-    except OSError as error:
-        return _end(f"cannot write {shown(error.filename or '')}: {error.strerror.lower()}", 1)
-    except RuntimeError as error:
-        return _end(error, 1)
+    # A value of --invert only stands behind "=": a file may follow.
+    asked = _parser().parse_args(["--invert=falling" if word == "--invert" else word for word in words])
+    return exit_code_of(PROGRAM, lambda: _import(asked))
 
 
 def _import(asked):
@@ -45,30 +38,27 @@ def _import(asked):
     _require_new(out, file, asked.overwrite, BEGINS[is_bag])
     record = read_record(file, reading_of(asked, is_bag))
     notes = record.notes
-    if record.is_own and (unused := _unused(asked)):
-        notes.append(f"{file}: the curve is one of knot_utm, for which {unused}")
+    given = [f"--{name}" for name in ("columns", "units", "invert", "specimen") if getattr(asked, name) is not None]
+    if record.is_own and given:
+        notes.append(f"{file}: the curve is one of knot_utm, for which {' and '.join(given)} change{'s' * (len(given) == 1)} nothing")
     if is_bag:
         _write_bag(out, record, file)
     else:
         write_curve(out, record)
-    if asked.quiet:
-        return
-    times = record.columns["time"]
-    over = f" over {times[-1] - times[0]:g} s" if times and math.isfinite(times[0]) else ""
-    print(*notes, f"{len(times)} reading{'' if len(times) == 1 else 's'}{over} {'was' if len(times) == 1 else 'were'} written to {out}",
-          sep="\n")
+    if not asked.quiet:
+        times = record.columns["time"]
+        over = f" over {times[-1] - times[0]:g} s" if times and math.isfinite(times[0]) else ""
+        print(*notes, f"{len(times)} {'reading' if len(times) == 1 else 'readings'}{over} written to {out}", sep="\n")
+    return 0
 
 
 def reading_of(asked, needs_time):
     """What the options say. Raises WrongInput."""
     columns, units = (parsed_columns(text, option) if text is not None else ("", "", "")
                       for text, option in ((asked.columns, "--columns"), (asked.units, "--units")))
-    if asked.invert not in (None, *INVERT):
-        raise WrongInput(f"--invert is {shown(asked.invert)}, but must be falling, extension, load or both")
-    specimen = number(asked.specimen, ".") if asked.specimen is not None else 0
-    if asked.specimen is not None and not (specimen and 1 <= specimen <= MOST and specimen == int(specimen)):
-        raise WrongInput(f"--specimen is {shown(asked.specimen)}, but must be a number from 1 on")
-    return Reading(columns, units, int(specimen), asked.invert or "", needs_time)
+    if asked.specimen is not None and asked.specimen < 1:
+        raise WrongInput(f"--specimen is {asked.specimen}, but must be a number from 1 on")
+    return Reading(columns, units, asked.specimen or 0, asked.invert or "", needs_time)
 
 
 def write_curve(file, record):
@@ -80,8 +70,9 @@ def write_curve(file, record):
 
 def _write_bag(file, record, source):
     """By a program in C++, which writes the messages of a test."""
-    beside = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), HELPER)
-    helper = beside if os.path.exists(beside) else os.path.join(os.path.dirname(tool.tensile_test()), HELPER)
+    helper = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), HELPER)
+    if not os.path.exists(helper):
+        helper = os.path.join(os.path.dirname(tool.tensile_test()), HELPER)
     with tempfile.TemporaryDirectory() as folder:
         curve = os.path.join(folder, "curve.csv")
         write_curve(curve, record)
@@ -96,6 +87,7 @@ def _write_bag(file, record, source):
 
 
 def _require_new(out, file, overwrite, begins):
+    """A file of another kind is not replaced either. Raises WrongInput."""
     if why := why_not(out, [file], overwrite):
         raise RuntimeError(why) if why.startswith("cannot") else WrongInput(f"OUT: {why}")
     if os.path.isfile(out):
@@ -104,30 +96,18 @@ def _require_new(out, file, overwrite, begins):
                 raise WrongInput(f"OUT: {out} is a file of another kind, which --overwrite does not replace: give another name")
 
 
-def _unused(asked):
-    given = [f"--{name}" for name in ("columns", "units", "invert", "specimen") if getattr(asked, name) is not None]
-    listed = " and ".join(filter(None, [", ".join(given[:-1]), *given[-1:]]))
-    return listed and f"{listed} change{'s' if len(given) == 1 else ''} nothing"
-
-
 def _parser():
     parser = OneLineParser(prog=PROGRAM, description=__doc__, allow_abbrev=False)
     parser.add_argument("raw_data", metavar="RAW_DATA", help="the exported table")
     parser.add_argument("out", metavar="OUT", help="what is to be written: NAME.csv, else a bag")
     parser.add_argument("--columns", help="by name or number: time=NAME,extension=NAME,load=NAME, or one or two of these")
     parser.add_argument("--units", help="time=s,extension=in,load=lbf, or one or two of these")
-    parser.add_argument("--specimen", help="which specimen of a file with several, from 1")
-    parser.add_argument("--invert", help="turn the sign of what falls in the pull, or, as --invert=load, --invert=extension or "
-                        "--invert=both, of these")
+    parser.add_argument("--specimen", type=int, help="which specimen of a file with several, from 1")
+    parser.add_argument("--invert", choices=INVERT, help="turn the sign of what falls in the pull, or, as --invert=load, of these")
     parser.add_argument("--overwrite", action="store_true", help="replace a file that an import wrote")
     parser.add_argument("--quiet", action="store_true", help="say only what went wrong")
     parser.add_argument("--version", action="store_true", help="say which version this is")
     return parser
-
-
-def _end(why, code):
-    print(f"{PROGRAM}: {why}", file=sys.stderr)
-    return code
 
 
 if __name__ == "__main__":

@@ -2,26 +2,24 @@
 
     characters  UTF-8, UTF-16, Shift-JIS, GB 18030, or a Windows code page (text.py)
     separator   semicolon, tab, bar, comma or blanks: the one with which a row names all three quantities
-    names       those of names.py, with any accents and capitals, and with a number of the specimen before or behind them
-                ("C_1_Time"), or those that the user gives. The row of names is the first that names all three quantities. Columns
-                that are given by number need no names
-    several     If a row has several names for one quantity, the machine's own counts: "Extension" before "Tensile extension". If a
-                column that is called an extension goes another way than the crosshead, it is an extensometer's, and the crosshead's
-                counts. Several specimens side by side or in tables below each other are refused unless one is chosen
-    units       behind the names ("Load (N)", "Load [N]", "Load/N", "Load N"), in a row of their own below or above the names, or given
-                by the user. They are never guessed. A unit of mass stands for its weight
+    names       those of names.py, with a number of the specimen before or behind them ("C_1_Time"), or those that the user gives, by
+                number too. The row of names is the first that names all three quantities
+    several     The machine's own name counts: "Extension" before "Tensile extension". A column that is called an extension and goes
+                another way than the crosshead is an extensometer's. Several specimens, side by side or in tables below each other, are
+                refused unless one is chosen
+    units       behind the names, in a row of their own below or above them, or given by the user; never guessed
     decimals    point or comma, the same in the whole file, of which a number must show which: 1,234 alone does not
 
-The rows are converted to SI and are otherwise as recorded: the load is not balanced and the extension not zeroed. A row that repeats
-the one before is left out. So is a row in which all are empty, and a single reading whose extension jumps away and back."""
+The rows are converted to SI and are otherwise as recorded. A row that repeats the one before is left out. So is a row in which all are
+empty, and a single reading whose extension jumps away and back."""
 import math
 import re
 from typing import NamedTuple
 
 from knot_utm.errors import WrongInput
-from knot_utm.importing.heads import EXTENSION, first_head, head_in, LOAD, nearest_head, TIME, without_brackets
+from knot_utm.importing.heads import EXTENSION, head_by_numbers, head_in, LOAD, nearest_head, TIME, without_brackets
 from knot_utm.importing.names import QUANTITIES
-from knot_utm.importing.text import (DecimalMark, has_digit, is_number, number, require_text, rows_of, shown, split, texts_of)
+from knot_utm.importing.text import has_digit, is_number, mark_of_decimals, number, require_text, rows_of, shown, split, texts_of
 
 ALIKE = 0.05  # of the way: two columns go the same way
 FAR = 5.0     # times the usual step: no crosshead goes there and back from one reading to the next
@@ -34,9 +32,8 @@ UNITS = {"time": "s", "extension": "m", "load": "N", "knot_distance": "m", "end_
 
 
 class Reading(NamedTuple):
-    """What a user says of a file. `columns`: names beside the known ones, or numbers from 1; `units`: they count for more than those of
-    the file; `specimen`: from 1, 0: there must be only one; `invert`: whose sign is turned; `needs_time`: otherwise a file without a
-    column of time has NaN for it."""
+    """What a user says of a file. `columns`: names or numbers from 1; `units`: instead of those of the file; `specimen`: from 1, 0: there
+    must be only one; `invert`: whose sign is turned; `needs_time`: otherwise a file without times has NaN for them."""
 
     columns: tuple = ("", "", "")
     units: tuple = ("", "", "")
@@ -80,32 +77,30 @@ def parsed_columns(text, option):
 
 def _own_curve(content, text, file):
     """None of another file: raw data of a machine have no phases."""
-    rows = text.split("\n")
+    rows, where = text.split("\n"), f"{shown(file)}: row"
     separator = next((mark for mark in ",;\t" if {"time", "phase"} <= set(split(rows[0], mark))), None)
     if separator is None:
         return None
-    cells = [(f"{shown(file)}: row {i + 1}", [cell.replace(",", ".") for cell in split(row, separator)]) for i, row in enumerate(rows)]
-    cells = [(where, row) for where, row in cells if any(row)]
-    names, units, values = cells[0][1], cells[1][1] if len(cells) > 1 else [], {}
-    for where, row in cells[1:]:
-        if len(row) != len(names):
-            raise WrongInput(f"{where} has {len(row)} columns, but must have {len(names)} as row 1 has")
-    for name in UNITS:
-        if name not in names and name != "balance_offset":
-            raise WrongInput(f"{cells[0][0]} names no column {name}, which a curve.csv has")
-    for name, unit, *column in zip(names, units, *(row for _, row in cells[2:])):
-        if unit != UNITS.get(name, unit):
-            raise WrongInput(f"{cells[1][0]}: the unit of {name} is \"{shown(unit)}\", but must be {UNITS[name]}")
-        values[name] = column if name == "phase" else [_value(cell, where, name) for cell, (where, _) in zip(column, cells[2:])]
+    cells = [(i + 1, [cell.replace(",", ".") for cell in split(row, separator)]) for i, row in enumerate(rows)]
+    (_, names), *cells = [(row, own) for row, own in cells if any(own)]
+    for row, own in cells:
+        if len(own) != len(names):
+            raise WrongInput(f"{where} {row} has {len(own)} columns, but must have {len(names)} as row 1 has")
+    units = dict(zip(names, cells[0][1] if cells else []))
+    for name, unit in UNITS.items():
+        if units.get(name, unit if name == "balance_offset" else "missing") != unit:
+            raise WrongInput(f"{where} 2: the unit of {name} is {shown(units.get(name, 'missing'))}, but must be {unit}")
+    columns = {name: [own[i] if name == "phase" else _value(own[i], f"{where} {row}: {name}") for row, own in cells[1:]]
+               for i, name in enumerate(names)}
     plain = {b"time", b"phase"} <= set(re.split(b"[\r\n]", content)[0].split(b","))
-    return Record(values, dict(zip(names, units)), [] if plain else [f"{file}: read as a curve.csv that a spreadsheet saved anew"], True)
+    return Record(columns, units, [] if plain else [f"{file}: read as a curve.csv that a spreadsheet saved anew"], True)
 
 
-def _value(cell, where, name):
+def _value(cell, where):
     try:
         return float(cell)
     except ValueError:
-        raise WrongInput(f"{where}: {name} is \"{shown(cell)}\", but must be a number") from None
+        raise WrongInput(f"{where} is \"{shown(cell)}\", but must be a number") from None
 
 
 def _of_machine(texts, file, reading):
@@ -115,7 +110,9 @@ def _of_machine(texts, file, reading):
             break
         for text in texts:
             rows = rows_of(text, file)
-            head = first_head(rows, reading.columns, with_time)
+            given = reading.columns, with_time
+            named = (head_in(row, i, *given) for i, row in enumerate(rows))
+            head = head_by_numbers(rows, *given) or next(filter(None, named), None)
             if head is None:
                 nearest = nearest or nearest_head(rows, reading.columns, reading.needs_time)
                 continue
@@ -241,18 +238,12 @@ class _Table:
         return above if all_known else []
 
     def _decimals(self):
-        mark = DecimalMark()
-        for _, cells in self.cells:
-            for cell in self._wanted(cells):
-                if mark.told is None:
-                    mark.look_at(cell)
-        if mark.told:
-            return mark.told
+        mark, unclear = mark_of_decimals(cell for _, cells in self.cells for cell in self._wanted(cells))
         # Where commas separate the cells, a point is the mark of decimals.
-        if mark.unclear and not (self.head.separator == "," and "." in mark.unclear):
-            raise WrongInput(f"{shown(self.file)}: the number {shown(mark.unclear)} may have decimals or thousands behind its mark, and no "
+        if unclear and not (self.head.separator == "," and "." in unclear):
+            raise WrongInput(f"{shown(self.file)}: the number {shown(unclear)} may have decimals or thousands behind its mark, and no "
                              "other number of the file tells which: a zero more behind its decimals would")
-        return "."
+        return mark or "."
 
     def _name(self, quantity):
         column = self.columns[quantity]

@@ -7,7 +7,7 @@ from knot_utm.errors import WrongInput
 # Without a mark, and not UTF-8: the first of them in which a row names the columns.
 ENCODINGS = ("cp1252", "cp1250", "cp932", "gb18030")
 SEPARATORS = ";\t|, "  # in the order in which they are tried; a blank stands for any number of blanks
-LONGEST_ROW, MOST_ROWS, MOST_LINES = 4096, 2_000_000, 8  # the last: of a cell in quotes, behind its first
+MOST_ROWS, MOST_LINES = 2_000_000, 8  # the latter of a cell in quotes, behind its first
 LARGEST = 2**30
 BLANK = " \t\r"
 
@@ -23,6 +23,7 @@ NO_TEXT = {b"PK\x03\x04": "a workbook (xlsx, ods) or another zip archive, and no
 # Letters that mean a plain one, though Unicode does not call them compatible, and marks without width.
 SIGNS = {0x066B: ".", 0x066C: "'", 0x2212: "-", 0x2019: "'", 0x2018: "'", 0x02BC: "'", 0x3010: "[", 0x3011: "]", 0x2010: "-",
          0xFEFF: None, **dict.fromkeys(range(0x200B, 0x2010))}
+has_digit = re.compile("[0-9]").search
 BARE = str.maketrans("łø", "lo")  # they have no accent
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 GROUPED = {mark: re.compile(rf"[+-]?[1-9][0-9]{{0,2}}({re.escape(mark)}[0-9]{{3}})+") for mark in ",. '"}
@@ -36,20 +37,18 @@ def shown(text):
 
 def require_text(content, file):
     """Raises WrongInput where the bytes of a file are no text, such as those of a workbook, and says what to do about it."""
-    why = next(("the file is " + what for mark, what in NO_TEXT.items() if content.startswith(mark)), "")
-    head = content[:512].lstrip(b" \r\n\t\xEF\xBB\xBF")
-    ends = content.count(b"\r"), content.count(b"\n")
-    if not content.strip(b" \r\n\t"):
-        why = "the file is empty"
-    elif head.startswith(b"<"):
-        why = "the file is XML or HTML, as some programs write for a workbook, and no table of text" + SAVE
-    elif not why and ends[0] > 2 * ends[1] and content.find(b"\r") + 1 < len(content):
-        why = ("the lines of the file end with a carriage return alone, as on old Macs: give it the usual line ends first, for example "
-               r"by tr '\r' '\n' <FILE >NEW_FILE")
-    elif not why and len(content) > LARGEST:
-        why = "the file is larger than 1 GiB, which is too large for a table of text"
-    if why:
-        raise WrongInput(f"{shown(file)}: {why}")
+    kind = next((what for mark, what in NO_TEXT.items() if content.startswith(mark)), "")
+    if content[:512].lstrip(b" \r\n\t\xEF\xBB\xBF").startswith(b"<"):
+        kind = "XML or HTML, as some programs write for a workbook, and no table of text" + SAVE
+    elif not content.strip(b" \r\n\t"):
+        kind = "empty"
+    elif len(content) > LARGEST:
+        kind = "larger than 1 GiB, which is too large for a table of text"
+    if kind:
+        raise WrongInput(f"{shown(file)}: the file is {kind}")
+    if content.count(b"\r") > 2 * content.count(b"\n") and content.find(b"\r") + 1 < len(content):
+        raise WrongInput(f"{shown(file)}: the lines of the file end with a carriage return alone, as on old Macs: give it the usual line "
+                         r"ends first, for example by tr '\r' '\n' <FILE >NEW_FILE")
 
 
 def texts_of(content):
@@ -98,13 +97,10 @@ def folded(text):
 
 def rows_of(text, file):
     """The rows. A cell in quotes may go over some lines, as names in spreadsheets do: they become the first of these rows, and the
-    others are empty, so that all rows keep their numbers. Raises WrongInput where rows are too long or too many."""
+    others are empty, so that all rows keep their numbers. Raises WrongInput where there are too many."""
     rows = text.split("\n")
     if not rows[-1]:
         rows.pop()
-    long = next((i for i, row in enumerate(rows) if len(row) > LONGEST_ROW), None)
-    if long is not None:
-        raise WrongInput(f"{shown(file)}: row {long + 1} is longer than {LONGEST_ROW} characters")
     if len(rows) > MOST_ROWS:
         raise WrongInput(f"{shown(file)}: there are more than {MOST_ROWS} rows")
     for i, row in enumerate(rows):
@@ -161,10 +157,6 @@ def split_names(row, separator):
     return re.split(" {2,}", row) if "  " in row else re.split(r" (?![(\[])", row) if row else []
 
 
-def has_digit(cell):
-    return any(c in "0123456789" for c in cell)
-
-
 def number(cell, mark):
     """A number with this mark before its decimals; the other mark, blanks or apostrophes may separate groups of three digits. None
     where it is none."""
@@ -182,22 +174,18 @@ def is_number(cell):
     return number(cell, ".") is not None or number(cell, ",") is not None
 
 
-class DecimalMark:
-    """The mark of decimals in a file: the first cell that tells it counts for all. `unclear`: a number of three digits behind a mark,
-    where none tells whether they are decimals."""
-
-    def __init__(self):
-        self.told, self.unclear = None, ""
-
-    def look_at(self, cell):
+def mark_of_decimals(cells):
+    """The mark, which the first cell that tells it tells for all; empty where none does, and then the first number of three digits
+    behind a mark, which may be decimals or not."""
+    unclear = ""
+    for cell in cells:
         point, comma = cell.rfind("."), cell.rfind(",")
-        if point >= 0 and comma >= 0:
-            self.told = "." if point > comma else ","
-        elif point != comma:
-            mark, other = (".", ",") if point >= 0 else (",", ".")
-            if cell.count(mark) > 1:
-                self.told = other
-            elif not GROUPED[mark].fullmatch(cell):
-                self.told = mark
-            elif not self.unclear:
-                self.unclear = cell
+        if point == comma:  # it has neither
+            continue
+        mark, other = (".", ",") if point > comma else (",", ".")
+        if min(point, comma) < 0 and cell.count(mark) > 1:
+            return other, ""
+        if min(point, comma) >= 0 or not GROUPED[mark].fullmatch(cell):
+            return mark, ""
+        unclear = unclear or cell
+    return "", unclear
