@@ -41,7 +41,7 @@ foreach(room ${core_rooms})
     list(APPEND room_tests test_${room})
   endif()
 endforeach()
-foreach(room method raw verdict run study) # some run the programs
+foreach(room method verdict run study) # some run the programs
   add_dependencies(test_${room} compare tensile_test)
 endforeach()
 knot_utm_tests(rooms_test quick test/rooms_test.cpp)
@@ -89,7 +89,7 @@ endfunction()
 # What scripts/bench and scripts/stress make of their runs, the work of short tests against a table, the scripts themselves, the
 # documents against the code, and the panel beside the picture in rviz.
 knot_utm_python_tests(quick bits_test.py bench/bench_test.py bench/counted_work_test.py bench/measured_test.py bench/stress_test.py python/scripts/scripts_test.py doc/doc_test.py
-                      python/panel/panel_test.py python/scripts/efficiency_test.py)
+                      raw/raw_test.py python/panel/panel_test.py python/scripts/efficiency_test.py)
 # Studies and fits: their parts, what the scripts make of small ones, the same from Python, and as jobs on this machine and of Slurm.
 # The report: what is made of a run, and what a browser and a printer make of that. README's numbers and lines, and the examples.
 knot_utm_python_tests(launched python/sweep/design_test.py python/sweep/rank_test.py python/sweep/plots_test.py python/sweep/sweep_test.py
@@ -125,7 +125,7 @@ if(catkin_FOUND)
   file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
   knot_utm_tests(ros_tests quick ${ros_test_sources})
   target_link_libraries(ros_tests PRIVATE knot_utm_ros)
-  add_dependencies(ros_tests import_instron)
+  add_dependencies(ros_tests write_curve_bag)
 
   # The whole system, launched as a user does it: with the scripts, which take what stands in build/.
   set(launched_tests)

@@ -193,10 +193,13 @@ TEST(Method, CharactersOfATextAreCountedNotItsBytes) {
   EXPECT_EQ(load_method(kTighten, {"report.specimen_id=" + umlauts}).report.specimen_id, umlauts);
 }
 
+constexpr const char* kNames = "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n";
+
 TEST(Method, EveryStepWritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip_steps.yaml";
   const std::string record = ::testing::TempDir() + "knot_utm_record.csv";
-  std::ofstream(record) << "Time (s),Extension (mm),Load (N)\n5.0,1.0,0.5\n6.0,2.5,1.5\n8.0,2.0,1.0\n";
+  std::ofstream(record) << kNames
+                        << "5,0.001,0.5,nan,nan,nan,pull\n6,0.0025,1.5,nan,nan,nan,pull\n8,0.002,1,nan,nan,nan,pull\n";
   const Method method = load_test(
       kTighten,
       {"ends={load: 4000, time: 600, break_at_fraction_of_peak: 0.4}",
@@ -225,7 +228,7 @@ TEST(Method, EveryStepWritesBackToTheSame) {
 
 TEST(Method, ARecordIsNoFasterThanACrosshead) {
   const std::string record = ::testing::TempDir() + "knot_utm_fast_record.csv";
-  std::ofstream(record) << "Time (s),Extension (m),Load (N)\n0,0,0\n1.0,1.5,0.5\n";
+  std::ofstream(record) << kNames << "0,0,0,nan,nan,nan,pull\n1,1.5,0.5,nan,nan,nan,pull\n";
   try {
     load_test(kTighten, {"program=[{follow: {record: " + record + "}}]"});
     ADD_FAILURE();

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <utility>
 
+#include "knot_utm/analysis/comparison.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/raw/comparison.hpp"
 
 namespace knot_utm {
 namespace {

@@ -1,18 +1,16 @@
 // The zero of raw data: a curve that is held against itself as a machine would have recorded it differs by rounding.
 
-#include "knot_utm/raw/raw_zero.hpp"
+#include "knot_utm/analysis/raw_zero.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
-#include <string>
 
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/raw/comparison.hpp"
-#include "knot_utm/raw/raw_data.hpp"
+#include "knot_utm/analysis/comparison.hpp"
 
 namespace knot_utm {
 namespace {
@@ -45,32 +43,26 @@ struct Pulled {
   }
 };
 
-/// How a machine writes what it recorded.
-struct Format {
-  const char* head;
-  char separator, decimals;
-  double newtons, millimetres;  ///< of its units
+/// Units in which a machine writes what it recorded.
+struct Units {
+  double newtons, millimetres;
 };
-const Format kFormats[] = {{"Time,Extension,Load\r\n(s),(mm),(N)\r\n", ',', '.', 1.0, 1.0},
-                           {"Zeit;Traversenweg;Kraft\r\n(s);(mm);(kN)\r\n", ';', ',', 1e3, 1.0},
-                           {"Time\tExtension\tLoad\n(s)\t(m)\t(mN)\n", '\t', '.', 1e-3, 1e3}};
+const Units kUnits[] = {{1.0, 1.0}, {1e3, 1.0}, {1e-3, 1e3}};
 
 struct Offset {
   double load, extension;  ///< [N], [m]
 };
 
-/// Rows as raw data with an offset.
-std::vector<CurveRow> recorded(const std::vector<CurveRow>& rows, const Format& format, const Offset& offset) {
-  std::string text = format.head;
-  const auto cell = [&](double value) {
-    std::string number = format_number(value);
-    std::replace(number.begin(), number.end(), '.', format.decimals);
-    return number;
-  };
-  for (const CurveRow& row : rows)
-    text += cell(row.time) + format.separator + cell(1e3 * (row.extension + offset.extension) / format.millimetres) +
-            format.separator + cell((row.load + offset.load) / format.newtons) + "\r\n";
-  return read_raw_data(text, "raw.csv");
+/// Rows as raw data with an offset, rounded as their units round them.
+std::vector<CurveRow> recorded(std::vector<CurveRow> rows, const Units& units, const Offset& offset) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (CurveRow& row : rows) {
+    row.extension = 1e3 * (row.extension + offset.extension) / units.millimetres * (1e-3 * units.millimetres);
+    row.load = (row.load + offset.load) / units.newtons * units.newtons;
+    row.end_to_end = row.load_lower = kNone;
+    row.phase = Phase::kPull;
+  }
+  return rows;
 }
 
 void expect_the_same(const Pull& a, const Pull& b) {
@@ -90,14 +82,15 @@ void expect_the_same(const Pull& a, const Pull& b) {
 TEST(RawZero, ACurveDiffersFromItsOwnRawDataByRounding) {
   for (const double speed : {1e-3, 3.3e-3, 2e-2})
     for (const double rate : {3.0, 17.0, 60.0})
-      for (const Format& format : kFormats)
+      for (const Units& units : kUnits)
         for (const Offset& offset : {Offset{0.0, 0.0}, Offset{3.0, 0.013}, Offset{-40.0, -0.3}}) {
-          SCOPED_TRACE(testing::Message() << speed << " m/s, " << rate << " Hz, " << format.head << offset.load);
+          SCOPED_TRACE(testing::Message()
+                       << speed << " m/s, " << rate << " Hz, " << units.newtons << " N, " << offset.load);
           const std::vector<CurveRow> ours = Pulled{speed, rate}.rows();
           const Pull pull = pull_of(ours);
           // At zero.
           std::vector<CurveRow> rows(ours.begin() + 1, ours.end());
-          std::vector<CurveRow> raw = recorded(rows, format, offset);
+          std::vector<CurveRow> raw = recorded(rows, units, offset);
           EXPECT_EQ(zero_at_rest(raw).readings, 1u);
           expect_the_same(pull, pull_of(balanced(raw, zero_at_rest(raw, pull))));
           // Before: it stood still.
@@ -106,12 +99,12 @@ TEST(RawZero, ACurveDiffersFromItsOwnRawDataByRounding) {
             rest.time -= 0.1;
             rows.insert(rows.begin(), rest);
           }
-          raw = recorded(rows, format, offset);
+          raw = recorded(rows, units, offset);
           EXPECT_EQ(zero_at_rest(raw).readings, 21u);
           expect_the_same(pull, pull_of(balanced(raw, zero_at_rest(raw, pull))));
           // Behind: it was cut.
           for (const std::ptrdiff_t cut : {2, 9}) {
-            raw = recorded({ours.begin() + cut, ours.end()}, format, offset);
+            raw = recorded({ours.begin() + cut, ours.end()}, units, offset);
             const auto zero = zero_of_cut(raw, (ours.begin() + cut)->extension, pull);
             ASSERT_TRUE(zero);
             const std::optional<CurveDifference> difference = curve_difference(pull, pull_of(balanced(raw, *zero)));
@@ -125,7 +118,7 @@ TEST(RawZero, ACurveOfOursThatWasCutHasItsZeroStill) {
   const std::vector<CurveRow> ours = Pulled().rows(), cut(ours.begin() + 7, ours.end());
   EXPECT_TRUE(has_its_zero(cut));
   EXPECT_EQ(curve_difference(pull_of(ours), pull_of(cut))->largest, 0.0);
-  EXPECT_FALSE(has_its_zero(recorded(cut, kFormats[0], {})));
+  EXPECT_FALSE(has_its_zero(recorded(cut, kUnits[0], {})));
 }
 
 TEST(RawZero, ThePullOfOursBeginsAtZero) {
@@ -149,7 +142,7 @@ TEST(RawZero, NoiseOfTheRestIsAveraged) {
     rows[i].time = 0.01 * static_cast<double>(i);
     rows[i].load += 0.1 * normal(random);
   }
-  const std::vector<CurveRow> raw = recorded(rows, kFormats[0], {3.0, 0.013});
+  const std::vector<CurveRow> raw = recorded(rows, kUnits[0], {3.0, 0.013});
   const RawZero zero = zero_at_rest(raw);
   EXPECT_EQ(zero.readings, 401u);
   EXPECT_NEAR(zero.load, 3.0 - 0.02, 0.02);
@@ -162,12 +155,12 @@ TEST(RawZero, AWayBackAtTheEndIsNoRest) {
   CurveRow back = rows.front();
   back.time = rows.back().time + 30.0;
   rows.push_back(back);
-  EXPECT_EQ(zero_at_rest(recorded(rows, kFormats[0], {3.0, 0.013})).first, 0u);
+  EXPECT_EQ(zero_at_rest(recorded(rows, kUnits[0], {3.0, 0.013})).first, 0u);
 }
 
 TEST(RawZero, WhereTheOtherCurveDoesNotReachNothingIsToldOfACut) {
   const std::vector<CurveRow> ours = Pulled().rows();
-  const std::vector<CurveRow> raw = recorded({ours.begin() + 2, ours.end()}, kFormats[0], {});
+  const std::vector<CurveRow> raw = recorded({ours.begin() + 2, ours.end()}, kUnits[0], {});
   EXPECT_FALSE(zero_of_cut(raw, 0.2, pull_of(ours)));
   EXPECT_FALSE(zero_of_cut(raw, -0.01, pull_of(ours)));
 }

@@ -12,6 +12,9 @@ namespace knot_utm {
 /// data of a testing machine have no L, nor do bags of measured readings.
 bool has_its_zero(const std::vector<CurveRow>& rows);
 
+/// Whether a quantity runs downwards in a record: it falls further below its first value than it rises above it.
+bool falls(const std::vector<CurveRow>& rows, double CurveRow::*value);
+
 /// The zero of raw data.
 struct RawZero {
   double extension, load;    ///< recorded values, of the file's own readings [m], [N]

@@ -1,4 +1,4 @@
-#include "knot_utm/raw/raw_zero.hpp"
+#include "knot_utm/analysis/raw_zero.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +34,15 @@ std::optional<double> load_at(const Pull& pull, double extension) {
 
 bool has_its_zero(const std::vector<CurveRow>& rows) {
   return std::any_of(rows.begin(), rows.end(), [](const CurveRow& row) { return std::isfinite(row.end_to_end); });
+}
+
+bool falls(const std::vector<CurveRow>& rows, double CurveRow::*value) {
+  double up = 0.0, down = 0.0;
+  for (const CurveRow& row : rows) {
+    up = std::max(up, row.*value - rows.front().*value);
+    down = std::max(down, rows.front().*value - row.*value);
+  }
+  return down > up;
 }
 
 RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other) {

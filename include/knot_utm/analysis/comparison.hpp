@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_row.hpp"
-#include "knot_utm/raw/raw_options.hpp"
-#include "knot_utm/raw/raw_zero.hpp"
+#include "knot_utm/analysis/raw_zero.hpp"
+#include "knot_utm/numeric/tell.hpp"
 
 namespace knot_utm {
 

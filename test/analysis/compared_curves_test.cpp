@@ -3,8 +3,8 @@
 
 #include <limits>
 
+#include "knot_utm/analysis/comparison.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/raw/comparison.hpp"
 
 namespace knot_utm {
 namespace {

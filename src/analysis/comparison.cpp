@@ -1,4 +1,4 @@
-#include "knot_utm/raw/comparison.hpp"
+#include "knot_utm/analysis/comparison.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/run/curve_file.hpp"
+#include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
