@@ -205,8 +205,8 @@ class Ros(unittest.TestCase):
 
     def test_messages_name_every_end_of_a_test(self):
         ends = set(re.findall(r'"(\w[\w ]*)"', re.search(r"kEndNames\[\] = \{(.*?)\}", text("include/knot_utm/record/ended_by.hpp"), re.S)[1]))
-        for name in ("TestStatus", "TestOutcome"):
-            told = re.search(r"# how it ended: ([^;\[]*).*\nstring ended_by", text(f"msg/{name}.msg"))[1]
+        for name in ("msg/TestStatus.msg", "action/RunTest.action"):
+            told = re.search(r"# how it ended: ([^;\[]*).*\nstring ended_by", text(name))[1]
             self.assertEqual(set(re.findall(r"\w+", told)) - {"or"}, ends - {"not yet", "interrupted"}, name)
 
     def test_has_every_dynamic_parameter(self):
