@@ -178,7 +178,7 @@ void RecorderNode::finish_when_ready() {
   const bool all = run_->next > test_.sequence;
   const bool shape = run_->shape.cols() > 0 && run_->shape_sequence == test_.sequence;
   // A physics that has failed may not have the specimen any more, and one that has died answers nothing.
-  if (all && (shape || run_->failed || test_.reason == names::kPhysicsDied)) {
+  if (all && (shape || run_->failed || test_.reason == kPhysicsDied)) {
     finish_as_told("");
   } else if (waited_ - run_->progress > kPatienceAtEnd) {
     if (!all) miss_the_end();

@@ -187,8 +187,8 @@ void UtmNode::physics_died() {
   physics_died_ = true;
   sample_.sequence = command_.sequence;
   sample_.status = BenchStatus::kFailed;
-  sample_.message = names::kPhysicsDied;
-  program_->fail(names::kPhysicsDied);
+  sample_.message = kPhysicsDied;
+  program_->fail(kPhysicsDied);
   // The last command that there will ever be an answer to.
   if (waiting_ && command_.sequence > 0) --command_.sequence;
   waiting_ = false;

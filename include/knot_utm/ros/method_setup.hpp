@@ -64,6 +64,9 @@ Method method_of(const TestOrder& order);                              ///< thro
 bool give_order(const ros::NodeHandle& node, const TestOrder& order);  ///< false: the ROS master does not answer
 TestOrder given_order(const ros::NodeHandle& node);                    ///< throws InvalidInput where there is none
 
+/// The reason that utm_node gives for the end of a test in which knot_node died.
+inline constexpr char kPhysicsDied[] = "knot_node died during the test";
+
 /// Reads a parameter into `value`, which stays as it is where the parameter is not set. Throws InvalidInput where it
 /// has the wrong type; `allowed` says what is allowed.
 template <class Value>

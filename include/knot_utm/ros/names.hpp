@@ -46,9 +46,6 @@ inline constexpr char kRobotDescription[] = "robot_description";  ///< set by kn
 // Parameters that the launch file sets
 inline constexpr char kSimTimeFound[] = "test/use_sim_time_found";  ///< what /use_sim_time was before the launch
 
-/// The reason that utm_node gives for the end of a test in which knot_node died.
-inline constexpr char kPhysicsDied[] = "knot_node died during the test";
-
 // Frames
 inline constexpr char kWorldFrame[] = "world";
 inline constexpr char kBaseFrame[] = "utm_base";
