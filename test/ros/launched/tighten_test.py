@@ -137,7 +137,7 @@ class ArgumentsTest(unittest.TestCase):
                 ('tighten', "overrides:='program.pull.speed=-1'", 'utm_node: .*speed is -1'),
                 ('tighten', 'real_time_factor:=-1', 'utm_node: real_time_factor is -1'),
                 ('tighten', 'real_time_factor:=fast', 'utm_node: real_time_factor is fast'),
-                ('tighten', 'method:=astm_d2256_knotted', 'utm_node: .*specimens.count is [0-9]+, but under ROS it must be 1'),
+                ('tighten', "overrides:='specimens.count=3'", 'utm_node: .*specimens.count is 3, but under ROS it must be 1'),
                 ('tighten', 'overrides:=[', 'utm_node: overrides is '),
                 ('tighten', 'record:=perhaps', 'record is "perhaps", but must be true or false'),
                 ('tighten', 'network:=perhaps', 'network is "perhaps", but must be true or false'),
