@@ -16,7 +16,7 @@ LAUNCH = """<launch>
   <arg name="out"/>
   <include file="$(find knot_utm)/launch/tighten.launch" pass_all_args="true">
     <arg name="method" value="%s"/>
-    <arg name="overrides" value="'program.hold.duration=0.1'"/>
+    <arg name="overrides" value="'program.hold.duration=15'"/>
   </include>
   <node name="rviz" pkg="knot_utm" type="panel_node"/>
 </launch>
