@@ -94,10 +94,9 @@ class Launch:
                                 ROS_LOG_DIR=os.path.join(self.folder, 'log'),
                                 KNOT_UTM_SKIP_BUILD='1', KNOT_UTM_CACHE_LIMIT='0', **(environment or {}))
         command = command or ['roslaunch', 'knot_utm', 'tighten.launch']
-        out = [] if 'replay.launch' in command else ['out:=out']
         with open(os.path.join(self.folder, 'console'), 'wb') as console:
             self.process = subprocess.Popen(
-                command + ['-p', str(self.port), 'working_directory:=' + self.folder] + out + list(arguments),
+                command + ['-p', str(self.port), 'working_directory:=' + self.folder, 'out:=out'] + list(arguments),
                 stdout=console, stderr=subprocess.STDOUT, env=self.environment, cwd=self.folder, start_new_session=True)
 
     def __enter__(self):
@@ -146,9 +145,9 @@ class Launch:
         except OSError:
             return False
 
-    def rows(self, specimen=''):
+    def rows(self):
         """Readings of the load cell so far, in samples.csv."""
-        return len(reading_times(os.path.join(self.out, specimen)))
+        return len(reading_times(self.out))
 
     def wait_for_rows(self, rows):
         def are_there():

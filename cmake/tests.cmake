@@ -138,22 +138,6 @@ if(catkin_FOUND)
     # One at a time, from the beginning: each is four processes already, which mostly wait for one another.
     set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS launched COST 100 RESOURCE_LOCK launched_system)
   endforeach()
-
-  if(CATKIN_ENABLE_TESTING)
-    find_package(rostest REQUIRED)
-    file(GLOB launched_tests CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} test/ros/*.test)
-    get_property(before DIRECTORY PROPERTY TESTS)
-    foreach(test ${launched_tests})
-      add_rostest(${test})
-    endforeach()
-    get_property(all DIRECTORY PROPERTY TESTS)
-    list(REMOVE_ITEM all ${before})
-    if(all)
-      # Each has a master of its own, but two at a time would compete for the cores.
-      set_tests_properties(${all} PROPERTIES ENVIRONMENT "ROS_HOSTNAME=localhost" TIMEOUT 3600 LABELS launched COST 100
-                                             RESOURCE_LOCK launched_system)
-    endif()
-  endif()
 endif()
 
 # Headers that all tests read. A compiler cache cannot look behind precompiled headers.

@@ -4,12 +4,12 @@ import numpy as np
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from knot_utm.panel.readings import MANY
 from knot_utm.report.curves import error_band, few_points
 from knot_utm.report.quantities import shown, with_unit
 from knot_utm.report.run import FORMING
 from knot_utm.report.style import as_svg, BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, stacked, USUAL, VIOLET
 
-MANY = 8.0  # a peak above this many plateaus hides the plateau: it gets axes of its own
 FEW = 250   # readings of the cell that are drawn as points
 
 
