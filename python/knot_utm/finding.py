@@ -72,13 +72,12 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     given out/ and the name of the measured file; `command`: that the page names; `overwrite`: whether another fit in the folder is
     replaced. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it was cut short."""
     measured, settings = path_of("measured", measured, "the file of a curve"), settings_map(settings)
-    if isinstance(free, str) or not all(isinstance(word, str) for word in free):
+    if not isinstance(free, (tuple, list)) or not all(isinstance(word, str) for word in free):
         raise WrongInput(f"free is {shown(free)}, but must be a list of words such as 'material.radius=0.001:0.002'")
     asked = [(measured, settings)]
-    for pair in also:
-        if not isinstance(pair, (tuple, list)) or len(pair) != 2:
-            raise WrongInput(f"also is {shown(also)}, but must be a list of (file, settings)")
-        asked.append((path_of("also", pair[0], "files of curves"), {**settings, **settings_map(pair[1])}))
+    if not isinstance(also, (tuple, list)) or not all(isinstance(pair, (tuple, list)) and len(pair) == 2 for pair in also):
+        raise WrongInput(f"also is {shown(also)}, but must be a list of (file, settings)")
+    asked += [(path_of("also", file, "files of curves"), {**settings, **settings_map(given)}) for file, given in also]
     out = folder_of(out, os.path.join("out", os.path.splitext(os.path.basename(measured))[0] + "_fit"))
     method, jobs = tool.find_method(method_of(method), os.getcwd()), jobs_of(jobs)
     _require_room(out, [method, *(file for file, _ in asked)], overwrite)
