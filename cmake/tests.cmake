@@ -88,7 +88,7 @@ endfunction()
 
 # What scripts/bench and scripts/stress make of their runs, the work of short tests against a table, the scripts themselves, the
 # documents against the code, and the panel beside the picture in rviz.
-knot_utm_python_tests(quick bits_test.py bench/bench_test.py bench/measured_test.py bench/stress_test.py python/scripts/scripts_test.py doc/doc_test.py doc/site_test.py
+knot_utm_python_tests(quick bits_test.py bench/bench_test.py bench/stress_test.py python/scripts/scripts_test.py doc/doc_test.py doc/site_test.py
                       python/panel/panel_test.py)
 # Studies and fits: their parts, what the scripts make of small ones, the same from Python, and as jobs on this machine and of Slurm.
 # The report: what is made of a run, and what a browser and a printer make of that. README's numbers, method and lines.

@@ -28,9 +28,8 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method="knot", setti
     settings, name = settings_map(settings), str(material)
     if isinstance(knots, str) or not knots or len(set(map(str, knots))) < len(list(knots)):
         raise WrongInput(f"knots is {shown(knots)}, but must be a list of different knots: names or files")
-    for key in ("specimen.knot", "material", tool.COUNT):
-        if any(key == one or key.startswith(one + ".") for one in settings):
-            raise WrongInput(f"{key} cannot be a setting of a ranking: it has a word of its own")
+    for key in {"specimen.knot", "specimen", "material", tool.COUNT, "specimens"} & set(settings):
+        raise WrongInput(f"{key} cannot be a setting of a ranking: it has a word of its own")
     points = [{"specimen.knot": _seen_from_here(knot), "material": _seen_from_here(name), **settings} for knot in knots]
     repeat = whole("specimens", specimens, 2, ": one start is no reading")
     study = Study("the ranking", tool.find_method(method_of(method), os.getcwd()), points, repeat, (), "list", {})
