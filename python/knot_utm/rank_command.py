@@ -21,37 +21,28 @@ MEANS = {"slip_load": "N", "break_load": "N", "efficiency": "of the strength wit
 
 
 def rank(knots, material, specimens=3, out=None, jobs=None, method="knot", settings=None):
-    """A pandas.DataFrame with a row for each knot, in the order of the largest mean load that it bore, and the units of its means in
-    `.attrs["units"]`; each NAME_error is a standard error. scripts/rank has what the columns mean. `knots`, `material`: names, or
-    files; `settings`: {key: value} of the method besides; `out`: the folder of the sweep, unless given out/rank/ and the material's
-    name. Raises WrongInput."""
+    """A pandas.DataFrame with a row for each knot, in the order of the largest mean load that it bore, as scripts/rank tells and as it is
+    in rank.csv of the folder. `.attrs` has the units of its means and the folder. Raises WrongInput."""
     settings, name = settings_map(settings), str(material)
     if isinstance(knots, str) or not knots or len(set(map(str, knots))) < len(list(knots)):
         raise WrongInput(f"knots is {shown(knots)}, but must be a list of different knots: names or files")
     for key in {"specimen.knot", "specimen", "material", tool.COUNT, "specimens"} & set(settings):
         raise WrongInput(f"{key} cannot be a setting of a ranking: it has a word of its own")
-    points = [{"specimen.knot": _seen_from_here(knot), "material": _seen_from_here(name), **settings} for knot in knots]
-    repeat = whole("specimens", specimens, 2, ": one start is no reading")
-    study = Study("the ranking", tool.find_method(method_of(method), os.getcwd()), points, repeat, (), "list", {})
-    runs = Sweep(study, folder_of(out, usual_folder(name))).all(jobs_of(jobs))
-    pulled = value_of(tool.resolved(study.method, points[0]))
-    runs["tail_slip"] = [max(map(float, re.findall(r"-?\d\S*\b", str(tails))), default=np.nan) / rod_of(pulled)[1]
-                         for tails in runs["tail_slip"]]
+    # A knot and a material may be files as seen from here; a method would look for them from its own folder.
+    points = [{key: os.path.abspath(given) if os.path.isfile(given) else str(given)
+               for key, given in (("specimen.knot", knot), ("material", name))} | settings for knot in knots]
+    study = Study("the ranking", tool.find_method(method_of(method), os.getcwd()), points,
+                  whole("specimens", specimens, 2, ": one start is no reading"), (), "list", {})
+    out = folder_of(out, os.path.join("out/rank", re.sub(r"[^\w.-]+", "_", os.path.splitext(os.path.basename(name))[0])))
+    runs, pulled = Sweep(study, out).all(jobs_of(jobs)), value_of(tool.resolved(study.method, points[0]))
+    runs["tail_slip"] = [max(map(float, re.findall(r"-?\d\S*\b", str(tails))), default=np.nan) / rod_of(pulled)[1] for tails in runs["tail_slip"]]
     reach = max((step["pull"]["until"].get("extension", np.inf) for step in pulled["program"] if "pull" in step), default=np.inf)
-    rows = [{"knot": str(knot), **_row(runs[runs["specimen.knot"] == point["specimen.knot"]], reach), "material": name, "method": str(method),
-             "settings": described(settings)} for knot, point in zip(knots, points)]
-    table = pd.DataFrame(sorted(rows, key=lambda row: -np.nanmax([row["slip_load"], row["break_load"], -1.0])))
-    table.attrs["units"] = MEANS
+    table = pd.DataFrame([{"knot": str(knot), **_row(runs[runs["specimen.knot"] == point["specimen.knot"]], reach), "material": name,
+                           "method": str(method), "settings": described(settings)} for knot, point in zip(knots, points)])
+    table = table.loc[table[["slip_load", "break_load"]].max(axis=1).sort_values(ascending=False).index].reset_index(drop=True)
+    table.to_csv(os.path.join(out, "rank.csv"), index=False)
+    table.attrs.update(units=MEANS, folder=out)
     return table
-
-
-def usual_folder(material):
-    return os.path.join("out/rank", re.sub(r"[^\w.-]+", "_", os.path.splitext(os.path.basename(material))[0]))
-
-
-def _seen_from_here(name):
-    """The file, where it is one; a method would look for it from its own folder."""
-    return os.path.abspath(name) if os.path.isfile(name) else str(name)
 
 
 def _row(runs, reach):
@@ -75,18 +66,16 @@ def main(words):
 
 
 def _rank(asked):
-    out = asked.out or usual_folder(asked.material)
-    table = rank(asked.knots, asked.material, asked.specimens, out, asked.jobs, asked.method, settings_of(asked.set))
-    table.to_csv(os.path.join(out, "rank.csv"), index=False)
+    table = rank(asked.knots, asked.material, asked.specimens, asked.out, asked.jobs, asked.method, settings_of(asked.set))
+    told, (with_settings, *_) = table[["knot", "broke"]].copy(), table["settings"]
     for name in MEANS:
-        table[name] = ["-" if mean != mean else f"{mean:.4g} ± {error:.2g}" for mean, error in zip(table[name], table[name + "_error"])]
-    table["slip_load"] = np.where(table["still_rose"] > 0, "at least " + table["slip_load"], table["slip_load"])
-    print(f"in {asked.material}, by {asked.method}" + (f" with {table['settings'][0]}" if table["settings"][0] else "") + ":")
-    print(table[["knot", "broke", *MEANS]].rename(columns={"slip_load": "slip load [N]", "break_load": "break load [N]"}).to_string(index=False))
-    print(f"the table is in {os.path.join(out, 'rank.csv')}")
-    if table["failed"].any():
-        return say(PROGRAM, f"{table['failed'].sum()} specimens failed: see error in {os.path.join(out, 'table.csv')}", 1)
-    return 0
+        told[name] = ["-" if mean != mean else f"{mean:.4g} ± {error:.2g}" for mean, error in zip(table[name], table[name + "_error"])]
+    told.loc[table["still_rose"] > 0, "slip_load"] = "at least " + told["slip_load"]
+    print(f"in {asked.material}, by {asked.method}" + (f" with {with_settings}" if with_settings else "") + ":")
+    print(told.rename(columns={"slip_load": "slip load [N]", "break_load": "break load [N]"}).to_string(index=False))
+    print(f"the table is in {table.attrs['folder']}/rank.csv")
+    failed = table["failed"].sum()
+    return say(PROGRAM, f"{failed} specimens failed: see error in {table.attrs['folder']}/table.csv", 1) if failed else 0
 
 
 if __name__ == "__main__":
