@@ -160,7 +160,7 @@ class Fitted:
                                            f"{self.degrees_of_freedom} degrees of freedom"]
         self.notes += [*self._of_keys(keys, best), *self._of_pairs()]
         for which, words in ((search.is_lost, "left no whole curve"),
-                             (search.is_unlike, "left loads of quite another size, as where knots open: values around which these are common count as unlikely")):
+                             (search.is_unlike, "left loads of quite another size, as where knots open: values around these count as unlikely")):
             if which.any():
                 self.notes.append(f"{which.sum()} of {len(search.places)} runs {words}")
 

@@ -143,13 +143,10 @@ class Record:
             raise WrongInput(f"{self.name}: the method as it stands leaves no curve: {result.get('reason') or 'its run failed'}")
         measured, made = (float(max(load, key=abs)) for load in (self.load, pull.load))
         end = float(pull.extension[-1])
-        if measured * made < 0.0:
-            raise WrongInput(f"{self.name}: the measured load goes to {measured:.4g} N, and the method's to {made:.4g} N: one of them has "
-                             "another sign, as in compression")
-        for measured, made, what in ((self.largest["extension"], end, "m"), (self.largest["force"], abs(made), "N")):
-            if not made / FAR < measured < made * FAR:
-                raise WrongInput(f"{self.name}: the measured curve goes to {measured:.4g} {what}, and the method's to {made:.4g} {what}: one "
-                                 "of them is in other units, or of another test")
+        for one, other, unit in ((self.largest["extension"], end, "m"), (measured, made, "N")):
+            if not 1.0 / FAR < one / (other or np.inf) < FAR:
+                raise WrongInput(f"{self.name}: the measured curve goes to {one:.4g} {unit}, and the method's to {other:.4g} {unit}: one of "
+                                 "them is in other units, has another sign, or is of another test")
         if not self.is_reached(pull, result):
             raise WrongInput(f"{self.name}: the measured curve goes to an extension of {self.extension[-1]:.4g} m, but the method's pull "
                              f"ends at {end:.4g} m ({result.get('ended_by')}): let it go on, as by --set program.pull.until.extension")
