@@ -182,15 +182,14 @@ class Fitted:
     def _of_keys(self, keys, best):
         """What the data do not tell of single keys, in words."""
         for at, key in zip(best, keys):
-            one, at_end = self.found[key.name], not AT_THE_END < at < 1.0 - AT_THE_END
-            side = f"{key.name} is at the {'lower' if at < 0.5 else 'upper'} end of its range"
-            if one.low is None and one.high is None:
-                yield f"{key.name} is not identifiable: no value from {key.low:.6g} to {key.high:.6g} fits worse than the errors allow"
-            elif not one.identifiable:
-                told = f"the data only tell that it is {f'above {one.low:.4g}' if one.high is None else f'below {one.high:.4g}'}"
-                yield f"{side}: {told}; give a wider range" if at_end else f"{key.name} is not identifiable: {told}"
-            elif at_end:
-                yield f"{side}: give a wider range"
+            low, high = self.found[key.name].low, self.found[key.name].high
+            told = (f"no value from {key.low:.6g} to {key.high:.6g} fits worse than the errors allow" if low is high is None else
+                    f"the data only tell that it is {f'above {low:.4g}' if high is None else f'below {high:.4g}'}")
+            if not AT_THE_END < at < 1.0 - AT_THE_END:
+                yield (f"{key.name} is at the {'lower' if at < 0.5 else 'upper'} end of its range: "
+                       f"{told + '; ' if None in (low, high) else ''}give a wider range")
+            elif None in (low, high):
+                yield f"{key.name} is not identifiable: {told}"
 
     def _of_pairs(self):
         for one, other in itertools.combinations(self.found, 2):

@@ -135,13 +135,6 @@ TEST_F(Batch, ARodThatPartsBeforeItIsLoadedIsRejectedAndOneThatIsOnlyHeldCounts)
   EXPECT_THAT(early[0].reason, testing::EndsWith("before it was pulled"));
 }
 
-TEST_F(Batch, AWarningIsToldOnceForAllSpecimens) {
-  run_batch(load_method(kConfig + "tighten.yaml",
-                        {"physics.accuracy=draft", "material=polypropylene", "specimens={count: 2, scatter: none}"}),
-            options);
-  EXPECT_THAT(said, HasSubstr("specimens 1 and 2: the plateau force may be off"));
-}
-
 /// Tests that end before they come to their extension: what is known of all is said once and before them.
 TEST_F(Batch, WhatIsKnownBeforehandIsToldOnceForAll) {
   run_batch(load_method(kConfig + "straight.yaml",
