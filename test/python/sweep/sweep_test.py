@@ -19,7 +19,6 @@ from sweeps import CONFIG, LENGTHS, REAL, ROOT, STRAIGHT, Sweeps, content, rows,
 import numpy as np
 import pandas as pd
 
-import knot_utm
 from knot_utm import command_line
 from knot_utm.address import Addresses
 from knot_utm.yaml_text import load
