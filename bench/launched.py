@@ -63,12 +63,6 @@ def children(pid):
     return found
 
 
-def memory(pid):
-    """What a process holds now [bytes]."""
-    with open('/proc/%d/status' % pid, encoding='utf-8') as file:
-        return 1024 * int(re.search(r'VmRSS:\s+(\d+)', file.read())[1])
-
-
 def reading_times(folder):
     """When the load cell was read so far [s], by samples.csv in a folder; none where it is not there."""
     try:

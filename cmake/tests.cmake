@@ -86,14 +86,14 @@ function(knot_utm_python_tests label)
   endforeach()
 endfunction()
 
-# What scripts/bench and scripts/stress make of their runs, the work of short tests against a table, the scripts themselves, the
+# What scripts/bench and scripts/stress make of their runs, the scripts themselves, the
 # documents against the code, and the panel beside the picture in rviz.
-knot_utm_python_tests(quick bits_test.py bench/bench_test.py bench/counted_work_test.py bench/measured_test.py bench/stress_test.py python/scripts/scripts_test.py doc/doc_test.py
-                      raw/raw_test.py python/panel/panel_test.py python/scripts/efficiency_test.py)
+knot_utm_python_tests(quick bits_test.py bench/bench_test.py bench/counted_work_test.py bench/stress_test.py python/scripts/scripts_test.py doc/doc_test.py
+                      raw/raw_test.py python/panel/panel_test.py)
 # Studies and fits: their parts, what the scripts make of small ones, the same from Python, and as jobs on this machine and of Slurm.
 # The report: what is made of a run, and what a browser and a printer make of that. README's numbers and lines, and the examples.
 knot_utm_python_tests(launched python/sweep/design_test.py python/sweep/rank_test.py python/sweep/plots_test.py python/sweep/sweep_test.py
-                      python/sweep/python_test.py python/sweep/workflow_test.py python/fit/interval_test.py python/fit/fit_test.py
+                      python/sweep/python_test.py python/sweep/workflow_test.py python/fit/fit_test.py
                       python/report/report_test.py python/report/certificate_test.py python/report/figures_test.py
                       python/report/comparison_test.py python/report/batch_test.py python/report/browser_test.py
                       python/report/export_test.py python/report/movie_test.py python/scripts/material_test.py

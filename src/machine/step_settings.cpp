@@ -43,7 +43,7 @@ double friction_couple(const Material& material, const PhysicsOptions& physics) 
 NormalLaw normal_law(const Material& material, double tolerance) {
   constexpr double kStiffeningDepth = 0.015;  // c: at the kN of a locked knot a rod gives 5 % [h]
   // A cylinder of rubber squeezed by 20 to 50 % of its diameter, in plane strain: within 8 % of finite elements
-  // (bench/rubber_cylinder.py).
+  // (doc/developers/history.md).
   constexpr double kSoftStiffeningDepth = 0.8;
   const double depth = material.is_soft() ? kSoftStiffeningDepth : kStiffeningDepth;
   return {default_contact_stiffness(material), tolerance, depth * material.radius};

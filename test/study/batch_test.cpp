@@ -85,13 +85,6 @@ TEST_F(Batch, InterruptedAndResumedItLeavesTheSameStatistics) {
   EXPECT_FALSE(has_complete_result(specimen_folder(options.folder, 5)));
   const fs::file_time_type first = fs::last_write_time(specimen_folder(options.folder, 1) + "/curve.csv");
 
-  // Under ROS the tables are written after each test.
-  BatchTable so_far(options.folder);
-  for (const int number : {1, 2}) so_far.add(draw_specimen(method, number));
-  so_far.write();
-  EXPECT_EQ(statistics()["specimens"].as<int>(), 2);
-  EXPECT_EQ(statistics()["peak_force"]["n"].as<int>(), 2);
-
   options.interrupted = [] { return false; };
   options.resume = true;
   const Method again = load_method(options.folder + "/method.yaml");
@@ -99,16 +92,6 @@ TEST_F(Batch, InterruptedAndResumedItLeavesTheSameStatistics) {
   EXPECT_EQ(written("statistics.yaml") + written("specimens.csv"), whole);
   EXPECT_EQ(fs::last_write_time(specimen_folder(options.folder, 1) + "/curve.csv"), first) << "was tested twice";
   EXPECT_THROW(run_batch(again, options), InvalidInput) << "there is nothing to resume";
-}
-
-TEST_F(Batch, SaysWhichResultItMisses) {
-  BatchTable table(options.folder);
-  try {
-    table.add(draw_specimen(method, 1));
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("specimen_001/result.yaml"));
-  }
 }
 
 TEST_F(Batch, AnotherOneGoesToAFolderOfItsOwn) {
@@ -152,14 +135,7 @@ TEST_F(Batch, ARodThatPartsBeforeItIsLoadedIsRejectedAndOneThatIsOnlyHeldCounts)
   EXPECT_THAT(early[0].reason, testing::EndsWith("before it was pulled"));
 }
 
-TEST_F(Batch, AWarningIsToldOnceForAllSpecimens) {
-  run_batch(load_method(kConfig + "tighten.yaml",
-                        {"physics.accuracy=draft", "material=polypropylene", "specimens={count: 2, scatter: none}"}),
-            options);
-  EXPECT_THAT(said, HasSubstr("specimens 1 and 2: the plateau force may be off"));
-}
-
-/// What is known of all is said once and before them.
+/// Tests that end before they come to their extension: what is known of all is said once and before them.
 TEST_F(Batch, WhatIsKnownBeforehandIsToldOnceForAll) {
   run_batch(load_method(kConfig + "straight.yaml",
                         {"specimens={count: 3, scatter: {material.stretching_stiffness: {normal: 0.1}}}",

@@ -117,15 +117,5 @@ TEST_F(OfThePlateau, ATestThatCanHaveNoneIsRefusedAndNothingIsWritten) {
   }
 }
 
-TEST(Readings, OfAnotherWordAreRefused) {
-  EXPECT_EQ(readings_named("plateau"), Readings::kPlateau);
-  try {
-    readings_named("locks");
-    FAIL();
-  } catch (const InvalidInput& invalid) {
-    EXPECT_STREQ(invalid.what(), "--readings is locks, but must be plateau");
-  }
-}
-
 }  // namespace
 }  // namespace knot_utm

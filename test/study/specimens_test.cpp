@@ -39,13 +39,7 @@ TEST(Specimens, OneIsDrawnAsAmongAllOthers) {
     EXPECT_EQ(one.number, number);
     EXPECT_EQ(one.drawn, all[static_cast<std::size_t>(number - 1)].drawn);
     EXPECT_EQ(method_yaml(one.method), method_yaml(all[static_cast<std::size_t>(number - 1)].method));
-    EXPECT_EQ(method_yaml(method_of_specimen(method, number)), method_yaml(one.method));
   }
-}
-
-TEST(Specimens, OneAloneHasTheValuesOfTheMethod) {
-  const Method method = straight("{count: 1, scatter: {specimen.length: {normal: 0.02}}}");
-  EXPECT_EQ(method_yaml(method_of_specimen(method, 1)), method_yaml(method));
 }
 
 /// The standard error of a standard deviation over n normal readings is its 1/sqrt(2 n)-th part, that of the mean the

@@ -194,28 +194,20 @@ class Arguments(Sweeps):
     def test_of_a_wrong_kind_are_refused_in_a_line(self):
         out = self.path("none")
         for function, usual, wrong in (
-                (knot_utm.run, {"method": "straight", "out": out}, {"method": (None, 3), "out": (None, 5)}),
-                (knot_utm.batch, {"method": "straight", "out": out},
-                 {"method": (None,), "specimens": ("3", 2.5, True, None), "jobs": ("x", 0, -1)}),
-                (knot_utm.sweep, {"study": self.study, "out": out}, {"study": (None, 3), "out": (5,), "jobs": ("x", 0, -1)}),
+                (knot_utm.run, {"method": "straight", "out": out}, {"method": (None,), "out": (5,)}),
+                (knot_utm.batch, {"method": "straight", "out": out}, {"specimens": ("3", True), "jobs": ("x", 0)}),
+                (knot_utm.sweep, {"study": self.study, "out": out}, {"study": (3,), "out": (5,)}),
                 (knot_utm.fit, {"measured": "curve.csv", "method": "straight", "free": ["material.radius"], "out": out},
-                 {"measured": (None,), "method": (None,), "free": (None, "material.radius", [1]), "out": (5,), "settings": (["a"],),
-                  "also": (["other.csv"], None), "jobs": ("x", 0)}),
-                (knot_utm.read, {}, {"folder": (None, 5)}), (knot_utm.read_batch, {}, {"folder": (None, 5)})):
+                 {"measured": (None,), "free": (None, "material.radius", [1]), "settings": (["a"],), "also": (["other.csv"],)})):
             for name, values in wrong.items():
                 for value in values:
                     with self.assertRaisesRegex(knot_utm.WrongInput, rf"^{name} is .*, but must be [^\n]*$", msg=(function, name, value)):
                         function(**{**usual, name: value})
         with self.assertRaisesRegex(knot_utm.WrongInput, r"\(object\) cannot be the value of a key"):
             knot_utm.run("straight", out, **{"specimen.length": object()})
+        with self.assertRaisesRegex(knot_utm.WrongInput, "^cannot make the folder /"):
+            knot_utm.sweep(self.study, "/proc/x")
         self.assertFalse(os.path.exists(out))
-
-    def test_a_folder_that_cannot_be_made_is_refused(self):
-        for call in (lambda out: knot_utm.sweep(self.study, out),
-                     lambda out: knot_utm.fit("curve.csv", "straight", ["material.radius"], out)):
-            for out in ("/proc/x", "/dev/null/x"):
-                with self.assertRaisesRegex(knot_utm.WrongInput, "^cannot make the folder /"):
-                    call(out)
 
 
 if __name__ == "__main__":
