@@ -72,7 +72,7 @@ class Case:
 def report(runner, _materials):
     os.environ["KNOT_UTM_TOOLS_DIR"] = os.path.dirname(os.path.abspath(runner.tool))
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    os.environ["KNOT_UTM_CACHE_LIMIT"] = "0"  # what a fit takes is what it computes
+    os.environ["KNOT_UTM_NO_CACHE"] = "1"  # what a fit takes is what it computes
     sys.path.insert(0, os.path.join(runner.root, "python"))
     from knot_utm import fit  # where the packages of scripts/sweep are installed
     draw = random.Random(SEED)

@@ -64,7 +64,7 @@ class Runner:
 
 def without_cache():
     """The environment of runs that take up no tied specimen of earlier ones: each costs what it computes."""
-    return {**os.environ, "KNOT_UTM_CACHE_LIMIT": "0"}
+    return {**os.environ, "KNOT_UTM_NO_CACHE": "1"}
 
 
 def confine(core, cpu_limit):

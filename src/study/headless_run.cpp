@@ -91,7 +91,7 @@ void pull(const Test& test, SamplesWriter& samples, EarlyEnd& early, const WallC
         if (test.options.progress) test.options.progress(sample, test.program, clock.seconds());
       },
       [&] {
-        if (test.ties) test.ties->keep(test.bench, test.program);
+        if (test.ties) test.ties->keep(test.bench, test.program, test.folder);
         return test.options.interrupted();
       });
 }
@@ -129,7 +129,7 @@ namespace {
 /// The specimen that the test ties, where a cache may have it.
 std::optional<TiedSpecimen> tied_by(const Method& method, const HeadlessOptions& options) {
   if (!options.cache) return std::nullopt;
-  return TiedSpecimen::of(method, options.writes_shapes(), *options.cache);
+  return TiedSpecimen::of(method, options.writes_shapes(), options.folder);
 }
 
 }  // namespace
@@ -142,7 +142,7 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   require_no_record_in(options.folder, method);  // before anything is written
   std::optional<Beginning> beginning;
   std::optional<TiedSpecimen> ties = tied_by(method, options);
-  if (ties) beginning = ties->take_up(method, bench, program);
+  if (ties) beginning = ties->restore(method, bench, program);
   if (beginning) ties.reset();
   const ClaimedFolder claimed = options.claim();
   begin_run_folder(claimed.path(), method, words_of(options.readings));

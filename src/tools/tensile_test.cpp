@@ -14,7 +14,6 @@
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/record/phase.hpp"
-#include "knot_utm/run/cache_folder.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/load_test.hpp"
@@ -80,11 +79,10 @@ struct Arguments {
   bool report = false;
   bool shapes = false;
   bool no_cache = false;
-  std::optional<CacheFolder> cache;  // of tied specimens; empty: none
-  bool check = false;                // no test
-  bool list_keys = false;            // no test
-  std::string program;               // as it was called
-  std::string command;               // the whole line
+  bool check = false;      // no test
+  bool list_keys = false;  // no test
+  std::string program;     // as it was called
+  std::string command;     // the whole line
 };
 
 /// What makes the writer of the bag; nothing without ROS.
@@ -143,7 +141,7 @@ Options options_in(const std::string& folder, const Arguments& arguments, Progre
   options.folder = folder;
   options.overwrite = arguments.overwrite;
   options.shapes = arguments.shapes;
-  options.cache = arguments.cache;
+  options.cache = !arguments.no_cache;
   options.readings = readings_of(arguments);
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {
@@ -307,11 +305,10 @@ std::string phases_csv() {
   return text;
 }
 
-/// Where the method stands, where the results go and where tied specimens are kept, once all words are read.
+/// Where the method stands and where the results go, once all words are read.
 void settle(Arguments& arguments) {
   if (arguments.specimens > 0) arguments.overrides.push_back("specimens.count=" + std::to_string(arguments.specimens));
   if (!arguments.show.empty() || !arguments.from_samples.empty() || !arguments.draw.empty()) return;
-  if (!arguments.no_cache) arguments.cache = CacheFolder::of_user();
   if (arguments.resume.empty()) {
     arguments.method = find_method(arguments.method);
     return;
@@ -355,7 +352,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
                  "how many specimens are tested side by side; unless given, one for each processor")
       ->check(CLI::Range(1, kMostSpecimens));
   app.add_flag("--no-cache", arguments.no_cache,
-               "tie the specimen even where an earlier test has tied the same one, and keep none for later tests");
+               "tie the specimen even where an earlier test in the same folder has tied the same one, and keep none")
+      ->envname("KNOT_UTM_NO_CACHE");
   CLI::Option* readings = app.add_option(
       "--readings", arguments.readings,
       "plateau: end the test of a tied loop as soon as its sliding force is known, and write no test.bag");
