@@ -24,11 +24,10 @@ bool Beginning::follow(ProgramRunner& program) const {
   return asks;
 }
 
-double Beginning::replay(SamplesWriter& samples, const Visitor& also) const {
+double Beginning::replay(const Visitor& visit) const {
   double wall_time = 0.0;
   each_([&](const Record& record) {
-    samples.append(record);
-    also(record);
+    visit(record);
     wall_time = record.wall_time;
   });
   return wall_time;

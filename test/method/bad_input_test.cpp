@@ -186,9 +186,6 @@ const std::vector<Wrong>& wrong_overrides() {
       {"material={radius: 0.003, density: 1e3, stretching_stiffness: 1e4, bending_stiffness: 1e-4, "
        "twisting_stiffness: 1e-4, friction_coefficient: 0.4, breaking: {law: tension_and_bending, bending_share: 0}}",
        "material.breaking_force is missing", "", "which material.breaking.law: tension_and_bending needs"},
-      {"analysis.margin=maybe", "analysis.margin", "maybe", "true or false"},
-      {"analysis={margin: true, program: 1}", "analysis.program is no key of a method", "",
-       "the keys of analysis are margin"},
       {"material.breaking_force=150", "material.breaking_force", "150", "more than specimen.preload, 150 N"},
       {"program=[{cycle: {extension: [0, 1], load: [0, 1], count: 1}}]", "program.0.cycle", "both extension and load",
        "give one of them"},

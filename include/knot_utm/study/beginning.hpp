@@ -5,7 +5,6 @@
 
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/run/record.hpp"
-#include "knot_utm/run/samples.hpp"
 
 namespace knot_utm {
 
@@ -22,10 +21,9 @@ class Beginning {
   /// that does not is then unusable.
   bool follow(ProgramRunner& program) const;
 
-  /// Appends every record to the samples of the new run, and shows it to `also`. Returns the wall time of the other run
-  /// up to there [s]. The wall time of the new run begins with it, so that it is that of the whole test wherever the
-  /// beginning comes from.
-  double replay(SamplesWriter& samples, const Visitor& also) const;
+  /// Shows every record. Returns the wall time of the other run up to there [s]. The wall time of the new run begins
+  /// with it, so that it is that of the whole test wherever the beginning comes from.
+  double replay(const Visitor& visit) const;
 
  private:
   std::function<void(const Visitor&)> each_;

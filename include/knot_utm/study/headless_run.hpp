@@ -37,8 +37,7 @@ struct RunOptions {
 };
 
 struct HeadlessOptions : RunOptions {
-  /// Makes the writer of a further file in this folder.
-  std::function<FurtherWriter(const std::string& folder, const Method& method)> further;
+  MakeFurther further;
   /// Receives each answer of the simulated machine; `wall_time` since the test began [s].
   std::function<void(const Sample& answer, const ProgramRunner& program, double wall_time)> progress;
 };
