@@ -51,16 +51,23 @@ void set_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Prints what is known of a knot before it is pulled, and writes its picture, KNOT.svg, into a folder. Throws
-/// InvalidInput where there is no such knot, where it cannot be drawn, or where the picture exists and `overwrite` does
-/// not allow to replace it. `option`: what names the knot, for messages.
-void draw_knot(const std::string& knot, const char* option, const std::string& folder, bool overwrite) {
+/// Prints what is known of a knot before it is pulled, and has Python write its picture, KNOT.png, into a folder.
+/// Throws InvalidInput where there is no such knot, where it cannot be drawn, or where the picture exists and
+/// `overwrite` does not allow to replace it. `option`: what names the knot, for messages.
+int draw_knot(const std::string& knot, const char* option, const std::string& folder, bool overwrite) {
   const KnotSheet sheet = knot_sheet(knot, option);
-  const std::string file = (std::filesystem::path(folder) / (sheet.name + ".svg")).string();
-  require_new_file(option, file, {knot}, overwrite, "<svg");
+  const std::string file = (std::filesystem::path(folder) / (sheet.name + ".png")).string();
+  require_new_file(option, file, {knot}, overwrite, "\x89PNG");
   if (!folder.empty()) make_run_folder(folder);
-  write_whole(file, sheet.picture);
+  std::vector<std::string> python = python_module("knot_picture");
+  python.push_back(file);
+  std::signal(SIGPIPE, SIG_IGN);  // it then says itself why it reads no more
+  std::FILE* pipe = popen(command_line(python).c_str(), "w");
+  if (pipe == nullptr) throw std::runtime_error("cannot run python3");
+  std::fputs(sheet.shape.c_str(), pipe);
+  if (pclose(pipe) != 0) return kFailed;
   std::printf("%spicture: %s\n", sheet.facts.c_str(), file.c_str());
+  return kDone;
 }
 
 struct Arguments {
@@ -246,10 +253,7 @@ void require_batch(const Arguments& arguments, const Method& method) {
 }
 
 int run(const Arguments& arguments) {
-  if (!arguments.draw.empty()) {
-    draw_knot(arguments.draw, "--draw", arguments.out, arguments.overwrite);
-    return kDone;
-  }
+  if (!arguments.draw.empty()) return draw_knot(arguments.draw, "--draw", arguments.out, arguments.overwrite);
   if (!arguments.show.empty()) {
     std::fputs(run_summary(arguments.show).c_str(), stdout);
     return kDone;
@@ -323,7 +327,7 @@ void settle(Arguments& arguments) {
 const CLI::Option* add_draw(CLI::App& app, Arguments& arguments, const std::vector<CLI::Option*>& others) {
   CLI::Option* draw = app.add_option(
       "--draw", arguments.draw,
-      "only show this knot, one that comes with the package or a file: its facts, and a picture, KNOT.svg, in --out or "
+      "only show this knot, one that comes with the package or a file: its facts, and a picture, KNOT.png, in --out or "
       "the present folder");
   for (CLI::Option* one : others) draw->excludes(one);
   return draw;
