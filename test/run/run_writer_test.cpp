@@ -80,20 +80,6 @@ TEST_F(RunFolder, HoldsTheInnerDiameterOfAKnotThatIsWhole) {
   EXPECT_TRUE(result()["knotability"].IsNull());
 }
 
-/// That result.yaml has every key of the table, ResultKeys says.
-TEST_F(RunFolder, HoldsEveryPromisedFile) {
-  run(load_method(kConfig + "tighten.yaml"));
-  for (const char* file : {"curve.csv", "curve_full.csv", "result.yaml", "method.yaml", "final_shape.csv"}) {
-    EXPECT_TRUE(fs::is_regular_file(folder_ / file)) << file;
-  }
-  const YAML::Node made = result();
-  EXPECT_EQ(made["ended_by"].as<std::string>(), "extension");
-  EXPECT_EQ(made["preload"].as<double>(), 150.0);
-  EXPECT_TRUE(made["lock_extension"].IsNull());
-  EXPECT_GT(made["peak_memory"].as<double>(), 1e5);
-  EXPECT_DOUBLE_EQ(made["real_time_factor"].as<double>(), made["simulated_time"].as<double>() / 0.5);
-}
-
 TEST_F(RunFolder, CurveHasTheSamplingInstantsAndTheFullCurveEveryStep) {
   run(load_method(kConfig + "tighten.yaml"));
   const std::vector<CurveRow> curve = read_curve((folder_ / "curve.csv").string());
@@ -146,12 +132,6 @@ TEST_F(RunFolder, HoldsTheVerdictOnItsSpecification) {
   EXPECT_EQ(failed["specification_failed"][0].as<std::string>(), "untangled_at has no value in this test");
 }
 
-TEST_F(RunFolder, AHoldBehindOneAtALoadHasARelaxation) {
-  run(load_method(kConfig + "straight.yaml", {"program=[{preload: {load: 5}}, {hold: {duration: 3, control: load, "
-                                              "load: 50}}, {hold: {duration: 3}}]"}));
-  EXPECT_FALSE(result()["relaxation"].IsNull());
-}
-
 TEST_F(RunFolder, ARunThatGaveUpKeepsWhatItHadAndTheReason) {
   FakeBench bench;
   bench.fail_time = 8.0;
@@ -180,11 +160,6 @@ TEST_F(RunFolder, ARunMayTestTheShapeThatTheLastOneLeftThere) {
   begin(method);
   EXPECT_EQ(read_whole((folder_ / "specimen.csv").string()), shape);
   EXPECT_FALSE(fs::exists(folder_ / "final_shape.csv"));
-}
-
-TEST_F(RunFolder, AFileWhereTheFolderShouldBe) {
-  std::ofstream(folder_.string()) << "x";
-  EXPECT_THROW(begin(load_method(kConfig + "straight.yaml")), InvalidInput);
 }
 
 }  // namespace

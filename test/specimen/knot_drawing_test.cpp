@@ -102,35 +102,6 @@ TEST(KnotDrawing, FindsALandmarkAlongItsStrandAtAnyLengthOfEdges) {
   }
 }
 
-TEST(KnotDrawing, HasEdgesOfTheLengthThatIsAskedFor) {
-  const Centreline rod = draw(hooks(), kSize);
-  for (Eigen::Index i = 0; i + 1 < rod.points.cols(); ++i) {
-    if (i == rod.cuts[0]) continue;
-    EXPECT_NEAR((rod.points.col(i + 1) - rod.points.col(i)).norm(), kSize.edge_length, 3e-4);
-  }
-}
-
-TEST(KnotDrawing, IsRefusedWhereStrandsOverlap) {
-  KnotDrawing knot = hooks();
-  for (Vec3& point : knot.strands[1].points) point[1] -= 3.0;
-  try {
-    draw(knot, kSize);
-    FAIL();
-  } catch (const InvalidInput& refused) {
-    EXPECT_THAT(refused.what(), HasSubstr("specimen.knot hooks: strands overlap at "));
-  }
-}
-
-TEST(KnotDrawing, HasFinerEdgesByItsRefinement) {
-  const KnotDrawing knot = hooks();
-  for (const double refinement : {0.5, 1.0, 3.0}) {
-    DrawnSize size = kSize;
-    size.refinement = refinement;
-    EXPECT_NEAR((draw(knot, size).points.col(1) - draw(knot, size).points.col(0)).norm(),
-                kSize.edge_length / refinement, 3e-4);
-  }
-}
-
 TEST(KnotDrawing, HasTheSlackOfItsStrandsBetweenTheGrips) {
   KnotDrawing knot = hooks();
   EXPECT_EQ(slack_between_grips(knot), 0.0) << "each strand has a free end";
@@ -160,20 +131,6 @@ TEST(KnotDrawing, RopesOfTwoRadiiMayComeAsNearAsBothAreThick) {
     } catch (const InvalidInput& refused) {
       EXPECT_THAT(refused.what(), HasSubstr("must be at least both radii apart, 1.5 radii"));
     }
-  }
-}
-
-TEST(KnotDrawing, IsRefusedWhereAStrandBendsMoreSharplyThanTheRodIsThick) {
-  KnotDrawing knot;
-  knot.name = "hairpin";
-  knot.strands = {{{"lower", "upper"}, {{0, 0, -8}, {0, 0, -4}, {0, 0, 3}, {0, 0.2, 0}, {0, 0.2, 5}, {0, 0.2, 9}}}};
-  knot.lower = {"lower"};
-  knot.upper = {"upper"};
-  try {
-    draw(knot, kSize);
-    FAIL();
-  } catch (const InvalidInput& refused) {
-    EXPECT_THAT(refused.what(), HasSubstr("specimen.knot hairpin: a strand bends with a radius of "));
   }
 }
 
