@@ -1,4 +1,4 @@
-"""usage: python3 -m knot_utm.knot_picture PNG < KNOT.json
+"""usage: python3 -m knot_utm.knot_picture KNOT.json PNG
 
 Draws a knot from the front and from the side: what tensile_test --draw shows beside the facts. The core says in JSON what there is, in
 radii of the rod: "title", "ropes" with the "points" of each and the names of its two "ends", and "posts" with "centre", "axis",
@@ -86,6 +86,8 @@ def picture(knot):
 
 if __name__ == "__main__":
     try:
-        picture(json.loads(sys.stdin.read(), strict=False)).savefig(sys.argv[1], bbox_inches="tight", dpi=100, metadata={"Software": None})
+        with open(sys.argv[1], encoding="utf-8") as file:
+            figure = picture(json.load(file, strict=False))
+        figure.savefig(sys.argv[2], bbox_inches="tight", dpi=100, metadata={"Software": None})
     except OSError as error:
         sys.exit(f"tensile_test: {error}")

@@ -59,13 +59,11 @@ int draw_knot(const std::string& knot, const char* option, const std::string& fo
   const std::string file = (std::filesystem::path(folder) / (sheet.name + ".png")).string();
   require_new_file(option, file, {knot}, overwrite, "\x89PNG");
   if (!folder.empty()) make_run_folder(folder);
-  std::vector<std::string> python = python_module("knot_picture");
-  python.push_back(file);
-  std::signal(SIGPIPE, SIG_IGN);  // it then says itself why it reads no more
-  std::FILE* pipe = popen(command_line(python).c_str(), "w");
-  if (pipe == nullptr) throw std::runtime_error("cannot run python3");
-  std::fputs(sheet.shape.c_str(), pipe);
-  if (pclose(pipe) != 0) return kFailed;
+  const std::string shape = file + ".json";
+  write_whole(shape, sheet.shape);
+  const bool drawn = run_python("knot_utm.knot_picture", {shape, file}) == 0;
+  std::filesystem::remove(shape);
+  if (!drawn) return kFailed;
   std::printf("%spicture: %s\n", sheet.facts.c_str(), file.c_str());
   return kDone;
 }
