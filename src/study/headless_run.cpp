@@ -3,6 +3,8 @@
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
@@ -13,7 +15,6 @@
 #include "knot_utm/run/run_writer.hpp"
 #include "knot_utm/run/samples.hpp"
 #include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/study/beginning.hpp"
 #include "knot_utm/study/tied_specimen.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
@@ -54,8 +55,8 @@ struct Test {
   std::string folder;
   TestingMachine& bench;
   ProgramRunner& program;
-  const std::optional<Beginning>& beginning;  ///< what comes before is that one's
-  std::optional<TiedSpecimen>& ties;          ///< what it ties, where that is to be kept
+  const std::vector<Record>& before;  ///< of the specimen that an earlier test has tied
+  std::optional<TiedSpecimen>& ties;  ///< what it ties, where that is to be kept
 };
 
 void tell_warnings(const MadeResults& made, const HeadlessOptions& options) {
@@ -72,7 +73,8 @@ HeadlessOutcome run_to_end(const Test& test) {
     files.add(record);
     early.add(record);
   };
-  const WallClock clock(test.beginning ? test.beginning->replay(keep) : 0.0);
+  for (const Record& record : test.before) keep(record);
+  const WallClock clock(test.before.empty() ? 0.0 : test.before.back().wall_time);
   early.end(test.program);  // what comes before may have the whole plateau
   Record record;
   run_test(
@@ -128,18 +130,20 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   ProgramRunner program = make_program(method, bench.longest_step());
   require_readings(method, options.readings);
   require_no_record_in(options.folder, method);  // before anything is written
-  std::optional<Beginning> beginning;
   std::optional<TiedSpecimen> ties = tied_by(method, options);
-  if (ties) beginning = ties->restore(method, bench, program);
-  if (beginning) ties.reset();
+  std::vector<Record> before;
+  if (std::optional<std::vector<Record>> restored = ties ? ties->restore(method, bench, program) : std::nullopt) {
+    before = std::move(*restored);
+    ties.reset();
+  }
   const ClaimedFolder claimed = options.claim();
   begin_run_folder(claimed.path(), method, words_of(options.readings));
   // The shape that the last run left in this folder is there no longer, but for its copy.
   if (knot_of(method.specimen).has("file") && !std::filesystem::exists(method.specimen.file))
     method.specimen.file = (std::filesystem::path(claimed.path()) / "specimen.csv").string();
-  const Test test{method, options, claimed.path(), bench, program, beginning, ties};
+  const Test test{method, options, claimed.path(), bench, program, before, ties};
   for (const std::string& warning : foreseen_warnings(method)) options.tell(warning);
-  if (beginning && options.remark)
+  if (!before.empty() && options.remark)
     options.remark("the tied specimen was taken from the cache (--no-cache ties it anew)");
   try {
     return run_to_end(test);

@@ -5,7 +5,6 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <system_error>
 
 #include "knot_utm/numeric/archive.hpp"
@@ -38,6 +37,22 @@ YAML::Node physical_values(const Method& method) {
   // What a knot's file says, whatever it is called.
   if (method.specimen.drawing) values["specimen"]["knot"] = method.specimen.drawing->text;
   return values;
+}
+
+std::string bytes_of(Command command) {
+  Archive archive("command");
+  command.state(archive);
+  return archive.bytes();
+}
+
+/// The program sees all answers without any physics. Whether it asks for them; one that does not is then unusable.
+bool asks_for(const std::vector<Record>& records, ProgramRunner& program) {
+  for (const Record& record : records) {
+    if (bytes_of(record.command) != bytes_of(program.last())) return false;
+    program.next(record.answer);
+    if (program.ended()) return false;
+  }
+  return true;
 }
 
 /// The program that computes: its version and, for those who change it, when it was linked.
@@ -79,8 +94,8 @@ std::optional<TiedSpecimen> TiedSpecimen::of(const Method& method, bool shapes, 
   return TiedSpecimen((run.parent_path() / ".tied" / name).string(), *step, std::move(made_from));
 }
 
-std::optional<Beginning> TiedSpecimen::restore(const Method& method, TestingMachine& bench,
-                                               ProgramRunner& program) const {
+std::optional<std::vector<Record>> TiedSpecimen::restore(const Method& method, TestingMachine& bench,
+                                                         ProgramRunner& program) const {
   std::error_code error;
   // Opening anything else than a file could wait for ever.
   if (!fs::is_regular_file(file_, error)) return std::nullopt;
@@ -90,18 +105,15 @@ std::optional<Beginning> TiedSpecimen::restore(const Method& method, TestingMach
     std::string made_from;
     archive(made_from);
     archive.require(made_from == made_from_, "origin", "another specimen");
-    const auto records = std::make_shared<std::vector<Record>>();
-    archive.list(*records);
-    Beginning beginning([records](const Beginning::Visitor& visit) {
-      for (const Record& record : *records) visit(record);
-    });
+    std::vector<Record> records;
+    archive.list(records);
     ProgramRunner followed = program;
-    if (!beginning.follow(followed) || followed.last().step != step_) return std::nullopt;
+    if (!asks_for(records, followed) || followed.last().step != step_) return std::nullopt;
     begun = true;
     archive(bench);
     archive.end();
     program = followed;
-    return beginning;
+    return records;
   } catch (const std::exception&) {
     if (begun) bench = TestingMachine(method.specimen, method.material, method.machine, method.physics);
     return std::nullopt;

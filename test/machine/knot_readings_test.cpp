@@ -73,21 +73,6 @@ TEST(KnotReadings, OfATeardropThatTouchesWhereItCrossesIsItsArcAndTwoTangents) {
   }
 }
 
-TEST(KnotReadings, OfATeardropThatDoesNotTouchIsUnknown) {
-  const Points points = Teardrop{2.11 * kRadius}.points();
-  EXPECT_TRUE(std::isnan(read(points, {{kLoop, 60, 60}})[0]));
-}
-
-TEST(KnotReadings, OfALandmarkThatTouchesIsNoLength) {
-  const Teardrop drop{2.0 * kRadius};
-  const Points points = drop.points();
-  Eigen::Index crossing = 0;
-  points.leftCols(Teardrop::kOnLine).colwise().squaredNorm().minCoeff(&crossing);
-  ASSERT_LT(points.col(crossing).norm(), drop.touches_before_crossing());
-  const int node = static_cast<int>(crossing);
-  EXPECT_EQ(read(points, {{kLoop, node, node}})[0], 0.0);
-}
-
 TEST(KnotReadings, BetweenIsFromTheEndOfOneLoopToTheBeginOfTheOther) {
   const Teardrop drop{2.0 * kRadius};
   const Points points = drop.points();

@@ -9,7 +9,6 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/run/record.hpp"
-#include "knot_utm/study/beginning.hpp"
 
 namespace knot_utm {
 
@@ -41,9 +40,11 @@ class TiedSpecimen {
   int step() const { return step_; }  ///< the step after tying
   const std::string& file() const { return file_; }
 
-  /// Brings machine and program, which have just been made from the method, to the step after tying. Empty, and they
-  /// are as they were, where the file does not have the specimen, or has it damaged.
-  std::optional<Beginning> restore(const Method& method, TestingMachine& bench, ProgramRunner& program) const;
+  /// Brings machine and program, which have just been made from the method, to the step after tying, and gives the
+  /// records up to there: a test that goes on from them has the same bytes as one from the start, since its program has
+  /// asked for all of them, and the state of the machine is whole. Empty, and machine and program are as they were,
+  /// where the file does not have the specimen, or has it damaged.
+  std::optional<std::vector<Record>> restore(const Method& method, TestingMachine& bench, ProgramRunner& program) const;
 
   /// Of a test that ties it: to be called with every record until it is kept.
   void add(const Record& record);
