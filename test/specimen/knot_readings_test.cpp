@@ -1,6 +1,6 @@
 // What is read of a knot: loops and braids of shapes that are known in closed form, and of others by brute force.
 
-#include "knot_utm/machine/knot_readings.hpp"
+#include "knot_utm/specimen/knot_readings.hpp"
 
 #include <gtest/gtest.h>
 
