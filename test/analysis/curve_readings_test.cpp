@@ -51,12 +51,6 @@ TEST(CurveReadings, TellsHowTheStiffnessChangesOverThePartThatItIsReadFrom) {
   EXPECT_DOUBLE_EQ(*readings.locked_stiffness, readings.locked->stiffness);
 }
 
-TEST(CurveReadings, ABreakawayIsNoLock) {
-  const auto force = [](double s) { return sliding(s) + 30.0 * std::exp(-s / 2e-3); };
-  EXPECT_NEAR(*curve_readings(pull(force)).lock_extension_by_load, 0.08 + 6.0 / 2e5, 1e-6);
-  EXPECT_FALSE(curve_readings(pull(force, 0.07, 700)).lock_extension_by_load);
-}
-
 TEST(CurveReadings, BesideTheMeanStandWhatItIsTheMeanOf) {
   const CurveReadings readings = curve_readings(pull([](double s) { return sliding(s) + 50.0 * s; }));
   const double lock = *readings.lock_extension_by_load;
@@ -146,22 +140,6 @@ TEST(CurveReadings, AKnotThatTakesInRodAtOnceJumpedOpen) {
       << "green VPS that slips as it is stretched to 1.25 of its length";
 }
 
-/// The knot's rod is counted to the tail's end, which comes nearer and goes away again.
-TEST(CurveReadings, ATailThatWhipsPastIsNoJump) {
-  const auto whips = [](double until) {
-    Pull out = with_knots(pull(sliding), 0.0);
-    HiddenRod hidden;
-    for (PullPoint& point : out) {
-      if (point.extension > 0.03) point.force *= 0.5;
-      const bool near = point.extension > 0.03 && point.extension < until;
-      hidden.push_back({0.08, 0.08 + (near ? 0.0225 : 0.0)});
-    }
-    return curve_readings(out, hidden);
-  };
-  EXPECT_FALSE(whips(0.032).jump_force);
-  EXPECT_TRUE(whips(1.0).jump_force) << "it stays";
-}
-
 TEST(CurveReadings, AreJudgedByTheForceThatTheRodBears) {
   const Pull borne = with_knots(pull(sliding), 0.0);
   const CurveReadings a = curve_readings(borne);
@@ -227,11 +205,6 @@ TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {
   EXPECT_NEAR(*a.plateau_force_sd, *b.plateau_force_sd, 1e-6);
   const CurveReadings line = curve_readings({{0.0, 0.0, Sample::kNone, 0.0}, {1.0, 0.1, Sample::kNone, 10.0}});
   EXPECT_FALSE(line.plateau_force || line.lock_extension_by_load);
-}
-
-TEST(CurveReadings, WhereTheSearchForALockCreepsThereIsNone) {
-  // Twice the mean of s^1.1711 over its plateau is reached where that ends: the search hardly goes back.
-  EXPECT_FALSE(curve_readings(pull([](double s) { return std::pow(s, 1.1712); }, 1.0, 20000)).lock_extension_by_load);
 }
 
 /// Also where falls are equal, and where points are further apart than a fall may be.

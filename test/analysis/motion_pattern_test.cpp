@@ -113,20 +113,6 @@ TEST(MotionPattern, UntanglingWhereAKnotJumpsOpenHoweverLongIsPulled) {
   EXPECT_EQ(on_rollers(jumps(1.2, 0.06), EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);
 }
 
-/// An arch that is drawn straight, or a frictionless overhand: its load may be next to nothing for long.
-TEST(MotionPattern, ALoadThatIsGoneIsNoUntanglingWhileTheTopologyIsTheSame) {
-  std::vector<Sample> samples = Curve().samples();
-  for (Sample& sample : samples) {
-    sample.knot_distance = Sample::kNone;
-    sample.excess_length = PerKnot();
-    if (sample.extension > 0.02) sample.force_upper = sample.force_lower = sample.load = 1e-4;
-  }
-  const Results results = on_rollers(samples, EndedBy::kExtension);
-  EXPECT_EQ(results.motion_pattern, MotionPattern::kNone);
-  EXPECT_FALSE(results.untangled_at);
-  EXPECT_EQ(results.failure_mode, "");
-}
-
 TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLostAndTheLoadIsGone) {
   std::vector<Sample> samples = Curve().samples();
   std::optional<double> lost_at;

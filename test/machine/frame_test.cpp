@@ -20,6 +20,13 @@ TEST(Frame, ARigidOneTakesTheGripAlongToTheBit) {
   EXPECT_EQ(frame.grip_after(0.1, 1.0 / 3.0, 1e4, kLength, 0.1, 0.0), 1.0 / 3.0);
 }
 
+TEST(Frame, WithoutAForceTheGripComesToTheCrosshead) {
+  const Frame frame(1e6, nylon(), 1, 0.0);
+  double grip = 0.0;
+  for (int i = 0; i < 200; ++i) grip = frame.grip_after(grip, 0.01, 0.0, kLength, 0.1, 0.0);
+  EXPECT_DOUBLE_EQ(grip, 0.01);
+}
+
 /// Of a spring no stiffer than what the frame counts on, whatever the stiffness of the frame and the length of steps.
 TEST(Frame, TheGripComesToWhereForcesAreInBalanceFromOneSide) {
   for (const double stiffness : {1e-3 * kRod, kRod, 1e3 * kRod}) {
@@ -73,6 +80,17 @@ TEST(Frame, OnASlackSpecimenThatTightensTheGripStaysAtTheBalanceOfForces) {
     EXPECT_GT(grip, kTightens);
     EXPECT_GT(refused, 0);
   }
+}
+
+/// A rod that snaps leaves the grip no time to jump.
+TEST(Frame, InShortStepsTheGripMovesLittle) {
+  const Frame frame(1e5, nylon(), 1, 0.0);
+  const double at_rest = 0.05;  // 5 kN
+  const double wide = frame.grip_after(0.0, at_rest, 0.0, kLength, 1e-3, 0.0),
+               narrow = frame.grip_after(0.0, at_rest, 0.0, kLength, 1e-6, 0.0);
+  EXPECT_LT(narrow, 1e-2 * wide);
+  const double impedance = std::sqrt(nylon().stretching_stiffness * nylon().density * M_PI) * nylon().radius;
+  EXPECT_LT(narrow / 1e-6, 1e5 * at_rest / impedance) << "no faster than a wave in the rod lets it";
 }
 
 /// What lies around a roller is a mass on two strands that take its waves along. F of each step is that of the motion

@@ -228,6 +228,18 @@ TEST(LedSteps, ADropThatIsABreakEndsIt) {
   EXPECT_EQ(cycles.ended_by(), EndedBy::kProgram);
 }
 
+TEST(LedSteps, AReturnNeverMovesOutwards) {
+  ReturnStep home;
+  home.extension = 0.02;
+  ProgramRunner program({BalanceStep(), pull(0.01), home}, 3.0, 0.1, {});
+  const Answered result = run(FakeBench(), program);
+  EXPECT_NEAR(result.samples.back().displacement, 0.01, 0.0033 * program.period());
+  for (const Command& command : result.commands)
+    if (command.phase == Phase::kReturn) {
+      EXPECT_EQ(command.velocity, 0.0);
+    }
+}
+
 TEST(LedSteps, GripsThatMeetEndIt) {
   auto home = step<ReturnStep>(0.01);
   home.extension = -1.0;
@@ -237,6 +249,17 @@ TEST(LedSteps, GripsThatMeetEndIt) {
   EXPECT_NEAR(run(FakeBench(), program).samples.back().end_to_end, 0.1, 0.01 * program.period());
   EXPECT_EQ(program.ended_by(), EndedBy::kTravel);
   EXPECT_THAT(program.reason(), HasSubstr("the grips meet"));
+}
+
+TEST(LedSteps, UnloadingAsProgrammedIsNoBreak) {
+  auto hold = step<HoldStep>(0.01, 5.0);
+  hold.hold_load = true;
+  hold.held_load = 2.0;
+  ProgramRunner::Limits limits;
+  limits.breaks.fraction_of_peak = 0.5;
+  ProgramRunner program({pull(0.01), hold}, 3.0, 0.1, limits);
+  EXPECT_NEAR(run(FakeBench(), program).samples.back().load, 2.0, 1e-9);
+  EXPECT_EQ(program.ended_by(), EndedBy::kProgram) << program.reason();
 }
 
 /// A frame of which half of every way remains.

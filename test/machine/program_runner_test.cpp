@@ -74,6 +74,14 @@ TEST(ProgramRunner, CrossheadMovesOnlyInMountPreloadAndPull) {
   EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
 }
 
+TEST(ProgramRunner, PullEndsAtTheFirstSampleAtOrBeyondItsExtension) {
+  ProgramRunner program({BalanceStep(), pull(0.01)}, 3.0, 1.0, {});
+  const Answered result = run(FakeBench(), program);
+  const std::size_t n = result.samples.size();
+  EXPECT_GE(result.samples[n - 1].extension, 0.01);
+  EXPECT_LT(result.samples[n - 2].extension, 0.01);
+}
+
 TEST(ProgramRunner, HoldLastsItsDurationInWholePeriods) {
   for (const auto& [duration, commands] : {std::pair{2.0, 24}, std::pair{2.01, 25}, std::pair{0.001, 1}}) {
     ProgramRunner program({step<HoldStep>(0.0033, duration)}, 3.0, 0.1, {});
@@ -186,6 +194,27 @@ TEST(ProgramRunner, AKnotThatComesUndoneBeforeItIsPulledEndsTheTest) {
   }
 }
 
+TEST(ProgramRunner, WhatComesUndoneWhilePulledIsPulledOn) {
+  FakeBench bench;
+  bench.undone_from = 2.5;
+  ProgramRunner program({TieStep(), step<ReleaseStep>(0.0033, 1.0), MountStep(), pull(0.01)}, 3.0, 0.1, {});
+  run(bench, program);
+  EXPECT_EQ(program.ended_by(), EndedBy::kExtension);
+  EXPECT_FALSE(program.failed());
+}
+
+/// So that one may watch how the knot comes open.
+TEST(ProgramRunner, AProgramThatOnlyTiesGoesOnToItsEnd) {
+  FakeBench bench;
+  bench.undone_from = 0.3;
+  ProgramRunner program({TieStep(), step<ReleaseStep>(0.0033, 1.0)}, 3.0, 0.1, {});
+  const Answered result = run(bench, program);
+  EXPECT_GT(result.samples.back().time, 1.4);
+  EXPECT_EQ(program.ended_by(), EndedBy::kUntangled);
+  EXPECT_EQ(program.reason(), "");
+  EXPECT_FALSE(program.failed());
+}
+
 TEST(ProgramRunner, OverloadCountsTheTrueForceInBothDirections) {
   ProgramRunner::Limits limits;
   limits.load = 20.0;
@@ -217,6 +246,20 @@ TEST(ProgramRunner, OperatorStopsAndBalances) {
   EXPECT_EQ(after.phase, Phase::kDone);
   EXPECT_EQ(after.sequence, 3u);
   EXPECT_EQ(after.velocity, 0.0);
+}
+
+TEST(ProgramRunner, APlateauThatIsSettledEndsTheTestAndFailsNone) {
+  ProgramRunner program({pull(0.1), step<HoldStep>(0.0033, 2.0)}, 3.0, 0.1, {});
+  Sample sample;
+  program.next(sample);
+  program.plateau_settled("at 0.05 m");
+  EXPECT_EQ(program.ended_by(), EndedBy::kPlateau);
+  EXPECT_STREQ(ended_by_name(program.ended_by()), "plateau");
+  EXPECT_EQ(ended_by_named("plateau"), EndedBy::kPlateau);
+  EXPECT_EQ(program.reason(), "at 0.05 m");
+  EXPECT_FALSE(program.failed());
+  program.stop();
+  EXPECT_EQ(program.ended_by(), EndedBy::kPlateau) << "it had ended";
 }
 
 }  // namespace

@@ -141,6 +141,19 @@ TEST(TestingMachine, OnACompliantFrameAStraightRodIsOneOfTwoSpringsInSeries) {
   }
 }
 
+TEST(TestingMachine, OnACompliantFrameBalanceZeroesBothExtensions) {
+  TestingMachine machine = bench(straight_rod(), GripKind::kClamps, 1e5);
+  machine.respond(Command{});
+  const Sample before = machine.respond(pull(1, 0.1, 3.3e-4));
+  Command command = pull(2, 0.2, 6.6e-4);
+  command.balance = true;
+  const Sample sample = machine.respond(command);
+  EXPECT_DOUBLE_EQ(sample.raw_extension, 3.3e-4);
+  EXPECT_NEAR(sample.extension, sample.end_to_end - before.end_to_end, 1e-16);
+  EXPECT_LT(sample.extension, sample.raw_extension);
+  EXPECT_TRUE(std::isnan(bench(straight_rod()).respond(Command{}).raw_extension));
+}
+
 TEST(TestingMachine, HoldsAShapeFromAFileAtItsFirstAndLastEdge) {
   const std::string name = ::testing::TempDir() + "knot_utm_bench_shape.csv";
   std::ofstream(name) << "x,y,z\n0,0,0\n0,0,0.03\n0.01,0,0.05\n0,0,0.07\n0,0,0.1\n";

@@ -50,12 +50,6 @@ TEST_F(ClaimedFolderOf, TwoRunsAtOnceAreTwoFolders) {
   EXPECT_THROW(ClaimedFolder{in("run")}, InvalidInput);
 }
 
-TEST(NumberedFolder, StandsBesideTheFirst) {
-  EXPECT_EQ(numbered_folder("out/nylon", 1), "out/nylon");
-  EXPECT_EQ(numbered_folder("out/nylon//", 3), "out/nylon-3");
-  EXPECT_EQ(numbered_folder(".", 2), fs::current_path().string() + "-2");
-}
-
 /// The commands, as a user has them.
 class KeptRun : public ClaimedFolderOf {
  protected:

@@ -119,19 +119,6 @@ TEST_F(RunFolder, KeepsTheKnotThatAUsersFileDescribes) {
   EXPECT_EQ(read_whole((folder_ / "method.yaml").string()), method);
 }
 
-TEST_F(RunFolder, HoldsTheVerdictOnItsSpecification) {
-  const auto made = [this](const std::vector<std::string>& overrides) {
-    run(load_method(kConfig + "straight.yaml", overrides));
-    return result();
-  };
-  EXPECT_TRUE(made({})["specification_passed"].IsNull());
-  EXPECT_TRUE(made({"specification.peak_force.min=0"})["specification_passed"].as<bool>());
-  const YAML::Node failed = made({"specification={steps: {min: 1}, untangled_at: {max: 1}}"});
-  EXPECT_FALSE(failed["specification_passed"].as<bool>());
-  ASSERT_EQ(failed["specification_failed"].size(), 1u);
-  EXPECT_EQ(failed["specification_failed"][0].as<std::string>(), "untangled_at has no value in this test");
-}
-
 TEST_F(RunFolder, ARunThatGaveUpKeepsWhatItHadAndTheReason) {
   FakeBench bench;
   bench.fail_time = 8.0;
