@@ -67,7 +67,7 @@ def draw(axes, knot, caption, right, near):
             taken.append(place)
             axes.text(*place, name, color=COLOURS[number % len(COLOURS)], va="center",
                       ha="left" if away[0] > 0.3 else "right" if away[0] < -0.3 else "center")
-    axes.set_title(caption, color="#666666", fontsize="medium", loc="left", y=-0.02, va="top")
+    axes.text(axes.get_xlim()[0], axes.get_ylim()[0] - 9, caption, color="#666666", va="top")
     axes.set_axis_off()
 
 
