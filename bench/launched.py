@@ -86,7 +86,7 @@ class Launch:
         self.uri = 'http://localhost:%d' % self.port
         self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_HOME=os.path.join(self.folder, 'log'),
                                 ROS_LOG_DIR=os.path.join(self.folder, 'log'),
-                                KNOT_UTM_SKIP_BUILD='1', KNOT_UTM_CACHE_LIMIT='0', **(environment or {}))
+                                KNOT_UTM_SKIP_BUILD='1', KNOT_UTM_NO_CACHE='1', **(environment or {}))
         command = command or ['roslaunch', 'knot_utm', 'tighten.launch']
         with open(os.path.join(self.folder, 'console'), 'wb') as console:
             self.process = subprocess.Popen(

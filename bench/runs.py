@@ -50,7 +50,7 @@ class Runner:
         # Relative to the root, so that no message names a folder of this machine.
         command = [os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root), *words]
         self.say(f"{name}: {os.path.basename(self.tool)} {method} {shlex.join(words)}")
-        environment = {**os.environ, "KNOT_UTM_CACHE_LIMIT": "0"}  # takes up no tied specimen: each costs what it computes
+        environment = {**os.environ, "KNOT_UTM_NO_CACHE": "1"}  # takes up no tied specimen: each costs what it computes
         process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True, env=environment,
                                    preexec_fn=lambda: confine(self.core, cpu_limit))
         with process.stderr as stream:

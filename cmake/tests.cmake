@@ -2,8 +2,8 @@ enable_testing()
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
-# No test takes up what another one has left in a cache: ctest runs this file before any test.
-file(WRITE ${PROJECT_BINARY_DIR}/without_cache.cmake "set(ENV{KNOT_UTM_CACHE_LIMIT} 0)\n")
+# No test restores a specimen that another one has tied: ctest runs this file before any test.
+file(WRITE ${PROJECT_BINARY_DIR}/without_cache.cmake "set(ENV{KNOT_UTM_NO_CACHE} 1)\n")
 set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${PROJECT_BINARY_DIR}/without_cache.cmake)
 
 # What the tests of the core are linked with.

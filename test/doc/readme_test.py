@@ -17,7 +17,7 @@ from PIL import Image
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
 TOOLS = os.environ["KNOT_UTM_TOOLS_DIR"]
-os.environ["KNOT_UTM_CACHE_LIMIT"] = "0"  # a test takes up nothing that another one has left
+os.environ["KNOT_UTM_NO_CACHE"] = "1"  # a test takes up nothing that another one has left
 IMAGES = os.path.join(ROOT, "doc/images")
 UNITS = {"N": 1.0, "mm": 1e-3, "kN/m": 1e3}
 

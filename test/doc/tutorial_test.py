@@ -35,7 +35,7 @@ class Tutorial(unittest.TestCase):
                 script.write(f'#!/bin/sh\nprintf %s "$1" >"{opened}"\n')
             os.chmod(browser, 0o755)
             # A desktop would open the page in its own way, and git trusts no folder of another user.
-            environment = {**os.environ, "KNOT_UTM": ROOT, "KNOT_UTM_SKIP_BUILD": "1", "KNOT_UTM_CACHE_LIMIT": "0",
+            environment = {**os.environ, "KNOT_UTM": ROOT, "KNOT_UTM_SKIP_BUILD": "1", "KNOT_UTM_NO_CACHE": "1",
                            "BROWSER": browser, "GIT_CONFIG_COUNT": "1", "GIT_CONFIG_KEY_0": "safe.directory", "GIT_CONFIG_VALUE_0": "*"}
             for name in ("DISPLAY", "WAYLAND_DISPLAY", "XDG_CURRENT_DESKTOP"):
                 environment.pop(name, None)

@@ -86,7 +86,6 @@ const Wrong kWrong[] = {
     {"specification.ended_by.min=3", "specification.ended_by"},
     {"specification.peak_force={}", "specification.peak_force is missing"},
     {"specification.peak_force={min: 3, max: 2}", "specification.peak_force is {min: 3, max: 2}"},
-    {"analysis.margin=maybe", "analysis.margin"},
     {"ends.break_at_fraction_of_peak=40", "ends.break_at_fraction_of_peak is 40"},
     // Values that do not go together
     {"specimen.edge_length=0.0064", "specimen.edge_length is 0.0064"},

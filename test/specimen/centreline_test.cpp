@@ -8,8 +8,6 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <optional>
-#include <regex>
 #include <string>
 
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -86,23 +84,6 @@ TEST(FishermanLoop, IsFineInItsKnotsAndCoarseOnTheFarSide) {
     EXPECT_NEAR(edge_at(on_tail), shape.edge_length, 0.05 * shape.edge_length);
   }
   EXPECT_NEAR(edge_at(0.5 * (line.upper_apex + line.lower_apex)), 1.5 * shape.edge_length, 0.05 * shape.edge_length);
-}
-
-/// A coil presses as hard on the strand that it holds as that does on the coil, and slides along it.
-TEST(FishermanLoop, IsFineAlongBothStrandsFromOneKnotThroughTheOther) {
-  FishermanShape shape;
-  shape.refinement = 2.0;
-  const Centreline line = fisherman_loop(shape);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double own = line.knots[k].coil_middle, held = line.knots[1 - k].threaded;
-    const double beyond = held + std::copysign(3.0 * shape.radius, held - own);
-    const int first = line.nearest_node(std::min(own, beyond)), last = line.nearest_node(std::max(own, beyond));
-    ASSERT_GT(last - first, 60);
-    for (int node = first; node < last; ++node) {
-      const double edge = (line.points.col(node + 1) - line.points.col(node)).norm();
-      ASSERT_NEAR(edge, 0.5 * shape.edge_length, 0.05 * shape.edge_length) << node;
-    }
-  }
 }
 
 TEST(FishermanLoop, KeepsItsStrandsApartInEqualEdges) {
@@ -202,21 +183,6 @@ TEST(FishermanLoop, RefusesWhatDoesNotFitTheMachine) {
   }
 }
 
-TEST(FishermanLoop, IsRefusedInTheDistanceThatWasAskedFor) {
-  FishermanShape shape;
-  shape.outward_shift = 0.05;
-  shape.knot_distance = 0.06;
-  try {
-    fisherman_loop(shape);
-    ADD_FAILURE() << "accepted";
-  } catch (const InvalidInput& error) {
-    EXPECT_EQ(error.key, "specimen.knot_distance");
-    EXPECT_EQ(error.value, "0.06");
-    shape.knot_distance = std::stod(error.allowed.substr(std::string("at least ").size())) + 1e-4;  // it is rounded
-  }
-  EXPECT_EQ(refused_key(shape), "");
-}
-
 TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   for (int turns = 1; turns <= 4; ++turns) {
     for (const double excess : {0.65, 0.9}) {
@@ -232,41 +198,6 @@ TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
       EXPECT_GT(nearest_places(line.points, 1.5 * M_PI * shape.radius).distance, 2.1 * shape.radius);
     }
   }
-}
-
-TEST(Overhand, SaysWhichEndToEndDistancesFitItsLength) {
-  const auto refusal = [](double length, double end_to_end) -> std::optional<InvalidInput> {
-    OverhandShape shape;
-    shape.length = length;
-    shape.end_to_end = end_to_end;
-    try {
-      overhand(shape);
-    } catch (const InvalidInput& invalid) {
-      return invalid;
-    }
-    return std::nullopt;
-  };
-  // What one takes from the text is right: a rod may be just longer than the shortest, and the ends of the range fit.
-  const auto short_rod = refusal(0.1, 0.05);
-  ASSERT_TRUE(short_rod);
-  EXPECT_EQ(short_rod->key, "specimen.length");
-  std::smatch least, ends;
-  ASSERT_TRUE(
-      std::regex_match(short_rod->allowed, least, std::regex("more than ([^ ]*) m, which the smallest knot .*")));
-  const double shortest = std::stod(least.str(1));
-  EXPECT_EQ(refusal(0.99 * shortest, 0.05)->key, "specimen.length");
-  const std::regex range("([^ ]*) to ([^ ]*) m, for a knot in a rod of specimen.length, .* m");
-  for (const double length : {1.003 * shortest, 1.0})
-    for (const double wrong : {-0.2, 0.01, 0.99 * length}) {
-      const auto invalid = refusal(length, wrong);
-      ASSERT_TRUE(invalid) << length << ' ' << wrong;
-      EXPECT_EQ(invalid->key, "specimen.end_to_end");
-      ASSERT_TRUE(std::regex_match(invalid->allowed, ends, range)) << invalid->what();
-      const double low = std::stod(ends.str(1)), high = std::stod(ends.str(2));
-      EXPECT_LT(low, high);
-      for (const double fits : {low, 0.5 * (low + high), high}) EXPECT_FALSE(refusal(length, fits)) << invalid->what();
-      for (const double outside : {low - 0.002, high + 0.002}) EXPECT_TRUE(refusal(length, outside)) << invalid->what();
-    }
 }
 
 TEST(FromPoints, ResamplesACircleAndClosesIt) {
@@ -357,22 +288,6 @@ std::string refusal(const Points& points, double radius, double edge_length, boo
     return bad.what();
   }
   return {};
-}
-
-TEST(FromPoints, SaysWhereStrandsLieThroughEachOther) {
-  const Points crossing = two_strands_that_cross();
-  EXPECT_EQ(refusal(crossing, 3e-3, 3e-3).rfind("specimen.file shape.csv: strands overlap at ", 0), 0U);
-  double apart = 1.0, first = 0.0, second = 0.0;
-  const std::string said = refusal(crossing, 3e-3, 3e-3);
-  const std::size_t here = said.find("strands overlap ");
-  ASSERT_NE(here, std::string::npos) << said;
-  ASSERT_EQ(std::sscanf(said.c_str() + here, "strands overlap at %lf m and %lf m along the rod, where they are %lf m",
-                        &first, &second, &apart),
-            3);
-  EXPECT_LT(apart, 1e-9);
-  // Edges cut the corners.
-  EXPECT_NEAR(first, 0.15, 3e-3);
-  EXPECT_NEAR(second, 0.3 + std::hypot(0.05, 0.1), 1e-2);
 }
 
 /// A strand that lies half around a straight one. Between its nodes the polyline is nearer than a

@@ -120,24 +120,5 @@ TEST(RestShape, ATwistedFilamentThatIsFreeIsAPlaneCircleAgain) {
   EXPECT_LT((normal.transpose() * t).cwiseAbs().maxCoeff(), 0.5 * between * kTurn / kEdges + 1e-5) << "plane";
 }
 
-TEST(RestShape, WithoutEitherThereAreNoFrames) {
-  Filament scene;
-  give_rest_shape(scene.specimen, &scene.rod, &scene.state);
-  EXPECT_EQ(scene.state.twist.size(), 0);
-  EXPECT_EQ(scene.rod.natural_twist.size(), 0);
-}
-
-TEST(RestShape, ADirectionAlongTheFirstEdgeIsRefused) {
-  Filament scene;
-  scene.specimen.natural_curvature = 1.0;
-  scene.specimen.natural_towards = Axis::kX;
-  try {
-    give_rest_shape(scene.specimen, &scene.rod, &scene.state);
-    FAIL();
-  } catch (const InvalidInput& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("specimen.natural_towards is x, but must be a direction across"));
-  }
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -82,13 +82,6 @@ TEST_F(OfThePlateau, ItsSamplesMakeTheSameResultAgainAndWhatElseIsAskedFor) {
   EXPECT_EQ(further, 1);
 }
 
-TEST_F(OfThePlateau, ATestThatHasNoneGoesOnToItsOwnEnd) {
-  const Method method = shipped("tighten", {"material=pink_vps"});
-  run(method, "whole", Readings::kAll);
-  EXPECT_EQ(run(method, "early", Readings::kPlateau).ended, EndedBy::kExtension);
-  EXPECT_EQ(file("early/curve_full.csv"), file("whole/curve_full.csv"));
-}
-
 TEST_F(OfThePlateau, ASpecimenOfABatchEndsWithIt) {
   BatchOptions batch;
   batch.folder = in("batch");

@@ -51,7 +51,7 @@ struct HungWeight {
   double fraction = 1.0;  ///< of the pre-load F_p [-]
 };
 
-/// What a knot's file reads of the knot, between the nodes of two landmarks (machine/knot_readings.hpp).
+/// What a knot's file reads of the knot, between the nodes of two landmarks (specimen/knot_readings.hpp).
 struct KnotReading {
   enum class Kind {
     kLoop,      ///< the rod around the first landmark that touches no strand [m]

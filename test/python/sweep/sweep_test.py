@@ -268,8 +268,8 @@ class TiedOnce(Sweeps):
               physics.accuracy: [draft]
               material: [polypropylene]
               program.pull.until.extension: [0.004, 0.006]""")
-        self.sweep("out", KNOT_UTM_CACHE_DIR=self.path("cache"), KNOT_UTM_CACHE_LIMIT="100")
-        self.assertEqual(len(os.listdir(self.path("cache"))), 1)
+        self.sweep("out", KNOT_UTM_NO_CACHE="")
+        self.assertEqual(len(os.listdir(self.path("out/runs/.tied"))), 1)
         self.sweep("alone")
         self.assertEqual(self.table("out"), self.table("alone"))
         for run in self.whole_runs("alone"):

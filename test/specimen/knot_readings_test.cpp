@@ -1,6 +1,6 @@
 // What is read of a knot: loops and braids of shapes that are known in closed form, and of others by brute force.
 
-#include "knot_utm/machine/knot_readings.hpp"
+#include "knot_utm/specimen/knot_readings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -71,21 +71,6 @@ TEST(KnotReadings, OfATeardropThatTouchesWhereItCrossesIsItsArcAndTwoTangents) {
     for (const int node : {Teardrop::kOnLine, Teardrop::kOnLine + 45, Teardrop::kOnLine + 80})
       EXPECT_NEAR(read(points, {{kLoop, node, node}})[0], drop.loop(), 1e-9) << gap;
   }
-}
-
-TEST(KnotReadings, OfATeardropThatDoesNotTouchIsUnknown) {
-  const Points points = Teardrop{2.11 * kRadius}.points();
-  EXPECT_TRUE(std::isnan(read(points, {{kLoop, 60, 60}})[0]));
-}
-
-TEST(KnotReadings, OfALandmarkThatTouchesIsNoLength) {
-  const Teardrop drop{2.0 * kRadius};
-  const Points points = drop.points();
-  Eigen::Index crossing = 0;
-  points.leftCols(Teardrop::kOnLine).colwise().squaredNorm().minCoeff(&crossing);
-  ASSERT_LT(points.col(crossing).norm(), drop.touches_before_crossing());
-  const int node = static_cast<int>(crossing);
-  EXPECT_EQ(read(points, {{kLoop, node, node}})[0], 0.0);
 }
 
 TEST(KnotReadings, BetweenIsFromTheEndOfOneLoopToTheBeginOfTheOther) {
