@@ -124,8 +124,6 @@ void check_other_material(const Method& m) {
        StretchingRegistry::entry(own.stretching.law).name);
   same("bending_law", BendingRegistry::entry(other.bending.law).name, BendingRegistry::entry(own.bending.law).name);
   same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
-  if (m.physics.contact_law == ContactLaw::kEdge)
-    throw InvalidInput("physics.contact.law", "edge", "smooth where there is an other_material");
   const auto section_of = [](const Material& of) { return fields::kSections[static_cast<std::size_t>(of.section)]; };
   same("section", section_of(other), section_of(own));
   check_rolling(m, other, "other_material.");

@@ -137,7 +137,8 @@ inline void physics(Fields& f, PhysicsOptions& o) {
     friction.number_or_word("pair", o.pair_friction, Range{0.0, 5.0, "-"}, o.pair_rule, std::array{"smaller", "mean"});
   });
   f.section("contact", [&o](Fields& contact) {
-    contact.choice("law", o.contact_law, std::array{"smooth", "edge"});
+    enum class Law { kSmooth } only = Law::kSmooth;
+    contact.choice("law", only, std::array{"smooth"});
     contact.optional_number("tolerance", o.contact_tolerance, Range{1e-3, 0.5, "of the radius"}, "auto");
   });
   f.choice("twist", o.twist, std::array{"auto", "on", "off"});

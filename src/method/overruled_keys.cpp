@@ -86,8 +86,6 @@ std::optional<NeedsRound> needs_round(const Material& material, const PhysicsOpt
   if (friction_couple(material, physics) == 0.0)
     return NeedsRound{"where " + section + "friction_couple is 0 or friction.at is centreline",
                       {section + "friction_couple", "physics.friction.at"}};
-  if (physics.contact_law == ContactLaw::kEdge)
-    return NeedsRound{"with physics.contact.law: edge", {"physics.contact.law"}};
   return std::nullopt;
 }
 

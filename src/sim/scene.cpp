@@ -43,7 +43,6 @@ void StepSettings::OtherLaws::state(Archive& archive) {
 
 void StepSettings::state(Archive& archive) {
   archive.section("SET6");  // "SET5" named its pressure law, "SET4" had a bending law
-  archive.choice("contact law", contact_law, ContactLaw::kEdge);
   archive(pressure_law, friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia,
           residual, residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit,
           overlap_limit, candidate_margin);

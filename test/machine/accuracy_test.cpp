@@ -150,8 +150,7 @@ TEST(RelativeErrors, AreGivenForSectionsThatGiveAsTheStudyHadThem) {
 }
 
 TEST(RelativeErrors, AreNotGivenWhereNoStudySays) {
-  Loop edge, smoothed, untied, overhand, rolling, rough, rubber, straight;
-  edge.physics.contact_law = ContactLaw::kEdge;
+  Loop smoothed, untied, overhand, rolling, rough, rubber, straight;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
   overhand.specimen.knot = knot_named("overhand");
@@ -160,7 +159,7 @@ TEST(RelativeErrors, AreNotGivenWhereNoStudySays) {
   straight.specimen.knot = knot_named("straight");
   EXPECT_TRUE(straight.errors().locked_stiffness);
   rubber.material.stretching.law = straight.material.stretching.law = static_cast<StretchingLaw>(1);
-  for (const Loop& loop : {edge, smoothed, untied, overhand, rolling, rough, rubber, straight}) {
+  for (const Loop& loop : {smoothed, untied, overhand, rolling, rough, rubber, straight}) {
     EXPECT_FALSE(loop.errors().plateau_force);
     EXPECT_FALSE(loop.errors().lock_extension);
     EXPECT_FALSE(loop.errors().locked_stiffness);
@@ -180,9 +179,6 @@ TEST(Errors, OfABreakInABendAreThoseOfAKnotThatItsBendHelpsToPart) {
   EXPECT_LT(normal, 0.1);
   knot.specimen.edge_length *= 0.5;
   EXPECT_LT(knot.errors().break_in_bend.value(), 0.85 * normal);
-  knot.physics.contact_law = ContactLaw::kEdge;
-  EXPECT_FALSE(knot.errors().break_in_bend);
-  knot.physics.contact_law = ContactLaw::kSmooth;
   knot.specimen.knot = knot_named("straight");
   EXPECT_FALSE(knot.errors().break_in_bend) << "it has no knot";
 }

@@ -140,14 +140,10 @@ TEST(Fracture, TheTestEndsThereUnlessTheEndsAreFollowed) {
   EXPECT_EQ(cut.fastest_node, whole.fastest_node);
 }
 
-class FractureOfAnOverhand : public testing::TestWithParam<std::tuple<ContactLaw, TwistMode>> {};
-
-TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
-  const auto [contact, twist] = GetParam();
+TEST(Fracture, OfAnOverhandEndsTheTestAndChangesNothingBefore) {
   PhysicsOptions physics;
   physics.accuracy = Accuracy::kDraft;
-  physics.contact_law = contact;
-  physics.twist = twist;
+  physics.twist = TwistMode::kOn;
   HoldStep settle;
   settle.duration = 1.0;
   const SpecimenOptions specimen = overhand_specimen(0.4, 0.15, 0.006);
@@ -167,14 +163,6 @@ TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
   const Results results = analyse(broken.samples, broken.samples, broken.program.ended_by(), false);
   EXPECT_LT(*results.energy_balance_error, 1e-3);  // as that of the whole overhand: the residual of loose knots
 }
-
-INSTANTIATE_TEST_SUITE_P(Every, FractureOfAnOverhand,
-                         testing::Values(std::tuple{ContactLaw::kSmooth, TwistMode::kOn},
-                                         std::tuple{ContactLaw::kEdge, TwistMode::kOff}),
-                         [](const auto& test) {
-                           return std::string(std::get<0>(test.param) == ContactLaw::kSmooth ? "smooth" : "edge") +
-                                  (std::get<1>(test.param) == TwistMode::kOn ? "WithTwist" : "");
-                         });
 
 /// Parts at a strain of 0.2 where it is straight.
 Material bent(double share) {

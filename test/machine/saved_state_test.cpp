@@ -131,7 +131,7 @@ Scene broken() {
   return out;
 }
 
-Scene overhand(const std::string& name, const char* friction, ContactLaw contact, double couple = 0.0) {
+Scene overhand(const std::string& name, const char* friction, double couple = 0.0) {
   Scene out{name, {}, pink_vps(), {}, {}, {step<HoldStep>(1.0), BalanceStep(), pull(0.02)}, 4};
   out.specimen = overhand_specimen(0.4, 0.15, 0.006);
   out.material.friction_couple = couple;
@@ -140,7 +140,6 @@ Scene overhand(const std::string& name, const char* friction, ContactLaw contact
   out.physics.accuracy = Accuracy::kDraft;
   out.physics.twist = TwistMode::kOn;
   out.physics.friction.law = law_named(friction);
-  out.physics.contact_law = contact;
   return out;
 }
 
@@ -232,9 +231,9 @@ TEST_P(SavedState, GoesOnToTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
                          testing::Values(programmed_on_a_compliant_frame(), broken(),
-                                         overhand("overhandWithTwist", "memory", ContactLaw::kSmooth),
-                                         overhand("smoothedFriction", "smoothed", ContactLaw::kSmooth),
-                                         overhand("rollingEdges", "memory", ContactLaw::kEdge, 0.3),
+                                         overhand("overhandWithTwist", "memory"),
+                                         overhand("smoothedFriction", "smoothed"),
+                                         overhand("overhandThatRolls", "memory", 1.0),
                                          with_fibres(loop("loopWithFibresOnFreeRollers", RollerRotation::kFree)),
                                          rolling(loop("rollingOnDrivenRollers", RollerRotation::kTurned))),
                          [](const auto& scene) { return scene.param.name; });
@@ -253,12 +252,10 @@ TEST(SavedBench, OfAnotherSpecimenIsRefused) {
   Scene coarse = straight();
   coarse.specimen.edge_length = 0.0063;
   EXPECT_THAT(complaint(straight(), coarse.begin().saved()), testing::HasSubstr("nodes: found 43, expected 53"));
-  const Scene twisted = overhand("", "memory", ContactLaw::kSmooth);
-  Scene without = twisted, edge = twisted;
+  const Scene twisted = overhand("", "memory");
+  Scene without = twisted;
   without.physics.twist = TwistMode::kOff;
-  edge.physics.contact_law = ContactLaw::kEdge;
   EXPECT_NE(complaint(twisted, without.begin().saved()), "");
-  EXPECT_NE(complaint(twisted, edge.begin().saved()), "");
   EXPECT_EQ(complaint(twisted, twisted.begin().saved()), "");
 }
 

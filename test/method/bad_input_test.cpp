@@ -103,7 +103,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"program.pull.until.break=yes", "program.4.pull.until.break", "yes", "true or false"},
       {"program=[{hold: {}}]", "program.0.hold.duration is missing", "", "(in s)"},
       {"physics.friction.law=coulomb", "physics.friction.law", "coulomb", "must be memory, "},
-      {"physics.contact.law=soft", "physics.contact.law", "soft", "smooth or edge"},
+      {"physics.contact.law=edge", "physics.contact.law", "edge", "smooth"},
       {"physics.contact.tolerance=5", "physics.contact.tolerance", "5", "of the radius"},
       {"physics.twist=true", "physics.twist", "true", "auto, on or off"},
       {"physics.accuracy=best", "physics.accuracy", "best", "draft, normal or fine"},

@@ -52,7 +52,6 @@ TEST(Method, TightenIsThePapersTest) {
   EXPECT_TRUE(m.program[4].as<PullStep>()->until.broken);
   EXPECT_FALSE(m.program[4].as<PullStep>()->until.load);
   EXPECT_STREQ(FrictionRegistry::entry(m.physics.friction.law).name, "memory");
-  EXPECT_EQ(m.physics.contact_law, ContactLaw::kSmooth);
   EXPECT_EQ(m.physics.twist, TwistMode::kAuto);
   EXPECT_EQ(m.physics.accuracy, Accuracy::kNormal);
 }

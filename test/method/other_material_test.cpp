@@ -243,7 +243,6 @@ TEST(OtherMaterial, IsRefusedInOneLineWhereNothingTellsRopesApart) {
                             {{other, "physics.friction.pair=larger"}, "smaller or mean"},
                             {{"physics.friction.pair=mean"},
                              "physics.friction.pair is mean, but has an effect only with other_material"},
-                            {{other, "physics.contact.law=edge"}, "physics.contact.law"},
                             {{other, "analysis.margin=true"}, "analysis.margin"},
                             {{other, "other_material.radius=2"}, "other_material.radius"},
                             {{other, "other_material.colour=red"}, "other_material.colour"},

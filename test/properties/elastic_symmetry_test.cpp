@@ -56,7 +56,7 @@ struct Rod {
 
 Rod random_rod() {
   const std::vector<int> numbers = random_numbers(RandomScene::kNumbers);
-  const Scene scene = RandomScene(numbers, ContactLaw::kSmooth, true).scene();
+  const Scene scene = RandomScene(numbers, true).scene();
   Rod out{scene.rod, scene.state};
   initialise_frames(&out.state);
   const Eigen::Index edges = out.rod.edges(), inner = edges - 1;

@@ -18,8 +18,7 @@ namespace knot_utm {
 /// corner where strands just touch, symmetrically about D = 0. A contact with a pressure above K delta/2 does not
 /// depend on it.
 ///
-/// EdgeLaw (edge_law.hpp) has the same interface for one contact at a time. pressure, slope and overlap_at are
-/// templates: of a double, or of Lanes for four contacts side by side.
+/// pressure, slope and overlap_at are templates: of a double, or of Lanes for four contacts side by side.
 struct NormalLaw {
   double stiffness = 0.0;                                       ///< K [N/m^2]
   double tolerance = 0.0;                                       ///< delta [m]

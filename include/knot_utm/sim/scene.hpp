@@ -80,9 +80,8 @@ struct Boundary {
 
 /// What a time step needs to know besides rod and boundary; constant during a run.
 struct StepSettings {
-  ContactLaw contact_law = ContactLaw::kSmooth;  ///< of strands; rollers touch the smooth centreline
-  NormalLaw pressure_law;                        ///< between strands, and on rollers
-  Friction friction;                             ///< between strands
+  NormalLaw pressure_law;  ///< between strands, and on rollers
+  Friction friction;       ///< between strands
   Friction roller_friction;
   /// Laws of the ropes behind the first one, where they are of another material (RodProperties::other_material): with
   /// the first one, among themselves, and on rollers.
