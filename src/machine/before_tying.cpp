@@ -30,7 +30,8 @@ constexpr double kLargestStrain = 5.0;  // by a pre-load [-]
 constexpr double kMuchStretch = 0.2;    // by choice: no shipped rope is stretched by a tenth of it as it is tied [-]
 // The limits follow from runs of ropes that bend elastically, with friction on centrelines. Of those that were tied
 // with 2 to 8 k_b/h^2, 41 of 43 opened or jumped open with a friction of 0.3 to 0.5, and 5 of 111 with more; of those
-// with 20 to 60 k_b/h^2, 12 of 34 did (the Sobol sequence of config/studies/pattern_map.yaml with compatibility: 1).
+// with 20 to 60 k_b/h^2, 12 of 34 did (the Sobol sequence of config/studies/pattern_map.yaml with the laws of release
+// 1).
 constexpr double kHoldsLoosely = 0.5, kLimp = 300.0;    // friction [-]; k_s h^2/k_b of a rope [-]
 constexpr double kTightly = 20.0, kVeryTightly = 60.0;  // [k_b/h^2]
 constexpr double kMetal = 20e9;  // modulus that no polymer reaches, but metals, glass and carbon do [Pa]

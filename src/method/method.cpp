@@ -38,11 +38,9 @@ using fields::Fields;
 using fields::one_line;
 using fields::Reader;
 
-constexpr double kCoupleOfFirstRelease = 0.0;  // friction acted on the centrelines then
-
 /// `key`: that of the method.
-Material read_material(const std::string& key, const YAML::Node& node, const YAML::Node& method,
-                       const std::string& file, const ConfigLibrary& library) {
+Material read_material(const std::string& key, const YAML::Node& node, const std::string& file,
+                       const ConfigLibrary& library) {
   Material material;
   if (!node.IsDefined() || node.IsNull()) {
     throw InvalidInput::missing(key, library.allowed("materials")).in_file(file);
@@ -50,7 +48,7 @@ Material read_material(const std::string& key, const YAML::Node& node, const YAM
   if (!node.IsScalar() && !node.IsMap()) throw InvalidInput(file, key, as_given(node), library.allowed("materials"));
   if (node.IsScalar()) {
     const fs::path path = library.find("materials", node.Scalar(), key);
-    Reader reader(read_material_file(path, method), path.string(), "", "a material");
+    Reader reader(read_yaml(path), path.string(), "", "a material");
     fields::material(reader, material);
     reader.finish();
     if (material.name.empty()) material.name = path.stem().string();
@@ -193,11 +191,9 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   Method method;
   Reader top(root, file, "");
   top.note_automatic(automatic);
-  fields::compatibility(top, method.compatibility);
-  method.material = read_material("material", top.take("material"), root, file, library);
+  method.material = read_material("material", top.take("material"), file, library);
   if (const YAML::Node other = top.take("other_material"); other.IsDefined())
-    method.material.other =
-        std::make_shared<const Material>(read_material("other_material", other, root, file, library));
+    method.material.other = std::make_shared<const Material>(read_material("other_material", other, file, library));
   Reader specimen = top.in("specimen");
   YAML::Node knot = specimen.take("knot");
   method.specimen.drawing = read_drawing(knot, file, library);
@@ -305,11 +301,9 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     Method method = read_method(root, file, library, &first, noted);
     method.name = path.stem().string();
     method.specimen.to_be_tied = has_step<TieStep>(method.program);
-    method.specimen.set_to_marks = !method.compatibility;
 
     if (!method.material.friction_couple) {
-      method.material.friction_couple =
-          method.compatibility ? kCoupleOfFirstRelease : default_friction_couple(method.material);
+      method.material.friction_couple = default_friction_couple(method.material);
       noted.emplace_back("material.friction_couple");
     }
     if (method.physics.twist == TwistMode::kAuto && has_step<TwistStep>(method.program)) {

@@ -116,7 +116,7 @@ void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>
   if (friction_rolls(material, method.machine, method.physics)) return;
   const auto drop_rolling = [&](const std::string& section, Material& of) {
     const GivenBy rolls = std::max({by(section + "friction_couple"), by(section + "friction_coefficient"),
-                                    by("physics.friction.at"), by("machine.roller_friction"), by("compatibility")});
+                                    by("physics.friction.at"), by("machine.roller_friction")});
     for (const auto& [name, value] : {std::pair{"rolling_resistance", &of.rolling_resistance},
                                       std::pair{"rolling_hysteresis", &of.rolling_hysteresis}}) {
       const std::string key = section + name;

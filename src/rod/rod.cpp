@@ -98,12 +98,13 @@ void RodMaterial::state(Archive& archive) {
 }
 
 void RodProperties::state(Archive& archive) {
-  archive.section("PRO5");  // "PRO4" had no cuts, "PRO3" a twisting law, "PRO2" all of the material
+  archive.section(
+      "PRO6");  // "PRO5" had a natural twist, "PRO4" no cuts, "PRO3" a twisting law, "PRO2" all of the material
   archive(material);
-  for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass, &natural_twist}) archive.list(*each);
+  for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass}) archive.list(*each);
   archive.list(cuts);
-  const Eigen::Index inner = nodes() - 2, twisted = natural_twist.size();
-  const bool fits = inner >= 1 && edges() == inner + 1 && mass.size() == nodes() && (twisted == 0 || twisted == inner);
+  const Eigen::Index inner = nodes() - 2;
+  const bool fits = inner >= 1 && edges() == inner + 1 && mass.size() == nodes();
   archive.require(fits, "nodes", std::to_string(nodes()));
   archive.require(std::all_of(cuts.begin(), cuts.end(), [&](int cut) { return cut >= 0 && cut < edges(); }), "cuts",
                   "edges of no rod");
@@ -136,13 +137,12 @@ void require_fits(const RodProperties& rod, const RodState& state) {
   else if (bends_on_frames(rod.laws->bending))
     throw InvalidInput("rod", "one without a memory of bends", "made with natural curvatures, be they zero");
   require_size("state.bending_own", state.bending_own.size(), own_numbers(rod.laws->bending) * inner);
-  if (rod.natural_twist.size() > 0) require_size("rod.natural_twist", rod.natural_twist.size(), inner);
   if (state.twist.size() > 0) {
     require_size("state.twist", state.twist.size(), rod.edges());
     require_size("state.reference_director", state.reference_director.cols(), rod.edges());
     require_size("state.reference_twist", state.reference_twist.size(), inner);
-  } else if (state.curved_at_rest() || rod.natural_twist.size() > 0) {
-    throw InvalidInput("state.twist", "empty", "given for a rod with natural curvature or twist");
+  } else if (state.curved_at_rest()) {
+    throw InvalidInput("state.twist", "empty", "given for a rod with natural curvature");
   }
 }
 

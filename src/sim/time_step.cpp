@@ -50,11 +50,6 @@ class ImplicitStep final : public TimeStep {
     return summary;
   }
 
-  void part(int edge) override {
-    parted_edge_ = edge;
-    cut(edge);
-  }
-
   const StepReadings& readings() const override { return readings_; }
   Vec3 tried_reaction(int node) const override { return -to_vec3(equation_.force[static_cast<std::size_t>(node)]); }
   Vec3 tried_roller_force(int roller) const override { return readings_.tried_roller_force(roller); }
@@ -119,11 +114,7 @@ class ImplicitStep final : public TimeStep {
 
 }  // namespace
 
-Eigen::VectorXd TimeStep::tension() const {
-  Eigen::VectorXd out = edge_tension(rod_, state_);
-  if (parted_edge_ >= 0) out[parted_edge_] = 0.0;
-  return out;
-}
+Eigen::VectorXd TimeStep::tension() const { return edge_tension(rod_, state_); }
 
 void TimeStep::lay(const Eigen::VectorXd& rest_length, const Points& position) {
   const Points before = state_.position;

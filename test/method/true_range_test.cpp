@@ -131,7 +131,7 @@ const std::vector<std::string> kOfTheSpecimen{"specimen.", "program."};
 
 TEST(TrueRange, OfALoopAndItsMachine) {
   const std::vector<std::string> with{"ends.break_at_fraction_of_peak=0.5", "machine.roller_friction=0.1",
-                                      "machine.roller_rotation=turned", "machine.roller_rate=1"};
+                                      "machine.roller_rotation=free"};
   expect_true_ranges({shipped("tighten"), with}, kAll, 60);
 }
 

@@ -28,7 +28,8 @@ from tf2_msgs.msg import TFMessage
 
 OUT = '/tmp/knot_utm_start_test'
 FILES = ['curve.csv', 'curve_full.csv', 'final_shape.csv', 'method.yaml', 'test.bag']
-KNOT = ['compatibility=1', 'physics.accuracy=draft', 'program.pull.until={extension: 0.002}']
+KNOT = ['material.bending_law=elastic', 'material.friction_couple=0', 'physics.accuracy=draft',
+        'program.pull.until={extension: 0.002}']
 LAUNCHED = ['program.pull.until={extension: 0.001}', 'machine.load_cell={capacity: 50e3, sampling_rate: 50, accuracy: 0.005}',
             'machine.stiffness=1e6']
 

@@ -45,8 +45,7 @@ struct SpecimensOptions {
 
 /// A test method with everything resolved: the content of a method file.
 struct Method {
-  std::string name;                     ///< name of the method file, without folder and extension
-  std::optional<double> compatibility;  ///< 1: the defaults of release 1; unset: the newest
+  std::string name;  ///< name of the method file, without folder and extension
   SpecimenOptions specimen;
   Material material;
   MachineOptions machine;

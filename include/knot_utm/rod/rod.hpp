@@ -33,7 +33,6 @@ struct RodProperties {
   Eigen::VectorXd rest_length;                ///< l_j [m], N-1
   Eigen::VectorXd voronoi_length;             ///< lbar_i [m], N (half an edge at the ends)
   Eigen::VectorXd mass;                       ///< m_i [kg], N
-  Eigen::VectorXd natural_twist;              ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
   std::vector<int> cuts;                      ///< edges that are cut, ascending
 
   Eigen::Index nodes() const { return voronoi_length.size(); }
