@@ -17,9 +17,4 @@ Friction Friction::of(const FrictionOptions& options, const FrictionScales& scal
   return out;
 }
 
-void Friction::state(Archive& archive) {
-  FrictionRegistry::archive(archive, "friction law", law_);
-  on_ = coefficient() > 0.0;
-}
-
 }  // namespace knot_utm

@@ -20,12 +20,6 @@ void require_size(const char* key, Eigen::Index size, Eigen::Index expected) {
 
 constexpr double kLengthOfCut = 10.0;  // more than least_loop [h]
 
-void archive_laws(Archive& archive, std::shared_ptr<const RodLaws>& laws) {
-  RodLaws own = archive.loads() ? RodLaws() : *laws;
-  archive(own);
-  if (archive.loads()) laws = std::make_shared<const RodLaws>(own);
-}
-
 }  // namespace
 
 RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length, const std::vector<int>& cuts) {
@@ -91,36 +85,6 @@ double RodProperties::place(double arclength) const {
 
 double RodProperties::place(Eigen::Index edge, double fraction) const {
   return place(rest_length.head(edge).sum() + fraction * rest_length[edge]);
-}
-
-void RodMaterial::state(Archive& archive) {
-  archive(radius, density, stretching_stiffness, bending_stiffness, twisting_stiffness);
-}
-
-void RodProperties::state(Archive& archive) {
-  archive.section(
-      "PRO6");  // "PRO5" had a natural twist, "PRO4" no cuts, "PRO3" a twisting law, "PRO2" all of the material
-  archive(material);
-  for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass}) archive.list(*each);
-  archive.list(cuts);
-  const Eigen::Index inner = nodes() - 2;
-  const bool fits = inner >= 1 && edges() == inner + 1 && mass.size() == nodes();
-  archive.require(fits, "nodes", std::to_string(nodes()));
-  archive.require(std::all_of(cuts.begin(), cuts.end(), [&](int cut) { return cut >= 0 && cut < edges(); }), "cuts",
-                  "edges of no rod");
-  const auto positive = [](const Eigen::VectorXd& values) { return values.allFinite() && values.minCoeff() > 0.0; };
-  const bool solid = positive(rest_length) && positive(voronoi_length) && positive(mass) && std::isfinite(length()) &&
-                     material.radius > 0.0 && std::isfinite(material.radius);
-  archive.require(solid, "rod", "one without a length, a radius or a mass");
-  archive_laws(archive, laws);
-  const bool soft = archive.optional_section("SOFT", material.is_soft());
-  material.section = soft ? CrossSection::kSoft : CrossSection::kRound;
-  if (!archive.optional_section("OTHR", other_material.has_value())) return other_material.reset();
-  if (archive.loads()) other_material.emplace();
-  archive(*other_material);
-  archive_laws(archive, other_laws);
-  const bool another = !cuts.empty() && other_material->radius > 0.0 && std::isfinite(other_material->radius);
-  archive.require(another && of_one_kind(*laws, *other_laws), "other material", "of no rope of this rod");
 }
 
 void remember_bends(const RodProperties& rod, RodState* state) {

@@ -13,8 +13,6 @@ namespace knot_utm {
 struct PairLaws {
   NormalLaw normal;
   Friction friction;
-
-  void state(Archive& archive) { archive(normal, friction); }
 };
 
 /// Those of all pairs of materials, by ContactPoint::pair: of the first rope on itself, of that on another rope, of the

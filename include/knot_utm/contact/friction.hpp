@@ -47,8 +47,6 @@ class Friction {
     return visit([](const auto& law) { return law.creep_speed(); });
   }
 
-  void state(Archive& archive);
-
  private:
   FrictionLaws law_;
   bool on_ = false;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/lanes.hpp"
 
 namespace knot_utm {
@@ -23,8 +22,6 @@ struct NormalLaw {
   double stiffness = 0.0;                                       ///< K [N/m^2]
   double tolerance = 0.0;                                       ///< delta [m]
   double stiffening = std::numeric_limits<double>::infinity();  ///< c [m]
-
-  void state(Archive& archive) { archive(stiffness, tolerance, stiffening); }
 
   /// Of one such strand on a body that does not give: it alone is flattened by what two would share, p(2 D).
   NormalLaw on_rigid() const { return {2.0 * stiffness, 0.5 * tolerance, 0.5 * stiffening}; }

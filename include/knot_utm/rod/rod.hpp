@@ -53,9 +53,6 @@ struct RodProperties {
   /// other, as people are told [m].
   double place(double arclength) const;
   double place(Eigen::Index edge, double fraction) const;
-
-  /// Saves or loads all of it; loading replaces the whole rod.
-  void state(Archive& archive);
 };
 
 /// Straight, untwisted rod of the given rest lengths, by the laws of its material: masses rho pi h^2 lbar_i. What
