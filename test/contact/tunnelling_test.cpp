@@ -156,17 +156,5 @@ TEST(TunnellingSearch, OverABareEndFirstAndThenOverTheInnerHalfCounts) {
   EXPECT_FALSE(TunnellingSearch(8, true).find(at(0.0), at(0.5))) << "over the outer half alone";
 }
 
-TEST(TunnellingSearch, OverABareEndHidesNoOtherOne) {
-  // The strand's far part is pushed through the edge next to the tail's last one as well.
-  Points start = tail_across(0.95, 1.0), end = tail_across(0.95, -1.0);
-  start.col(5) << 4.3, 4.0, 1.0;
-  end.col(5) << 4.3, 4.0, -1.0;
-  EXPECT_FALSE(TunnellingSearch(8, true).find(start, end));
-  start.col(6).y() = end.col(6).y() = -0.5;
-  const auto found = TunnellingSearch(8, true).find(start, end);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->edge_b, 5);
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -27,17 +27,6 @@ PullStep pull(double extension) {
   return out;
 }
 
-/// Two ropes that lie far apart and do not bear anything: the edge between them is no rope that could part.
-TEST(Fracture, NoCutEdgeIsExposed) {
-  const Material material = nylon();
-  Points x = Points::Zero(3, 8);
-  const double edge = material.radius;
-  x.row(2) << 0.0, edge, 2.0 * edge, 3.0 * edge, 0.0, edge, 2.0 * edge, 3.0 * edge;
-  x.row(0).tail(4).setConstant(100.0 * edge);
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(7, edge), {3});
-  EXPECT_NEAR(RopeStrengths(material, rod).most_exposed(rod, x).fraction, 0.0, 1e-9);
-}
-
 struct Pulled {
   TestingMachine bench;
   ProgramRunner program;
@@ -187,17 +176,6 @@ TEST(Fracture, ByTensionItIsTheEdgeWithTheLargestOne) {
   EXPECT_NEAR(found.value, tension, 1e-7);
   position.row(2) *= 0.9;
   EXPECT_EQ(RopeStrengths(material, rod).most_exposed(rod, position).edge, -1) << "nothing is under tension";
-}
-
-/// The strain of a straight rod under its breaking force is the stretching law's own: lambda - lambda^-2 = 3 T/k_s.
-TEST(Fracture, ARodOfRubberPartsStraightAtItsBreakingForceToo) {
-  Material rubber = bent(0.5);
-  rubber.stretching.law = static_cast<StretchingLaw>(1);
-  const double lambda = 1.6;
-  rubber.breaking_force = rubber.stretching_stiffness / 3.0 * (lambda - 1.0 / (lambda * lambda));
-  const RodProperties rod = make_rod(rubber, Eigen::VectorXd::Constant(4, 0.01));
-  EXPECT_NEAR(RopeStrengths(rubber, rod).most_exposed(rod, along_z(std::vector<double>(4, 0.016))).fraction, 1.0,
-              1e-12);
 }
 
 /// A strand that lies around a frictionless post of radius R, with its centreline at R + h, parts at

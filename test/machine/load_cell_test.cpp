@@ -15,14 +15,6 @@ TEST(LoadCell, ReadsTheTrueForceUnlessToldOtherwise) {
   EXPECT_EQ(cell.balanced(2.0), 0.0);
 }
 
-TEST(LoadCell, ResolutionRoundsToTheNearest) {
-  LoadCellOptions options;
-  options.resolution = 0.5;
-  LoadCell cell(options);
-  EXPECT_EQ(cell.read(1.26), 1.5);
-  EXPECT_EQ(cell.read(-1.2), -1.0);
-}
-
 TEST(LoadCell, NoiseHasItsDeviationAndFollowsFromTheSeed) {
   LoadCellOptions options;
   options.noise = 0.1;

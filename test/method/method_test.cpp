@@ -127,10 +127,6 @@ TEST(Method, EveryOneOfWhatPeopleMeasuredLoadsByItsName) {
   EXPECT_GE(methods, 3);
 }
 
-TEST(Method, IsNoMaterialAndNoStudy) {
-  for (const std::string name : {"nylon", "preload"}) EXPECT_THROW(find_method(name), InvalidInput) << name;
-}
-
 TEST(Method, WritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip.yaml";
   for (const std::string name : {"tighten", "overhand", "straight", "capstan", "from_file"}) {
@@ -163,34 +159,6 @@ TEST(Method, HasTheKeysOfItsLawsAndOfNoOthers) {
   EXPECT_EQ(std::get<PlasticBending>(bending_law_of(yields.material)).hardening, 0.1);
 }
 
-TEST(Method, WhatAReportSaysAndWhatIsAskedOfATestWriteBackToTheSame) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "knot_utm_round_trip_report";
-  fs::create_directories(folder);
-  const std::string copy = (folder / "copy.yaml").string();
-  const Method method = load_method(
-      kTighten, {"report={specimen_id: \"0012\", standard: NO, conditioning: 'a: #b', terminations: 2026-11-23, "
-                 "notes: \"two\\nlines\", units: {force: kN, length: in}}",
-                 "specification={peak_force: {min: 100}, lock_extension: {min: 1e-3, max: 0.1}}"});
-  EXPECT_EQ(method.report.specimen_id, "0012");
-  EXPECT_EQ(method.report.notes, "two\nlines");
-  EXPECT_EQ(method.report.force, ForceUnit::kKilonewton);
-  EXPECT_EQ(method.report.length, LengthUnit::kInch);
-  ASSERT_EQ(method.specification.size(), 2u);
-  EXPECT_EQ(method.specification[0].min, 100.0);
-  EXPECT_EQ(method.specification[0].max, std::nullopt);
-  EXPECT_EQ(method.specification[1].key, "lock_extension");
-  const std::string text = method_yaml(method);
-  std::ofstream(copy) << text;
-  EXPECT_EQ(method_yaml(load_method(copy)), text);
-  fs::remove_all(folder);
-}
-
-TEST(Method, CharactersOfATextAreCountedNotItsBytes) {
-  std::string umlauts;
-  for (int i = 0; i < 80; ++i) umlauts += "ä";
-  EXPECT_EQ(load_method(kTighten, {"report.specimen_id=" + umlauts}).report.specimen_id, umlauts);
-}
-
 TEST(Method, EveryStepWritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip_steps.yaml";
   const std::string record = ::testing::TempDir() + "knot_utm_record.csv";
@@ -221,31 +189,6 @@ TEST(Method, EveryStepWritesBackToTheSame) {
   fs::remove(record);
 }
 
-TEST(Method, ARecordIsNoFasterThanACrosshead) {
-  const std::string record = ::testing::TempDir() + "knot_utm_fast_record.csv";
-  std::ofstream(record) << "Time (s),Extension (m),Load (N)\n0,0,0\n1.0,1.5,0.5\n";
-  try {
-    load_test(kTighten, {"program=[{follow: {record: " + record + "}}]"});
-    ADD_FAILURE();
-  } catch (const InvalidInput& invalid) {
-    EXPECT_THAT(invalid.what(), HasSubstr("moves at 1.5 m/s at 0 s, but must be no faster than 0.5 m/s"));
-  }
-  fs::remove(record);
-}
-
-TEST(Method, ACellWithAStopMayBeLoadedAsFarAsThat) {
-  const auto complaint = [](const std::string& load) -> std::string {
-    try {
-      load_method(kTighten, {"machine.load_cell={capacity: 1000, overload: 1.5}", "ends.load=" + load});
-    } catch (const InvalidInput& invalid) {
-      return invalid.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(complaint("1500"), "");
-  EXPECT_THAT(complaint("1501"), HasSubstr("ends.load is 1501, but must be at most the load cell's stop, 1500 N"));
-}
-
 TEST(Method, OverridesReachEveryKey) {
   const Method m = load_method(
       kTighten, {"program.pull.speed=0.001", "program.1.release.duration=5", "material.friction_coefficient=0.2",
@@ -267,22 +210,6 @@ TEST(Method, WholeSectionsAreSetBeforeSingleKeys) {
   EXPECT_EQ(m.material.radius, 0.002);
   EXPECT_EQ(m.machine.load_cell.name, "20N");
   EXPECT_EQ(m.machine.load_cell.noise, 0.01);
-}
-
-TEST(Method, PreloadAutoIsTheMaterialsOrFourBendingForces) {
-  const std::string own =
-      "material={radius: 0.002, density: 1000, stretching_stiffness: 4000, bending_stiffness: 4.0e-3, "
-      "twisting_stiffness: 3.0e-3, friction_coefficient: 0.3}";
-  const Method m = load_method(kTighten, {own});
-  EXPECT_DOUBLE_EQ(m.specimen.preload.value(), 4.0 * 4e-3 / 4e-6);
-  EXPECT_EQ(m.material.name, "own");
-  EXPECT_EQ(m.machine.load_cell.name, "auto");
-  EXPECT_EQ(load_method(kTighten, {"specimen.preload=3"}).specimen.preload, 3.0);
-}
-
-TEST(Method, ASpecimenIsToBeTiedWhereTheProgramTies) {
-  EXPECT_TRUE(load_method(kTighten).specimen.to_be_tied);
-  EXPECT_FALSE(load_method(kTighten, {"program=[{balance: {}}]"}).specimen.to_be_tied);
 }
 
 TEST(Method, FilesBesideTheMethodComeFirst) {

@@ -202,21 +202,6 @@ TEST(FishermanLoop, RefusesWhatDoesNotFitTheMachine) {
   }
 }
 
-TEST(FishermanLoop, IsRefusedInTheDistanceThatWasAskedFor) {
-  FishermanShape shape;
-  shape.outward_shift = 0.05;
-  shape.knot_distance = 0.06;
-  try {
-    fisherman_loop(shape);
-    ADD_FAILURE() << "accepted";
-  } catch (const InvalidInput& error) {
-    EXPECT_EQ(error.key, "specimen.knot_distance");
-    EXPECT_EQ(error.value, "0.06");
-    shape.knot_distance = std::stod(error.allowed.substr(std::string("at least ").size())) + 1e-4;  // it is rounded
-  }
-  EXPECT_EQ(refused_key(shape), "");
-}
-
 TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   for (int turns = 1; turns <= 4; ++turns) {
     for (const double excess : {0.65, 0.9}) {
@@ -232,41 +217,6 @@ TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
       EXPECT_GT(nearest_places(line.points, 1.5 * M_PI * shape.radius).distance, 2.1 * shape.radius);
     }
   }
-}
-
-TEST(Overhand, SaysWhichEndToEndDistancesFitItsLength) {
-  const auto refusal = [](double length, double end_to_end) -> std::optional<InvalidInput> {
-    OverhandShape shape;
-    shape.length = length;
-    shape.end_to_end = end_to_end;
-    try {
-      overhand(shape);
-    } catch (const InvalidInput& invalid) {
-      return invalid;
-    }
-    return std::nullopt;
-  };
-  // What one takes from the text is right: a rod may be just longer than the shortest, and the ends of the range fit.
-  const auto short_rod = refusal(0.1, 0.05);
-  ASSERT_TRUE(short_rod);
-  EXPECT_EQ(short_rod->key, "specimen.length");
-  std::smatch least, ends;
-  ASSERT_TRUE(
-      std::regex_match(short_rod->allowed, least, std::regex("more than ([^ ]*) m, which the smallest knot .*")));
-  const double shortest = std::stod(least.str(1));
-  EXPECT_EQ(refusal(0.99 * shortest, 0.05)->key, "specimen.length");
-  const std::regex range("([^ ]*) to ([^ ]*) m, for a knot in a rod of specimen.length, .* m");
-  for (const double length : {1.003 * shortest, 1.0})
-    for (const double wrong : {-0.2, 0.01, 0.99 * length}) {
-      const auto invalid = refusal(length, wrong);
-      ASSERT_TRUE(invalid) << length << ' ' << wrong;
-      EXPECT_EQ(invalid->key, "specimen.end_to_end");
-      ASSERT_TRUE(std::regex_match(invalid->allowed, ends, range)) << invalid->what();
-      const double low = std::stod(ends.str(1)), high = std::stod(ends.str(2));
-      EXPECT_LT(low, high);
-      for (const double fits : {low, 0.5 * (low + high), high}) EXPECT_FALSE(refusal(length, fits)) << invalid->what();
-      for (const double outside : {low - 0.002, high + 0.002}) EXPECT_TRUE(refusal(length, outside)) << invalid->what();
-    }
 }
 
 /// A straight strand, one turn of a helix of ten radii h = 1 with a pitch of four, and a straight strand.
@@ -448,20 +398,6 @@ TEST_F(CentrelineFile, HeadingsCommentsAndEmptyRowsArePassedOver) {
   ASSERT_EQ(points.cols(), 4);
   EXPECT_EQ(points.col(1), Vec3(0.0, 0.0, 0.01));
   EXPECT_EQ(points.col(3), Vec3(-1.0, 1.0, 2.0));
-}
-
-TEST_F(CentrelineFile, WrongRowsAreNamed) {
-  EXPECT_THAT(complaint("0,0,0\n0,0\n0,0,2\n0,0,3\n0,0,4\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,nan\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,0\n"), HasSubstr("row 2 is the same point as the one before it"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1\n0,0,2\n"), HasSubstr("has 3 points, but must have four or more"));
-  EXPECT_THAT(complaint("a\nb\nc\n0,0,0\n"), HasSubstr("row 3"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,+-1\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1001\n"),
-              HasSubstr("row 2 is \"0,0,1001\", but must be three numbers x,y,z from -1000"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1e-200\n"), HasSubstr("row 2 is the same point as the one before it"));
-  EXPECT_THAT(complaint("0,0,0\n" + std::string(5000, '0') + ",0,0\n"),
-              HasSubstr("row 2 is longer than 4096 characters"));
 }
 
 }  // namespace

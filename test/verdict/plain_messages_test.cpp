@@ -61,11 +61,7 @@ TEST_F(PlainMessages, OfTensileTest) {
       {"tighten.yaml --set specimen.preload=abc",
        "tighten.yaml: specimen.preload is \"abc\", but must be a number from 1e-9 to 1e9 (in N), or auto"},
       {"tighten.yaml --set specimen.preload=1e10",
-       "tighten.yaml: specimen.preload is 1e10, but must be 1e-9 to 1e9 N, or auto, and here at least 0.4106 N for a "
-       "rod with "
-       "material.bending_stiffness 4.31e-05 N m2, radius 0.00317 m and friction_coefficient 0.46: a smaller one does "
-       "not move "
-       "the coils, which close only at 2.27 N"},
+       "tighten.yaml: specimen.preload is 1e10, but must be 1e-9 to 1e9 N, or auto"},
       {"tighten.yaml --set specimen.preload",
        "--set \"specimen.preload\" sets no key: write key=value, such as specimen.preload=20"},
       {"tighten.yaml --set 'specimen.preload=[3'",
