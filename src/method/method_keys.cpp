@@ -1,6 +1,7 @@
 #include "knot_utm/method/method_keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "knot_utm/record/program.hpp"
@@ -134,6 +135,10 @@ constexpr Label kLabels[] = {
     {"physics.max_step", "Longest step"},
 };
 
+/// The experimental keys, by their last part.
+constexpr std::array kExperimental{"natural_curvature", "hardening", "roller_rotation", "overload", "noise_run",
+                                   "load_rate", "break_at_fraction_of_peak"};
+
 /// Whether a key belongs to an entry of a list, or to a step that goes by its number.
 bool is_numbered(const std::string& key) {
   for (std::size_t begin = 0; begin <= key.size();) {
@@ -152,6 +157,11 @@ std::string words_of(const std::string& key) {
 }
 
 }  // namespace
+
+bool is_experimental(const std::string& key) {
+  const std::string last = key.substr(key.rfind('.') + 1);
+  return std::find(kExperimental.begin(), kExperimental.end(), last) != kExperimental.end();
+}
 
 std::vector<KeyUnit> key_units(const Method& method) {
   std::vector<KeyUnit> found;
@@ -195,8 +205,9 @@ std::vector<MethodKey> method_keys() {
 }
 
 std::string method_keys_csv() {
-  std::string all = "key,label,unit\n";
-  for (const MethodKey& one : method_keys()) all += one.key + ",\"" + one.label + "\"," + one.unit + "\n";
+  std::string all = "key,label,unit,experimental\n";
+  for (const MethodKey& one : method_keys())
+    all += one.key + ",\"" + one.label + "\"," + one.unit + (is_experimental(one.key) ? ",yes\n" : ",\n");
   return all;
 }
 
