@@ -83,7 +83,7 @@ def result_keys():
 
 
 def method_keys():
-    """The keys that methods may have, but for those of sections that do not act on the test, such as analysis."""
+    """The keys that methods may have, but for those of sections that do not act on the test, such as report."""
     return tuple(row["key"] for row in listing("method-keys"))
 
 

@@ -209,7 +209,6 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   method.program = read_program(top.take("program"), file, method.material, defaults, automatic);
   if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
   fields::behind_program(top, method);
-  top.section("analysis", [&](Fields& f) { fields::analysis(f, method.analysis); });
   top.section("report", [&](Fields& f) { fields::report(f, method.report); });
   method.specification = read_specification(top.take("specification"), file);
   bool usual_scatter = true;

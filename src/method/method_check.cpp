@@ -289,12 +289,6 @@ bool pulls_anything(const Method& m) {
   return std::any_of(m.program.begin(), m.program.end(), [](const ProgramStep& step) { return pulls(step->phase()); });
 }
 
-void check_analysis(const Method& m) {
-  const bool has = m.specimen.to_be_tied && pulls_anything(m) && !m.material.other;
-  has_effect(has, "analysis.margin", std::string(m.analysis.margin ? "true" : "false"), std::string("false"),
-             "with a program that ties the knots and pulls them, and ropes of one material");
-}
-
 }  // namespace
 
 void check_method(const Method& method) {
@@ -307,7 +301,6 @@ void check_method(const Method& method) {
   check_ends(method);
   check_effects(method);
   check_rest_shape(method);
-  check_analysis(method);
   check_scatter(method);
   if (method.specimen.to_be_tied && pulls_anything(method)) check_tying(method.specimen, method.material);
 }

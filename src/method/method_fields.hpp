@@ -158,8 +158,6 @@ inline void behind_program(Fields& top, Method& m) {
   top.section("physics", [&](Fields& f) { physics(f, m.physics); });
 }
 
-inline void analysis(Fields& f, AnalysisOptions& o) { f.flag("margin", o.margin); }
-
 /// The texts in the head of a report, and its units.
 inline void report(Fields& f, ReportOptions& o) {
   f.text("specimen_id", o.specimen_id, 80);

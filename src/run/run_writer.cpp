@@ -120,8 +120,6 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   if (method.material.other) weight_per_length_ *= mass_over_that_of_the_first(method.material, drawn);
   if (rollers_hold(method.specimen, method.machine)) radius_on_rollers_ = method.material.radius;
   far_side_held_ = method.machine.far_side == FarSide::kHeld;
-  if (method.analysis.margin)
-    known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
   known_.inertia = inertia_factor(method.material, method.physics, slack_of(method.specimen, drawn));
   for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
@@ -212,7 +210,6 @@ MadeResults make_results(const std::string& folder, const Method& method, const 
     warnings.push_back(std::to_string(missing) + " commands of the test were not recorded");
   if (samples.torn_bytes() > 0)
     warnings.emplace_back("the last command in samples.csv was cut off as it was written, and is left out");
-  if (options.margin) made.facts.margin = options.margin(made.results);
   made.rows = writer.rows();
   made.full_rows = writer.full_rows();
   writer.finish(made.results, made.facts, samples.final_shape());

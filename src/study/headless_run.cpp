@@ -13,7 +13,6 @@
 #include "knot_utm/run/samples.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/study/beginning.hpp"
-#include "knot_utm/study/find_margin.hpp"
 #include "knot_utm/study/tied_specimen.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
@@ -58,20 +57,12 @@ struct Test {
   std::optional<TiedSpecimen>& ties;          ///< what it ties, where that is to be kept
 };
 
-/// The files of the run in a folder, with the margin where the method asks for it and the knots slide.
-MadeResults make_with_margin(const std::string& folder, const Method& method, const HeadlessOptions& options,
-                             bool ran_here) {
+/// The files of the run in a folder.
+MadeResults make_files(const std::string& folder, const Method& method, const HeadlessOptions& options, bool ran_here) {
   ResultsOptions more;
   if (options.readings == Readings::kAll) more.further = options.further;
   more.ran_here = ran_here;
   more.without_end.reason = "the test was cut off";
-  if (method.analysis.margin)
-    more.margin = [&](const Results& results) {
-      Margin none;
-      none.reason = "the knots did not slide";
-      if (results.motion_pattern != MotionPattern::kSliding) return none;
-      return find_margin(method, options.interrupted);
-    };
   MadeResults made = make_results(folder, method, more);
   for (const std::string& warning : printed_warnings(made.results, made.facts)) options.tell(warning);
   return made;
@@ -110,7 +101,7 @@ HeadlessOutcome run_to_end(const Test& test) {
   out.reason = test.program.reason();
   out.failed = test.program.failed();
   samples.end({test.program.ended_by(), out.ended ? out.reason : kInterrupted}, test.bench.state().position);
-  out.results = make_with_margin(test.folder, test.method, test.options, true).results;
+  out.results = make_files(test.folder, test.method, test.options, true).results;
   out.wall_time = clock.seconds();
   return out;
 }
@@ -169,7 +160,7 @@ HeadlessOutcome results_from_samples(const HeadlessOptions& options) {
                                  "there is no samples.csv in " + shown(folder) + " from which results can be made");
   const ClaimedFolder claimed(folder);
   const Method method = load_method((std::filesystem::path(folder) / "method.yaml").string());
-  const MadeResults made = make_with_margin(folder, method, options, false);
+  const MadeResults made = make_files(folder, method, options, false);
   HeadlessOutcome out;
   out.folder = folder;
   out.results = made.results;

@@ -286,7 +286,6 @@ std::vector<std::string> printed_warnings(const Results& results, const RunFacts
   found.of_an_early_end();
   found.of_what_moves();
   found.say(accuracy_warning(results, known_errors(results, facts)));
-  if (!facts.margin.reason.empty()) found.say("no margin: " + facts.margin.reason);
   return found.all;
 }
 

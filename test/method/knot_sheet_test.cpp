@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 class Draw : public MadeFolder {
  protected:
@@ -81,36 +80,6 @@ TEST_F(Draw, NamesPlacesAsTheFileHasThem) {
   EXPECT_THAT(bent.text, HasSubstr(" radii at (2."));
   EXPECT_THAT(bent.text, HasSubstr(", 0.0, "));
   EXPECT_THAT(picture("bent"), HasSubstr("a &lt; b &amp; c"));
-}
-
-TEST_F(Draw, WritesOverNothingUnlessAsked) {
-  ASSERT_EQ(draw("reef").code, 0);
-  const Answer again = draw("reef");
-  EXPECT_EQ(again.code, 2);
-  EXPECT_THAT(again.text, HasSubstr("exists already: give another name, or --overwrite"));
-  EXPECT_EQ(count(again.text, "\n"), 1u);
-  EXPECT_EQ(draw("reef --overwrite").code, 0);
-}
-
-TEST_F(Draw, RefusesInOneLineAndWritesNothing) {
-  const std::string file = folder() + "/crossed.yaml";
-  std::ofstream(file) << "strands:\n"
-                         "  - {ends: [a, b], points: [[0, 0, -12], [0, 0, -8], [0, 0, 8], [0, 0, 12]]}\n"
-                         "  - {ends: [c, d], points: [[-9, 0.5, 0], [-3, 0.5, 0], [3, 0.5, 0], [9, 0.5, 0]]}\n"
-                         "lower: [a]\nupper: [b]\n";
-  const auto refused = [&](const std::string& words, const std::string& why) {
-    const Answer answer = draw(words);
-    EXPECT_EQ(answer.code, 2) << answer.text;
-    EXPECT_EQ(count(answer.text, "\n"), 1u) << answer.text;
-    EXPECT_THAT(answer.text, HasSubstr(why));
-  };
-  refused("'" + file + "'", "strands overlap at (0.0, 0.2, 0.0), where they are 0.5 radii apart, but must be at least");
-  refused("reff", "reef");
-  refused("/nowhere/knot.yaml", "/nowhere/knot.yaml");
-  refused("reef tighten", "--draw");
-  refused("file", "specimen.file is missing");
-  for (const auto& entry : fs::directory_iterator(folder()))
-    EXPECT_NE(entry.path().extension(), ".svg") << entry.path();
 }
 
 }  // namespace

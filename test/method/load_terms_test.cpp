@@ -15,15 +15,6 @@ const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
 
 Method straight(std::vector<std::string> overrides) { return load_method(kConfig + "straight.yaml", overrides); }
 
-std::string refused(const std::vector<std::string>& overrides) {
-  try {
-    straight(overrides);
-  } catch (const InvalidInput& invalid) {
-    return invalid.what();
-  }
-  return "";
-}
-
 TEST(LoadTerms, APercentageIsOfTheBreakingForceOfTheMaterial) {
   const Method m =
       straight({"material.breaking_force=1700",

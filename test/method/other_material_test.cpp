@@ -170,7 +170,6 @@ TEST(OtherMaterial, IsRefusedInOneLineWhereNothingTellsRopesApart) {
       {{other, "other_material.rolling_hysteresis=0.1"}, "other_material.rolling_hysteresis is 0.1"},
       {{other, "other_material.twisting_stiffness=1e-9"}, "other_material.twisting_stiffness is 1e-09"},
       {{other, "physics.friction.pair=larger"}, "physics.friction.pair"},
-      {{other, "analysis.margin=true"}, "analysis.margin"},
       {{other, "other_material.radius=2"}, "other_material.radius is 2"},
       {{"other_material=nyloon"}, "other_material"},
       {{"physics.friction.pair=0.2"}, "physics.friction.pair is 0.2"}};

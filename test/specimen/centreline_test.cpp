@@ -380,14 +380,6 @@ class CentrelineFile : public ::testing::Test {
     std::ofstream(path_) << text;
     return path_;
   }
-  std::string complaint(const std::string& text) {
-    try {
-      read_centreline(write(text));
-    } catch (const InvalidInput& invalid) {
-      return invalid.what();
-    }
-    return "";
-  }
   void TearDown() override { std::remove(path_.c_str()); }
   std::string path_ = ::testing::TempDir() + "knot_utm_centreline_" +
                       ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";

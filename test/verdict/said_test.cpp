@@ -135,12 +135,6 @@ TEST_F(Said, AThreadComesToRestWithItsOwnMass) {
   EXPECT_FALSE(result["not_equilibrated"].as<bool>());
 }
 
-TEST_F(Said, WhyThereIsNoMargin) {
-  run("--set material=green_vps --set analysis.margin=true --set 'program=[{tie: {}}, {release: {}}, {mount: {}}, "
-      "{balance: {}}, {pull: {until: {extension: 0.02}}}]'");
-  EXPECT_THAT(said_, HasSubstr("no margin: the knots did not slide"));
-}
-
 TEST_F(Said, ALoopHeldByTwoNodesHasNoSlidingForce) {
   const YAML::Node result = run("--set material=nylon --set machine.grips=nodes");
   EXPECT_TRUE(result["plateau_force"].IsNull());

@@ -16,11 +16,6 @@
 
 namespace knot_utm {
 
-/// The `analysis` section of a method: which further evaluations are asked for, beyond those of every test.
-struct AnalysisOptions {
-  bool margin = false;  ///< safety margin of a knot that slides (study/find_margin.hpp)
-};
-
 /// How a value of the method scatters from specimen to specimen. With x0 the value in the method and d the spread:
 ///
 ///     normal      x0 (1 + d z), where z is standard normal, limited to 3 standard deviations; d is the cv
@@ -52,7 +47,6 @@ struct Method {
   Program program;
   EndOptions ends;
   PhysicsOptions physics;
-  AnalysisOptions analysis;
   ReportOptions report;
   Specification specification;
   SpecimensOptions specimens;

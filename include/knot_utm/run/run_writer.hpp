@@ -23,11 +23,10 @@ struct FurtherWriter {
 struct ResultsOptions {
   /// Makes the writer of a further file in this folder.
   std::function<FurtherWriter(const std::string& folder, const Method& method)> further;
-  std::function<Margin(const Results&)> margin;  ///< finds the safety margin
-  TestEnd without_end;                           ///< how the test ended where its samples do not say so
-  std::vector<std::string> warnings;             ///< further ones, one line each
-  std::uint64_t missing_at_end = 0;              ///< commands of the test behind the last that was recorded
-  bool ran_here = true;  ///< whether this process ran the test, so that its memory is the test's
+  TestEnd without_end;                ///< how the test ended where its samples do not say so
+  std::vector<std::string> warnings;  ///< further ones, one line each
+  std::uint64_t missing_at_end = 0;   ///< commands of the test behind the last that was recorded
+  bool ran_here = true;               ///< whether this process ran the test, so that its memory is the test's
 };
 
 struct MadeResults {
