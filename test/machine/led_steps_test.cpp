@@ -35,34 +35,6 @@ TEST(LedSteps, PreloadMeetsItsLoadAndBalancesStandingStill) {
   for (const Command& command : run(FakeBench(), unbalanced).commands) EXPECT_FALSE(command.balance);
 }
 
-/// The next step begins in the new zero.
-TEST(LedSteps, WhatFollowsAPreloadBeginsAtZero) {
-  auto hold = step<HoldStep>(0.0033, 2.0);
-  PullStep by_load;
-  hold.hold_load = true;
-  by_load.load_rate = 1.0;
-  by_load.until.load = 3.0;
-  CycleStep cycle;
-  cycle.extension = fields::LowHigh{0.0, 0.001};
-  cycle.cycles = 1;
-  ProgramRunner program({preload(2.0), hold, by_load, BalanceStep(), cycle}, 3.0, 0.1, {});
-  const Answered result = run(FakeBench(), program);
-  double begin = 0.0;
-  for (std::size_t n = 1; n < result.samples.size(); ++n) {
-    const Sample& sample = result.samples[n];
-    if (sample.phase == Phase::kHold) {
-      EXPECT_NEAR(sample.load, 0.0, 1e-12);
-      begin = sample.time;
-    }
-    if (sample.phase == Phase::kPull) {
-      EXPECT_LE(sample.load, sample.time - begin + 1e-9);
-    }
-    if (sample.phase == Phase::kCycle) {
-      EXPECT_GE(sample.extension, -1e-12);
-    }
-  }
-}
-
 TEST(LedSteps, ErrorsOfTheCellLeadNothing) {
   struct WrongCell : FakeBench {
     Sample respond(const Command& command) {

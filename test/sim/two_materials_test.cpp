@@ -6,12 +6,9 @@
 #include <cmath>
 #include <memory>
 
-#include "knot_utm/contact/smooth_contact.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "sim/balance.hpp"
-#include "sim/saved.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
