@@ -38,22 +38,6 @@ TEST(LoadControl, CatchesUpWithASpringThatTurnsSoft) {
   EXPECT_NEAR(spring.now.force_upper, 39.0, 1e-9);
 }
 
-/// Where the load no longer rises with the crosshead the estimate halves at every step, until the crosshead goes as
-/// fast as it may.
-TEST(LoadControl, RunsAfterALoadThatDoesNotRise) {
-  LoadControl control;
-  Sample now;
-  double speed = control.following(now, 1.0, kPeriod, kFastest);
-  EXPECT_GT(speed, 0.0);
-  now.displacement += kPeriod * speed;
-  now.force_upper = 0.5;
-  for (int n = 0; n < 40; ++n) {
-    speed = control.following(now, 1.0, kPeriod, kFastest);
-    now.displacement += kPeriod * speed;
-  }
-  EXPECT_EQ(speed, kFastest);
-}
-
 /// Over a way that is none, the change of the load is rounding or what the solver left.
 TEST(LoadControl, LearnsNothingFromStandingStill) {
   LoadControl control;

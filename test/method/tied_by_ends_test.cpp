@@ -117,27 +117,6 @@ TEST(TiedByEnds, AnEndOfTheUpperGripSlipsAtItsPartAndIsHeldWhereItIsOnceItIsLetG
   EXPECT_GT(bench.last.force_upper, 0.0);
 }
 
-/// A figure-eight, which has no free end, is tightened by its upper end. Without a release the machine's grip takes
-/// over the load, on a frame that gives as on one that does not.
-TEST(TiedByEnds, AKnotWithoutAFreeEndMayBeTightenedByItsUpperEndWhichTheGripThenHolds) {
-  for (const char* stiffness : {"inf", "1e5"}) {
-    Method method = knot_method("figure_eight", {std::string("machine.stiffness=") + stiffness});
-    KnotDrawing drawing = *method.specimen.drawing;
-    drawing.tie = {{{"upper", 1.0}}};
-    method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
-    method.program.erase(method.program.begin() + 1);
-    Bench bench(method);
-    bench.run_past(Phase::kTie);
-    const double preload = tying_load(method.specimen, method.material);
-    EXPECT_NEAR(bench.last.force_upper, preload, 3e-3 * preload) << stiffness;
-    EXPECT_NEAR(bench.last.force_lower, preload, 3e-3 * preload) << stiffness;
-    bench.last = bench.machine.respond(bench.program.last());
-    EXPECT_EQ(bench.last.status, BenchStatus::kRunning) << bench.last.message;
-    for (const Sample& step : bench.machine.substeps())
-      EXPECT_NEAR(step.force_upper, preload, 5e-3 * preload) << stiffness;
-  }
-}
-
 TEST(TiedByEnds, ReadsHowMuchOfEachFreeEndIsLeft) {
   const Method method = knot_method("grief");
   Bench bench(method);

@@ -88,23 +88,6 @@ TEST(FishermanLoop, IsFineInItsKnotsAndCoarseOnTheFarSide) {
   EXPECT_NEAR(edge_at(0.5 * (line.upper_apex + line.lower_apex)), 1.5 * shape.edge_length, 0.05 * shape.edge_length);
 }
 
-/// A coil presses as hard on the strand that it holds as that does on the coil, and slides along it.
-TEST(FishermanLoop, IsFineAlongBothStrandsFromOneKnotThroughTheOther) {
-  FishermanShape shape;
-  shape.refinement = 2.0;
-  const Centreline line = fisherman_loop(shape);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double own = line.knots[k].coil_middle, held = line.knots[1 - k].threaded;
-    const double beyond = held + std::copysign(3.0 * shape.radius, held - own);
-    const int first = line.nearest_node(std::min(own, beyond)), last = line.nearest_node(std::max(own, beyond));
-    ASSERT_GT(last - first, 60);
-    for (int node = first; node < last; ++node) {
-      const double edge = (line.points.col(node + 1) - line.points.col(node)).norm();
-      ASSERT_NEAR(edge, 0.5 * shape.edge_length, 0.05 * shape.edge_length) << node;
-    }
-  }
-}
-
 TEST(FishermanLoop, KeepsItsStrandsApartInEqualEdges) {
   const double h = FishermanShape().radius;
   for (const Handedness handedness : {Handedness::kSame, Handedness::kOpposite}) {
@@ -179,27 +162,6 @@ std::string refused_key(const FishermanShape& shape) {
     return error.key;
   }
   return "";
-}
-
-TEST(FishermanLoop, RefusesWhatDoesNotFitTheMachine) {
-  EXPECT_EQ(refused_key({}), "");
-  const struct {
-    double FishermanShape::*member;
-    double value;
-    const char* key;
-  } cases[] = {{&FishermanShape::knot_distance, 0.02, "specimen.knot_distance"},
-               {&FishermanShape::knot_distance, 0.22, "specimen.end_to_end"},
-               {&FishermanShape::end_to_end, 0.05, "specimen.end_to_end"},
-               {&FishermanShape::edge_length, 0.01, "specimen.edge_length"},
-               {&FishermanShape::edge_length, std::numeric_limits<double>::quiet_NaN(), "specimen.edge_length"},
-               {&FishermanShape::tail, -0.1, "specimen.tail"},
-               {&FishermanShape::looseness, 3.0, "specimen.looseness"},
-               {&FishermanShape::roller_radius, 0.004, "machine.roller_diameter"}};
-  for (const auto& one : cases) {
-    FishermanShape shape;
-    shape.*one.member = one.value;
-    EXPECT_EQ(refused_key(shape), one.key) << one.value;
-  }
 }
 
 TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
