@@ -155,15 +155,6 @@ TEST(FishermanLoop, SameHandedKnotsAreImagesUnderAHalfTurn) {
   EXPECT_LT((turned - line.points).cwiseAbs().maxCoeff(), 1e-3 * shape.radius);
 }
 
-std::string refused_key(const FishermanShape& shape) {
-  try {
-    fisherman_loop(shape);
-  } catch (const InvalidInput& error) {
-    return error.key;
-  }
-  return "";
-}
-
 TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   for (int turns = 1; turns <= 4; ++turns) {
     for (const double excess : {0.65, 0.9}) {
