@@ -22,7 +22,6 @@ namespace {
 constexpr double kClosed = 2.0;        // radius of a coil that lies on the strands in it [h]
 constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
 constexpr double kCoarsestEdge = 0.9;  // of a rope whose knots slide as with finer ones [h]: doc/developers/history.md
-constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which a law of tension was ever measured [-]
 // Pink VPS was tied and mounted with a linear law up to a strain of 4.8 (4.8 k_s) and with a neo-Hookean one up to 5.6
 // (2.2 k_s); at 6 and 6.8 the tail grips came to the end of their way first (config/tighten.yaml with material=pink_vps
 // and specimen.preload= at draft).
@@ -51,13 +50,13 @@ double exposed_by(double stretch, double bend, const Material& material) {
 /// Warns of a strain that the outermost fibre of a tied knot may not bear. It is empty where nothing is known to fail.
 std::string strain_warning(double stretch, const Material& material) {
   const double strain = stretch + kSharpestBend, exposed = exposed_by(stretch, kSharpestBend, material);
-  const std::string needed = "tied knots strain the outermost fibre by up to " + short_number(strain);
   if (exposed > 1.0)
     return "tied knots strain their fibres by up to " + short_number(exposed) +
            " times what parts them (material.breaking), so the rod may part while it is tied";
   if (remembers_bends(material)) return "";
   if (material.yield_strain && *material.yield_strain < strain)
-    return needed + ", and the material yields at a strain of " + short_number(*material.yield_strain) +
+    return "tied knots strain the outermost fibre by up to " + short_number(strain) +
+           ", and the material yields at a strain of " + short_number(*material.yield_strain) +
            " (material.yield_strain), which only material.bending_law: plastic simulates";
   return "";
 }

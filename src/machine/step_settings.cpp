@@ -84,7 +84,6 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   const Tolerances tolerance = tolerances(physics, specimen, material);
   const double h = material.radius;
   StepSettings out;
-  out.contact_law = physics.contact_law;
   out.pressure_law = normal_law(material, tolerance.contact_tolerance * h);
   out.friction = Friction::of(physics.friction, {material.friction_coefficient, h, tolerance.presliding});
   out.roller_friction = Friction::of(physics.friction, {machine.roller_friction, h, tolerance.presliding});

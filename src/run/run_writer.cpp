@@ -75,10 +75,6 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
   known_.knot_distance = marks_of(method.specimen, method.program);
   known_.end_to_end = method.specimen.end_to_end;
-  if (method.machine.roller_rotation == RollerRotation::kTurned)
-    known_.warnings.push_back(
-        "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "
-        "forces");
   if (method.specimen.to_be_tied && tied_by_preload(method.specimen))
     known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.free_ends = drawn.free.size();

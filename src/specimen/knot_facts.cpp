@@ -55,7 +55,6 @@ std::string invariants(const KnotPolynomial& polynomial) {
 
 std::string type_of_rope(const Centreline& knot) {
   const Points& x = knot.points;
-  if (knot.closed) return invariants(alexander_polynomial(x.leftCols(x.cols() - 1))) + ", of the closed rod";
   const Vec3 axis = x.rightCols(1) - x.leftCols(1);
   return invariants(alexander_polynomial(closed_far_away(x, axis))) + ", closed far away";
 }
@@ -108,7 +107,7 @@ KnotFacts facts_of(const Centreline& knot, double radius) {
   out.strands = static_cast<int>(knot.cuts.size()) + 1;
   out.crossings = visible_crossings(knot);
   out.type = type_of(knot, radius);
-  const NearestPlaces nearest = nearest_places(knot.points, 1.5 * M_PI * radius, knot.closed, knot.cuts);
+  const NearestPlaces nearest = nearest_places(knot.points, 1.5 * M_PI * radius, knot.cuts);
   out.least_distance = nearest.distance;
   out.nearest = nearest.middle;
   find_sharpest_bend(knot, out);

@@ -229,8 +229,9 @@ int check(const Method& method, Readings readings) {
 }
 
 int list_keys(const Method& method) {
-  std::puts("key,unit");
-  for (const KeyUnit& one : key_units(method)) std::printf("%s,%s\n", one.key.c_str(), one.unit.c_str());
+  std::puts("key,unit,experimental");
+  for (const KeyUnit& one : key_units(method))
+    std::printf("%s,%s,%s\n", one.key.c_str(), one.unit.c_str(), is_experimental(one.key) ? "yes" : "");
   return kDone;
 }
 

@@ -108,7 +108,7 @@ class FrictionLaw(unittest.TestCase):
             with open(f"{folder}/main.cpp", "w", encoding="utf-8") as program:
                 program.write(PROGRAM)
             numeric = [f"src/numeric/{file}" for file in sorted(os.listdir(f"{folder}/src/numeric")) if file.endswith(".cpp")]
-            built = subprocess.run([COMPILER, *FLAGS, "main.cpp", "src/contact/friction.cpp", *numeric, "-lz", "-o", "main"], cwd=folder,
+            built = subprocess.run([COMPILER, *FLAGS, "main.cpp", *numeric, "-lz", "-o", "main"], cwd=folder,
                                    capture_output=True, text=True, check=False)
             self.assertEqual(built.returncode, 0, built.stderr)
             said = subprocess.run([f"{folder}/main"], capture_output=True, text=True, check=True).stdout.split()

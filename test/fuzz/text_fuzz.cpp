@@ -73,7 +73,7 @@ void fuzz_centreline(const std::string& text) {
   // Each edge is held against each other one: what is long, but not too long, would take seconds here.
   const double length = arclengths(points).back();
   if (length > 500.0 * kEdge && length < 1e5 * kEdge) return;
-  const Centreline rod = from_points(points, false, kRadius, kEdge);
+  const Centreline rod = from_points(points, kRadius, kEdge);
   promise(rod.points.allFinite(), "a rod of finite nodes");
   promise(rod.points.leftCols(1) == points.leftCols(1) && rod.points.rightCols(1) == points.rightCols(1),
           "a rod that ends where its points do");

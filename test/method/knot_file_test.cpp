@@ -150,13 +150,6 @@ TEST_F(KnotFile, MayPullEndsOfTheUpperGripAndAnEndAgainInALaterGroup) {
   EXPECT_EQ(knot->tie[1][1].fraction, 0.5);
 }
 
-const char* const kReadHooks = R"(landmarks: {bend: [0, 3], hook: [1, 3], tip: [0, 5]}
-read:
-  bend: {loop: bend}
-  way: {between: [bend, tip]}
-  opening: {distance: [bend, hook]}
-tie:)";
-
 TEST_F(KnotFile, SaysWhatIsReadOfTheKnot) {
   EXPECT_EQ(complaint("tie:", kReadHooks), "");
   const auto knot = read_knot_file(file(), "hooks");
@@ -187,6 +180,7 @@ TEST_F(KnotFile, MayBeNamedFromTheFolderOfTheMethod) {
   const Method method = parse_method(text, (fs::path(file()).parent_path() / "method.yaml").string());
   ASSERT_TRUE(method.specimen.drawing);
   EXPECT_EQ(method.specimen.drawing->name, file());
+  EXPECT_THAT(method_yaml(method), HasSubstr("knot: " + file()));
 }
 
 TEST(KnotFileName, ThatNobodyKnowsIsRefusedWithTheOneThatMayBeMeant) {

@@ -200,16 +200,6 @@ TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   }
 }
 
-TEST(FromPoints, ResamplesACircleAndClosesIt) {
-  Points circle(3, 200);
-  for (int i = 0; i < 200; ++i) circle.col(i) << 0.1 * std::cos(0.01 * M_PI * i), 0.1 * std::sin(0.01 * M_PI * i), 0.0;
-  const Centreline line = from_points(circle, true, 3e-3, 3e-3);
-  EXPECT_TRUE(line.closed);
-  expect_equal_edges(line.points, 3e-3);
-  EXPECT_EQ(line.points.col(0), line.points.rightCols(1));
-  EXPECT_NEAR(line.length(), 0.2 * M_PI, 1e-3);
-}
-
 /// A straight strand, one turn of a helix of ten radii h = 1 with a pitch of four, and a straight strand.
 Points one_turn() {
   Points out(3, 101);
@@ -227,7 +217,7 @@ Points one_turn() {
 
 TEST(FromPoints, HasShorterEdgesWhereTheRodComesNearItself) {
   const Points points = one_turn();
-  const Points fine = 1e3 * from_points(1e-3 * points, false, 1e-3, 2e-3, "shape", 4.0).points;
+  const Points fine = 1e3 * from_points(1e-3 * points, 1e-3, 2e-3, "shape", 4.0).points;
   const std::vector<double> along = arclengths(fine);
   const double turn = 20.0 * M_PI, middle = 120.0 + 0.5 * turn;
   for (std::size_t i = 1; i < along.size(); ++i) {
@@ -239,7 +229,7 @@ TEST(FromPoints, HasShorterEdgesWhereTheRodComesNearItself) {
     }
   }
   const Points line = straight(0.1, 1e-3, 2e-3).points;
-  EXPECT_EQ(from_points(line, false, 1e-3, 2e-3, "shape", 4.0).points.cols(), 201) << "everywhere where it never does";
+  EXPECT_EQ(from_points(line, 1e-3, 2e-3, "shape", 4.0).points.cols(), 201) << "everywhere where it never does";
 }
 
 TEST(PartNearItself, IsThatOfAllPairsOfNodes) {
@@ -270,20 +260,20 @@ Points two_strands_that_cross() {
 
 TEST(FromPoints, RefusesOverlapAndNonsense) {
   Points crossing = two_strands_that_cross();
-  EXPECT_THROW(from_points(crossing, false, 3e-3, 3e-3), InvalidInput);
+  EXPECT_THROW(from_points(crossing, 3e-3, 3e-3), InvalidInput);
   crossing(2, 3) = 0.1;
-  EXPECT_NO_THROW(from_points(crossing, false, 3e-3, 3e-3));
+  EXPECT_NO_THROW(from_points(crossing, 3e-3, 3e-3));
   crossing(0, 0) = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(from_points(crossing, false, 3e-3, 3e-3), InvalidInput);
-  EXPECT_THROW(from_points(Points(3, 0), false, 3e-3, 3e-3), InvalidInput);
+  EXPECT_THROW(from_points(crossing, 3e-3, 3e-3), InvalidInput);
+  EXPECT_THROW(from_points(Points(3, 0), 3e-3, 3e-3), InvalidInput);
   const Points line = Points::Ones(3, 1) * Eigen::RowVector4d(0.0, 10.0, 20.0, 40.0);
-  EXPECT_THROW(from_points(line, false, 3e-3, 3e-3), InvalidInput) << "more than 20000 edges";
+  EXPECT_THROW(from_points(line, 3e-3, 3e-3), InvalidInput) << "more than 20000 edges";
 }
 
 /// What is said of points that are refused; empty: they are not.
-std::string refusal(const Points& points, double radius, double edge_length, bool closed = false) {
+std::string refusal(const Points& points, double radius, double edge_length) {
   try {
-    from_points(points, closed, radius, edge_length, "shape.csv");
+    from_points(points, radius, edge_length, "shape.csv");
   } catch (const InvalidInput& bad) {
     return bad.what();
   }
@@ -355,14 +345,6 @@ class CentrelineFile : public ::testing::Test {
     std::ofstream(path_) << text;
     return path_;
   }
-  std::string complaint(const std::string& text) {
-    try {
-      read_centreline(write(text));
-    } catch (const InvalidInput& invalid) {
-      return invalid.what();
-    }
-    return "";
-  }
   void TearDown() override { std::remove(path_.c_str()); }
   std::string path_ = ::testing::TempDir() + "knot_utm_centreline_" +
                       ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
@@ -373,20 +355,6 @@ TEST_F(CentrelineFile, HeadingsCommentsAndEmptyRowsArePassedOver) {
   ASSERT_EQ(points.cols(), 4);
   EXPECT_EQ(points.col(1), Vec3(0.0, 0.0, 0.01));
   EXPECT_EQ(points.col(3), Vec3(-1.0, 1.0, 2.0));
-}
-
-TEST_F(CentrelineFile, WrongRowsAreNamed) {
-  EXPECT_THAT(complaint("0,0,0\n0,0\n0,0,2\n0,0,3\n0,0,4\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,nan\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,0\n"), HasSubstr("row 2 is the same point as the one before it"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1\n0,0,2\n"), HasSubstr("has 3 points, but must have four or more"));
-  EXPECT_THAT(complaint("a\nb\nc\n0,0,0\n"), HasSubstr("row 3"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,+-1\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1001\n"),
-              HasSubstr("row 2 is \"0,0,1001\", but must be three numbers x,y,z from -1000"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1e-200\n"), HasSubstr("row 2 is the same point as the one before it"));
-  EXPECT_THAT(complaint("0,0,0\n" + std::string(5000, '0') + ",0,0\n"),
-              HasSubstr("row 2 is longer than 4096 characters"));
 }
 
 }  // namespace

@@ -102,25 +102,6 @@ TEST(KnotDrawing, FindsALandmarkAlongItsStrandAtAnyLengthOfEdges) {
   }
 }
 
-TEST(KnotDrawing, HasEdgesOfTheLengthThatIsAskedFor) {
-  const Centreline rod = draw(hooks(), kSize);
-  for (Eigen::Index i = 0; i + 1 < rod.points.cols(); ++i) {
-    if (i == rod.cuts[0]) continue;
-    EXPECT_NEAR((rod.points.col(i + 1) - rod.points.col(i)).norm(), kSize.edge_length, 3e-4);
-  }
-}
-
-TEST(KnotDrawing, IsRefusedWhereStrandsOverlap) {
-  KnotDrawing knot = hooks();
-  for (Vec3& point : knot.strands[1].points) point[1] -= 3.0;
-  try {
-    draw(knot, kSize);
-    FAIL();
-  } catch (const InvalidInput& refused) {
-    EXPECT_THAT(refused.what(), HasSubstr("specimen.knot hooks: strands overlap at "));
-  }
-}
-
 TEST(KnotDrawing, HasFinerEdgesByItsRefinement) {
   const KnotDrawing knot = hooks();
   for (const double refinement : {0.5, 1.0, 3.0}) {
@@ -168,14 +149,6 @@ TEST(KnotDrawing, IsRefusedWhereAStrandBendsMoreSharplyThanTheRodIsThick) {
   } catch (const InvalidInput& refused) {
     EXPECT_THAT(refused.what(), HasSubstr("specimen.knot hairpin: a strand bends with a radius of "));
   }
-}
-
-TEST(KnotDrawing, IsRefusedWhereItHasNoRoomBetweenTheGrips) {
-  DrawnSize size = kSize;
-  size.end_to_end = 0.9 * least_end_to_end(hooks(), size.radius);
-  EXPECT_THROW(draw(hooks(), size), InvalidInput);
-  size.end_to_end = least_end_to_end(hooks(), size.radius);
-  EXPECT_NO_THROW(draw(hooks(), size));
 }
 
 TEST(KnotDrawing, StandsOnItsFirstPostWhereTheLowerGripHoldsNoEnd) {

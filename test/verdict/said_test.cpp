@@ -21,9 +21,11 @@ using ::testing::Not;
 class Said : public OwnFolder {
  protected:
   static YAML::Node run(const std::string& more) {
-    const Answer answer =
-        answer_of(tool("tensile_test", "tighten --quiet --out '" + folder() +
-                                           "' --set physics.accuracy=draft --set compatibility=1 " + more));
+    const Answer answer = answer_of(
+        tool("tensile_test",
+             "tighten --quiet --out '" + folder() +
+                 "' --set physics.accuracy=draft --set material.bending_law=elastic --set material.friction_couple=0 " +
+                 more));
     EXPECT_EQ(answer.code, 0) << answer.text;
     said_ = answer.text;
     return YAML::LoadFile(folder() + "/result.yaml");

@@ -114,9 +114,6 @@ std::string knots_with(const std::string& key);
 std::string loops();
 std::string knots_that_can_be_tied();
 
-/// Throws InvalidInput ("specimen.closed") where the last point of the rod is to join the first one.
-void check_ends(const SpecimenOptions& specimen);
-
 /// F_p on each overhand of a loop [N]: that of the specimen, else default_preload of its material.
 double tying_load(const SpecimenOptions& specimen, const Material& material);
 

@@ -127,8 +127,6 @@ def without_idle_keys(method):
     material, machine, physics = method["material"], method["machine"], method.get("physics", {})
     if not material.get("friction_couple") and isinstance(physics.get("friction"), dict):
         physics = {**physics, "friction": without(physics["friction"], "at")}
-    if machine.get("roller_rotation", "fixed") != "turned":
-        machine = without(machine, "roller_rate")
     if not machine.get("roller_friction"):
         machine = without(machine, "roller_rotation")
     if lies_around_post(method):

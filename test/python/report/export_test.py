@@ -23,9 +23,8 @@ EXPORT = os.path.join(ROOT, "scripts/export")
 def setUpModule():
     global folders, broken, twisted, series
     folders = Folders()
-    broken = folders.run("broken", ["config/tighten.yaml", "--set", "compatibility=1", "--set", "physics.accuracy=draft",
-                                    "--set", "machine.after_break=follow"],
-                         "--shapes")
+    broken = folders.run("broken", ["config/tighten.yaml", "--set", "material.bending_law=elastic", "--set", "material.friction_couple=0",
+                                    "--set", "physics.accuracy=draft"], "--shapes")
     # A knot that is drawn and held in clamps solves for twist from the beginning.
     twisted = folders.run("twisted", ["config/overhand.yaml", "--set", "physics.accuracy=draft", "--set",
                                       "program=[{balance: {}}, {hold: {duration: 1}}]"], "--shapes")

@@ -18,8 +18,9 @@ HIGH, WIDE = 1080, 1920
 def setUpModule():
     global folders, nylon, other
     folders = Folders()
-    draft = ["config/tighten.yaml", "--set", "compatibility=1", "--set", "physics.accuracy=draft"]
-    nylon = folders.run("nylon", [*draft, "--set", "machine.after_break=follow"], "--shapes")
+    draft = ["config/tighten.yaml", "--set", "material.bending_law=elastic", "--set", "material.friction_couple=0", "--set",
+             "physics.accuracy=draft"]
+    nylon = folders.run("nylon", draft, "--shapes")
     other = folders.run("other", [*draft, "--set", "material=polypropylene"], "--shapes")
 
 

@@ -20,8 +20,8 @@ from knot_utm.yaml_text import load
 matplotlib.use("Agg")  # with and without a display
 
 DRAFT = {"physics.accuracy": "draft"}
-# With the defaults of release 1 such knots come undone once they are let go.
-SLIPPERY = {"compatibility": 1, "material.friction_coefficient": 0.05}
+# Such knots come undone once they are let go.
+SLIPPERY = {"material.bending_law": "elastic", "material.friction_couple": 0, "material.friction_coefficient": 0.05}
 
 
 class Package(Sweeps):

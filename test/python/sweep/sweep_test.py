@@ -71,7 +71,8 @@ class TheTable(Sweeps):
     def test_has_a_row_for_runs_that_fail_and_says_why(self):
         write(self.study, f"""
             method: {CONFIG}/tighten.yaml
-            vary: {{compatibility: [1], physics.accuracy: [draft], material.friction_coefficient: [0.05]}}""")
+            vary: {{material.bending_law: [elastic], material.friction_couple: [0], physics.accuracy: [draft],
+                    material.friction_coefficient: [0.05]}}""")
         self.sweep("out")
         names, _, run = rows(self.table("out"))
         run = dict(zip(names, run))
@@ -243,7 +244,8 @@ class Repeated(Sweeps):
     def test_rejected_specimens_say_why(self):
         write(self.study, f"""
             method: {CONFIG}/tighten.yaml
-            vary: {{compatibility: [1], physics.accuracy: [draft], material.friction_coefficient: [0.05]}}
+            vary: {{material.bending_law: [elastic], material.friction_couple: [0], physics.accuracy: [draft],
+                    material.friction_coefficient: [0.05]}}
             repeat: 2""")
         self.sweep("out")
         names, _, *runs = rows(self.table("out"))

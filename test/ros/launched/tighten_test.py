@@ -20,7 +20,8 @@ CHECK = [os.path.join(ROOT, 'launch/check')]
 PROGRAM = os.path.join(ROOT, 'test/ros/whole_program.yaml')
 IMPOSSIBLE = os.path.join(ROOT, 'test/ros/impossible.yaml')
 SHORT = "overrides:='program.hold.duration=0.1'"
-SLIPPERY = ("overrides:='material=polypropylene', 'compatibility=1', 'specimen.preload=20', 'specimen.edge_length=0.005', "
+SLIPPERY = ("overrides:='material=polypropylene', 'material.bending_law=elastic', 'material.friction_couple=0', 'specimen.preload=20', "
+            "'specimen.edge_length=0.005', "
             "'material.friction_coefficient=0.05', 'physics.accuracy=draft'")
 LINE = re.compile(r'\r(\w+) +[\d.]+ %  s +[-\d.]+ mm  F +\S+ N +\S+ x real time +\S+ s left ')
 
