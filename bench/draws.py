@@ -81,8 +81,7 @@ class Draw:
         self.keep("bending_time", significant(h ** 2 * math.sqrt(density * math.pi * h ** 2 / bending)))
 
     def draw_physics(self):
-        for key, options in {"friction.law": ["memory", "smoothed"], "contact.law": ["smooth", "edge"],
-                             "twist": ["auto", "on", "off"],
+        for key, options in {"friction.law": ["memory", "smoothed"], "twist": ["auto", "on", "off"],
                              "accuracy": ["draft", "normal"] if self.quick else ["draft", "normal", "fine"]}.items():
             self.settings["physics." + key] = self.choice(key, options)
         if self.settings["physics.twist"] == "off" and self.settings["material"]["friction_couple"] > 0.0:
@@ -101,7 +100,7 @@ class Draw:
                             compaction=self.log_uniform("compaction", 1e-4, 1e-2))
         if rolls and self.random.random() < 0.5:
             material["rolling_resistance"] = self.log_uniform("rolling_resistance", 0.01, 0.5)
-        if rolls and self.settings["physics.contact.law"] == "smooth" and self.random.random() < 0.5:  # a silicone
+        if rolls and self.random.random() < 0.5:  # a silicone
             material.update(section="soft", stretching_law="neo_hookean", stretching_stiffness=significant(4.0 * self.force))
             self.keep("stretching", 4.0)
         if self.settings["physics.friction.law"] == "memory" and self.random.random() < 0.3:

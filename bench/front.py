@@ -23,7 +23,6 @@ VARIANTS = {
     "fine": {"physics.accuracy": "fine"},
     "normal, edges x3/4": {"specimen.edge_length": 0.0024},
     "normal, edges x1/2": {"specimen.edge_length": 0.0016},
-    "edge contact": {"physics.contact.law": "edge"},
     "smoothed friction": {"physics.friction.law": "smoothed"},
 }
 OVERHAND_VARIANTS = {
@@ -35,7 +34,7 @@ OVERHAND_VARIANTS = {
 LOOP_VARIANTS = {**VARIANTS, "normal, twist on": {"physics.twist": "on"}}
 
 TAIL_LOAD = 4.28                                # [N]
-CAPSTAN_VARIANTS = {name: settings for name, settings in VARIANTS.items() if "edges" not in name and name != "edge contact"}
+CAPSTAN_VARIANTS = {name: settings for name, settings in VARIANTS.items() if "edges" not in name}
 CAPSTAN_VARIANTS["normal, edges x1/2"] = {"specimen.edge_length": 0.0025}
 
 # CPU seconds a simulated second, and error of the force, as they are on record: an independent measurement in which all
@@ -163,7 +162,7 @@ def table_of(title, all_runs, errors):
     each = list(all_runs.values())
     table = Table(title, list(all_runs))
     table.add("exit code", "-", [run.exit_code for run in each],
-              [is_(0) if "edge contact" not in name and "smoothed" not in name else None for name in all_runs])
+              [is_(0) if "smoothed" not in name else None for name in all_runs])
     table.add("error", "-", [errors[name] if name in errors else REFERENCE for name in all_runs], None, ".2g")
     table.add("CPU time a simulated second", "s/s", [run.cost() for run in each], None, ".3g")
     table.add("time steps", "-", [run.value("steps") for run in each])

@@ -63,12 +63,6 @@ def children(pid):
     return found
 
 
-def memory(pid):
-    """What a process holds now [bytes]."""
-    with open('/proc/%d/status' % pid, encoding='utf-8') as file:
-        return 1024 * int(re.search(r'VmRSS:\s+(\d+)', file.read())[1])
-
-
 def reading_times(folder):
     """When the load cell was read so far [s], by samples.csv in a folder; none where it is not there."""
     try:
@@ -92,12 +86,11 @@ class Launch:
         self.uri = 'http://localhost:%d' % self.port
         self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_HOME=os.path.join(self.folder, 'log'),
                                 ROS_LOG_DIR=os.path.join(self.folder, 'log'),
-                                KNOT_UTM_SKIP_BUILD='1', KNOT_UTM_CACHE_LIMIT='0', **(environment or {}))
+                                KNOT_UTM_SKIP_BUILD='1', KNOT_UTM_NO_CACHE='1', **(environment or {}))
         command = command or ['roslaunch', 'knot_utm', 'tighten.launch']
-        out = [] if 'replay.launch' in command else ['out:=out']
         with open(os.path.join(self.folder, 'console'), 'wb') as console:
             self.process = subprocess.Popen(
-                command + ['-p', str(self.port), 'working_directory:=' + self.folder] + out + list(arguments),
+                command + ['-p', str(self.port), 'working_directory:=' + self.folder, 'out:=out'] + list(arguments),
                 stdout=console, stderr=subprocess.STDOUT, env=self.environment, cwd=self.folder, start_new_session=True)
 
     def __enter__(self):
@@ -146,9 +139,9 @@ class Launch:
         except OSError:
             return False
 
-    def rows(self, specimen=''):
+    def rows(self):
         """Readings of the load cell so far, in samples.csv."""
-        return len(reading_times(os.path.join(self.out, specimen)))
+        return len(reading_times(self.out))
 
     def wait_for_rows(self, rows):
         def are_there():

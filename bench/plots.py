@@ -84,20 +84,6 @@ def error_against_difference(file, panels_of):
     save(figure, file)
 
 
-def intervals(file, rows):
-    """Values with their intervals, [(name, value, low, high)], each over the truth."""
-    figure, axes = plt.subplots(figsize=(7.0, 0.3 * len(rows) + 1.0))
-    axes.axvline(1.0, color="black", linewidth=0.8)
-    for place, (_, value, low, high) in enumerate(rows):
-        colour = "tab:blue" if low <= 1.0 <= high else "tab:red"
-        axes.plot([low, high], [place, place], color=colour)
-        axes.plot([value], [place], "o", color=colour, markersize=4)
-    axes.set_yticks(range(len(rows)), [name for name, *_ in rows], fontsize=8)
-    axes.invert_yaxis()
-    axes.set_xlabel("value and 95 % interval over the truth")
-    save(figure, file)
-
-
 def logarithmic(axes, values):
     """Logarithmic, and linear around zero: below a tenth of what is usual."""
     sizes = sorted(abs(value) for value in known(values))

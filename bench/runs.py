@@ -1,7 +1,5 @@
 """Runs of tensile_test, on one core or several at a time: what they took, and what they left."""
 import concurrent.futures
-import csv
-import json
 import math
 import os
 import resource
@@ -12,9 +10,14 @@ import subprocess
 import sys
 
 import numpy as np
-import yaml
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(ROOT, "python"))
+
+from knot_utm.errors import WrongInput  # noqa: E402
+from knot_utm.runs import read_table  # noqa: E402
+from knot_utm.yaml_text import load, text_of  # noqa: E402
+
 # A process counts the memory of the one it was forked from as its own: a shell is smaller than this.
 SHELLS_CHILD = ["/bin/sh", "-c", '"$@"; exit $?', "sh"]
 METHOD = "config/tighten.yaml"
@@ -39,14 +42,16 @@ class Runner:
     def run(self, name, settings, method=METHOD, more=(), cpu_limit=None):
         """`settings`: dotted key -> value, on top of which come those of the command line; `more`: further words of it.
         `cpu_limit` [s]: more, and the run is ended by SIGXCPU, however busy the machine."""
-        words = words_of(settings, self.overrides) + list(more)
+        settings = [f"{key}={text_of(value)}" for key, value in settings.items()] + list(self.overrides)
+        words = [word for setting in settings for word in ("--set", setting)] + list(more)
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
         # Relative to the root, so that no message names a folder of this machine.
         command = [os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root), *words]
         self.say(f"{name}: {os.path.basename(self.tool)} {method} {shlex.join(words)}")
-        process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True, env=without_cache(),
+        environment = {**os.environ, "KNOT_UTM_NO_CACHE": "1"}  # takes up no tied specimen: each costs what it computes
+        process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True, env=environment,
                                    preexec_fn=lambda: confine(self.core, cpu_limit))
         with process.stderr as stream:
             said = stream.read().replace(self.root + os.sep, "")
@@ -62,22 +67,11 @@ class Runner:
             print(line, file=sys.stderr, flush=True)
 
 
-def without_cache():
-    """The environment of runs that take up no tied specimen of earlier ones: each costs what it computes."""
-    return {**os.environ, "KNOT_UTM_CACHE_LIMIT": "0"}
-
-
 def confine(core, cpu_limit):
     if core is not None:
         os.sched_setaffinity(0, {core})
     if cpu_limit is not None:
         resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
-
-
-def words_of(settings, overrides):
-    """Of a command line; JSON is YAML too."""
-    settings = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + list(overrides)
-    return [word for setting in settings for word in ("--set", setting)]
 
 
 class Run:
@@ -181,21 +175,12 @@ def mean_relative_difference(curve, reference, parts=200, averaged=1):
 def read_yaml(file):
     """`file`: may be relative to the root of the package, as for read_curve."""
     try:
-        with open(os.path.join(ROOT, file), encoding="utf-8") as text:
-            return yaml.safe_load(text) or {}
-    except OSError:
+        return load(os.path.join(ROOT, file)) or {}
+    except WrongInput:
         return {}
 
 
 def read_curve(file):
-    """Columns by name; the phase as text, all else as numbers."""
-    try:
-        with open(os.path.join(ROOT, file), encoding="utf-8", newline="") as text:
-            rows = list(csv.reader(text))
-    except OSError:
-        return {}
-    if len(rows) < 2:
-        return {}
-    columns = zip(*rows[2:]) if len(rows) > 2 else [()] * len(rows[0])
-    return {name: list(column) if name == "phase" else [float(cell) for cell in column]
-            for name, column in zip(rows[0], columns)}
+    """Columns by name, as lists."""
+    path = os.path.join(ROOT, file)
+    return read_table(path).to_dict("list") if os.path.exists(path) else {}

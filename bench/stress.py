@@ -184,7 +184,7 @@ class Matrix:
     def shares(self):
         """Where runs did not end: what they have in common shows."""
         table = Table("Runs that did not end, of those with the same choice", ["did not end", "of"])
-        for key in ["knot", "grips", "friction.law", "contact.law", "twist", "accuracy"]:
+        for key in ["knot", "grips", "friction.law", "twist", "accuracy"]:
             for option in sorted({str(o.get(key)) for o in self.outcomes if o.get(key) is not None}):
                 chosen = [outcome for outcome in self.outcomes if str(outcome.get(key)) == option]
                 table.add(f"{key}: {option}", "runs",

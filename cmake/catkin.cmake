@@ -21,7 +21,7 @@ endif()
 if(catkin_FOUND AND KNOT_UTM_INSTALLS_SETUP)
   file(WRITE ${CATKIN_DEVEL_PREFIX}/.catkin "")
   file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/share/knot_utm/msg)
-  foreach(part package.xml action cfg config launch srv test)
+  foreach(part package.xml action cfg config launch srv)
     file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${part} ${CATKIN_DEVEL_PREFIX}/share/knot_utm/${part} SYMBOLIC)
   endforeach()
   file(GLOB messages msg/*.msg)
@@ -34,7 +34,7 @@ endif()
 if(catkin_FOUND)
   add_message_files(DIRECTORY msg FILES
                     ColorBar.msg Crosshead.msg KnotRecord.msg KnotShape.msg KnotState.msg RecorderStatus.msg SpecimenInfo.msg
-                    TestOutcome.msg TestStatus.msg)
+                    TestStatus.msg)
   add_service_files(DIRECTORY srv FILES StartTest.srv)
   add_action_files(DIRECTORY action FILES RunTest.action)
   # The messages are in the Python package that python/ holds. In devel space its __init__.py stands for both; installed, there

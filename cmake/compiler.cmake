@@ -38,10 +38,6 @@ endif()
 # As a shared library too, the core may inline its own exported functions.
 target_compile_options(knot_utm_compiler INTERFACE $<BUILD_INTERFACE:-fno-semantic-interposition>)
 
-# A tied specimen is taken from the cache only where the code is the same, which its build id says (run/build_identity.hpp).
-# Not every compiler asks for one by itself.
-target_link_options(knot_utm_compiler INTERFACE $<BUILD_INTERFACE:LINKER:--build-id>)
-
 # Headers that all of some targets read are compiled once: knot_utm_precompile("TARGET..." HEADER...)
 function(knot_utm_precompile targets)
   list(POP_FRONT targets first)

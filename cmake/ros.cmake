@@ -1,5 +1,5 @@
 # What writes and reads bags is a library of its own: a tool that has no more to do with ROS loads no more of it.
-set(bag_sources bag_panel bag_topics bag_writer color_scale conversions curve_bag machine_frames markers run_bag)
+set(bag_sources bag_writer color_scale conversions curve_bag machine_frames markers run_bag)
 list(TRANSFORM bag_sources REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/ros/\\1.cpp")
 add_library(knot_utm_bags ${bag_sources})
 target_link_options(knot_utm_bags PUBLIC LINKER:--as-needed)
@@ -14,7 +14,7 @@ foreach(library knot_utm_bags knot_utm_ros)
                                     $<BUILD_INTERFACE:${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}>)
   target_link_libraries(${library} PUBLIC knot_utm_core ${catkin_LIBRARIES})
 endforeach()
-target_link_libraries(knot_utm_ros PUBLIC knot_utm_bags)
+target_link_libraries(knot_utm_ros PUBLIC knot_utm_bags PRIVATE yaml-cpp)
 
 # The headers of ROS take two seconds to read, and every file reads them (cmake/rooms.cmake).
 if(NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -2,8 +2,8 @@ enable_testing()
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
-# No test takes up what another one has left in a cache: ctest runs this file before any test.
-file(WRITE ${PROJECT_BINARY_DIR}/without_cache.cmake "set(ENV{KNOT_UTM_CACHE_LIMIT} 0)\n")
+# No test restores a specimen that another one has tied: ctest runs this file before any test.
+file(WRITE ${PROJECT_BINARY_DIR}/without_cache.cmake "set(ENV{KNOT_UTM_NO_CACHE} 1)\n")
 set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${PROJECT_BINARY_DIR}/without_cache.cmake)
 
 # What the tests of the core are linked with.
@@ -41,7 +41,7 @@ foreach(room ${core_rooms})
     list(APPEND room_tests test_${room})
   endif()
 endforeach()
-foreach(room method raw verdict run study) # some run the programs
+foreach(room method verdict run study) # some run the programs
   add_dependencies(test_${room} compare tensile_test)
 endforeach()
 knot_utm_tests(rooms_test quick test/rooms_test.cpp)
@@ -86,17 +86,17 @@ function(knot_utm_python_tests label)
   endforeach()
 endfunction()
 
-# What scripts/bench and scripts/stress make of their runs, the work of short tests against a table, the scripts themselves, the
+# What scripts/bench and scripts/stress make of their runs, the scripts themselves, the
 # documents against the code, and the panel beside the picture in rviz.
-knot_utm_python_tests(quick bits_test.py bench/bench_test.py bench/counted_work_test.py bench/measured_test.py bench/stress_test.py python/scripts/scripts_test.py doc/doc_test.py doc/site_test.py
-                      python/panel/panel_test.py python/scripts/efficiency_test.py)
+knot_utm_python_tests(quick bits_test.py bench/bench_test.py bench/counted_work_test.py bench/stress_test.py python/scripts/scripts_test.py doc/doc_test.py
+                      raw/raw_test.py python/panel/panel_test.py)
 # Studies and fits: their parts, what the scripts make of small ones, the same from Python, and as jobs on this machine and of Slurm.
-# The report: what is made of a run, and what a browser and a printer make of that. README's numbers, method and lines.
+# The report: what is made of a run, and what a browser and a printer make of that. README's numbers and lines, and the examples.
 knot_utm_python_tests(launched python/sweep/design_test.py python/sweep/rank_test.py python/sweep/plots_test.py python/sweep/sweep_test.py
-                      python/sweep/python_test.py python/sweep/workflow_test.py python/fit/interval_test.py python/fit/fit_test.py
+                      python/sweep/python_test.py python/sweep/workflow_test.py python/fit/fit_test.py
                       python/report/report_test.py python/report/batch_test.py python/report/browser_test.py
                       python/report/export_test.py python/scripts/material_test.py
-                      python/scripts/knot_test.py doc/readme_test.py)
+                      python/scripts/knot_test.py doc/readme_test.py examples_test.py)
 # The longest of them begin first.
 set_tests_properties(browser_test sweep_test report_test workflow_test fit_test batch_test PROPERTIES COST 90)
 
@@ -124,7 +124,7 @@ if(catkin_FOUND)
   file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
   knot_utm_tests(ros_tests quick ${ros_test_sources})
   target_link_libraries(ros_tests PRIVATE knot_utm_ros)
-  add_dependencies(ros_tests import_instron)
+  add_dependencies(ros_tests write_curve_bag)
 
   # The whole system, launched as a user does it: with the scripts, which take what stands in build/.
   set(launched_tests)
@@ -137,22 +137,6 @@ if(catkin_FOUND)
     # One at a time, from the beginning: each is four processes already, which mostly wait for one another.
     set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS launched COST 100 RESOURCE_LOCK launched_system)
   endforeach()
-
-  if(CATKIN_ENABLE_TESTING)
-    find_package(rostest REQUIRED)
-    file(GLOB launched_tests CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} test/ros/*.test)
-    get_property(before DIRECTORY PROPERTY TESTS)
-    foreach(test ${launched_tests})
-      add_rostest(${test})
-    endforeach()
-    get_property(all DIRECTORY PROPERTY TESTS)
-    list(REMOVE_ITEM all ${before})
-    if(all)
-      # Each has a master of its own, but two at a time would compete for the cores.
-      set_tests_properties(${all} PROPERTIES ENVIRONMENT "ROS_HOSTNAME=localhost" TIMEOUT 3600 LABELS launched COST 100
-                                             RESOURCE_LOCK launched_system)
-    endif()
-  endif()
 endif()
 
 # Headers that all tests read. A compiler cache cannot look behind precompiled headers.

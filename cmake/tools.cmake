@@ -2,7 +2,7 @@
 find_package(CLI11 REQUIRED)
 file(GLOB tools CONFIGURE_DEPENDS src/tools/*.cpp)
 if(NOT catkin_FOUND)
-  list(FILTER tools EXCLUDE REGEX import_instron)  # writes nothing but a bag
+  list(FILTER tools EXCLUDE REGEX write_curve_bag)  # writes nothing but a bag
 endif()
 set_source_files_properties(src/tools/compare.cpp src/tools/tensile_test.cpp PROPERTIES
                             COMPILE_DEFINITIONS KNOT_UTM_PYTHON_DIR="${PROJECT_SOURCE_DIR}/python")
@@ -15,3 +15,10 @@ foreach(source ${tools})
     target_compile_definitions(${name} PRIVATE KNOT_UTM_HAS_ROS)
   endif()
 endforeach()
+
+# Raw data of testing machines are read in Python.
+file(MAKE_DIRECTORY ${KNOT_UTM_EXECUTABLE_DIR})
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/knot_utm/importing/import_instron.py
+     ${KNOT_UTM_EXECUTABLE_DIR}/import_instron SYMBOLIC)
+install(PROGRAMS python/knot_utm/importing/import_instron.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
+        RENAME import_instron)

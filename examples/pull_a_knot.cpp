@@ -1,4 +1,8 @@
 // Ties the knot of a method, pulls it, and prints the force against the extension: pull_a_knot [METHOD [KEY=VALUE...]].
+// The package is installed in ~/knot_utm (doc/install.md).
+// Run:  cmake -S examples -B build-example -DCMAKE_PREFIX_PATH="$HOME/knot_utm" && cmake --build build-example &&
+//       build-example/pull_a_knot tighten material=polypropylene
+// Test: test/package_test.py
 #include <cstdio>
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What `cmake --install` puts into an empty folder, which is then moved. By find_package(knot_utm) examples/ is built with it and
-runs, with the readings of the installed tensile_test; by import knot_utm Python runs the installed tensile_test with the installed
-files. package_test.py BUILD_FOLDER"""
+"""What `cmake --install` puts into an empty folder, which is then moved. By find_package(knot_utm) examples/pull_a_knot.cpp is
+built with it and runs, with the readings of the installed tensile_test; by import knot_utm Python runs the installed tensile_test with
+the installed files. package_test.py BUILD_FOLDER"""
 import importlib.util
 import os
 import re
@@ -117,7 +117,7 @@ class Package(unittest.TestCase):
         said = self.python("-m", "knot_utm.sweep_command", study, "--out", "sweep", path=self.packages)
         self.assertEqual((said.returncode, said.stdout), (0, "1 runs, 0 of which failed: the table is in sweep/table.csv and "
                                                              "sweep/table.h5\n"), said.stderr)
-        for command in ("sweep", "fit", "refine"):
+        for command in ("sweep", "fit", "rank"):
             said = self.python("-m", f"knot_utm.{command}_command", path=self.packages)
             self.assertEqual(said.returncode, 2, said.stderr)
             self.assertIn(f"(usage: python3 -m knot_utm.{command}_command", said.stderr)

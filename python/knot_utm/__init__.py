@@ -10,7 +10,7 @@ __path__ = pkgutil.extend_path(__path__, __name__)
 
 # Which module has a name. It is imported when the name is first used: the messages alone need no pandas.
 _MODULES = {"Batch": "runs", "Interrupted": "errors", "Run": "runs", "RunFailed": "errors", "RunWarning": "errors",
-            "WrongInput": "errors", "batch": "runs", "fit": "finding", "rank": "ranking", "read": "runs", "read_batch": "runs",
+            "WrongInput": "errors", "batch": "runs", "fit": "finding", "rank": "rank_command", "read": "runs", "read_batch": "runs",
             "run": "runs", "sweep": "sweeping"}
 __all__ = list(_MODULES)
 

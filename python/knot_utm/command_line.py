@@ -1,4 +1,4 @@
-"""What the command lines of a sweep, a fit, a ranking, a refinement and the import of a knot have in common; the scripts have
+"""What the command lines of a sweep, a fit, a ranking and the import of a knot have in common; the scripts have
 their words."""
 import os
 import sys

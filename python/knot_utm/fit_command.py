@@ -8,18 +8,23 @@ from knot_utm.command_line import exit_code_of, parsed, parser_of, settings_of
 from knot_utm.finding import fit
 
 PROGRAM = tool.program("fit")
-READING = ("columns", "units", "specimen")  # of raw data, as compare takes them
 
 
 def main(words):
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
-    return exit_code_of(PROGRAM, lambda: _fit(_arguments(words), shlex.join([PROGRAM, *words])))
+    parser = parser_of(PROGRAM, "measured", "method")
+    parser.add_argument("--free", action="extend", nargs="+", default=[])
+    parser.add_argument("--also", action="append", nargs="+", default=[])
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--no-report", action="store_true")
+    parser.add_argument("--overwrite", action="store_true")
+    return exit_code_of(PROGRAM, lambda: _fit(parsed(parser, words), shlex.join([PROGRAM, *words])))
 
 
 def _fit(asked, command):
     also = [(file, settings_of(more, "--also")) for file, *more in asked.also]
     fitted = fit(asked.measured, asked.method, asked.free, asked.out, settings_of(asked.set), also, asked.jobs, command,
-                 not asked.no_report, _reading(asked), asked.overwrite)
+                 not asked.no_report, asked.overwrite)
     for key, one in fitted.found.items():
         low, high = ("?" if end is None else f"{end:.5g}" for end in (one.low, one.high))
         print(f"{key}: {one.value:.5g}, from {low} to {high}" + ("" if one.identifiable else " (not identifiable)"))
@@ -27,25 +32,6 @@ def _fit(asked, command):
     for note in fitted.notes:
         print(f"fit: {note}", file=sys.stderr)
     return 0 if fitted.fits else 1
-
-
-def _reading(asked):
-    """The options of `compare` for raw data."""
-    words = [f"--{name}={value}" for name in READING if (value := getattr(asked, name)) is not None]
-    return words + ([] if asked.invert is None else [f"--invert={asked.invert}"])
-
-
-def _arguments(words):
-    parser = parser_of(PROGRAM, "measured", "method")
-    parser.add_argument("--free", action="extend", nargs="+", default=[])
-    parser.add_argument("--also", action="append", nargs="+", default=[])
-    parser.add_argument("--set", action="append", default=[])
-    parser.add_argument("--no-report", action="store_true")
-    parser.add_argument("--overwrite", action="store_true")
-    for name in READING:
-        parser.add_argument(f"--{name}")
-    parser.add_argument("--invert", nargs="?", const="falling")
-    return parsed(parser, words)
 
 
 if __name__ == "__main__":

@@ -1,94 +1,81 @@
-"""The command line of a ranking of knots; scripts/rank has its words."""
-import csv
+"""Knots in one rope, pulled alike: a preset of a sweep, over specimen.knot, and what each bears; scripts/rank has the words of its command line."""
 import os
+import re
 import sys
 
+import numpy as np
+import pandas as pd
+
 from knot_utm import tool
+from knot_utm.arguments import folder_of, jobs_of, method_of, settings_map, shown, whole
 from knot_utm.command_line import exit_code_of, parsed, parser_of, say, settings_of
 from knot_utm.errors import WrongInput
-from knot_utm.ranking import about_of, rank, usual_folder
+from knot_utm.groups import rod_of
+from knot_utm.study import Study
+from knot_utm.sweeping import Sweep
+from knot_utm.yaml_text import described, value_of
 
 PROGRAM = tool.program("rank")
-FILE = "rank.csv"
-EXACT = 1e-9  # of a mean: a smaller error is rounding
+STILL_RISES = 0.98  # of the pull's extension: a largest load beyond it was none that the knot slipped at
+MEANS = {"slip_load": "N", "break_load": "N", "efficiency": "of the strength without a knot", "tail_slip": "radii"}
+
+
+def rank(knots, material, specimens=3, out=None, jobs=None, method="knot", settings=None):
+    """A pandas.DataFrame with a row for each knot, in the order of the largest mean load that it bore, as scripts/rank tells and as it is
+    in rank.csv of the folder. `.attrs` has the units of its means and the folder. Raises WrongInput."""
+    settings, name = settings_map(settings), str(material)
+    if isinstance(knots, str) or not knots or len(set(map(str, knots))) < len(list(knots)):
+        raise WrongInput(f"knots is {shown(knots)}, but must be a list of different knots: names or files")
+    for key in {"specimen.knot", "specimen", "material", tool.COUNT, "specimens"} & set(settings):
+        raise WrongInput(f"{key} cannot be a setting of a ranking: it has a word of its own")
+    # A knot and a material may be files as seen from here; a method would look for them from its own folder.
+    points = [{key: os.path.abspath(given) if os.path.isfile(given) else str(given)
+               for key, given in (("specimen.knot", knot), ("material", name))} | settings for knot in knots]
+    study = Study("the ranking", tool.find_method(method_of(method), os.getcwd()), points,
+                  whole("specimens", specimens, 2, ": one start is no reading"), (), "list", {})
+    out = folder_of(out, os.path.join("out/rank", re.sub(r"[^\w.-]+", "_", os.path.splitext(os.path.basename(name))[0])))
+    runs, pulled = Sweep(study, out).all(jobs_of(jobs)), value_of(tool.resolved(study.method, points[0]))
+    runs["tail_slip"] = [max(map(float, re.findall(r"-?\d\S*\b", str(tails))), default=np.nan) / rod_of(pulled)[1] for tails in runs["tail_slip"]]
+    reach = max((step["pull"]["until"].get("extension", np.inf) for step in pulled["program"] if "pull" in step), default=np.inf)
+    table = pd.DataFrame([{"knot": str(knot), **_row(runs[runs["specimen.knot"] == point["specimen.knot"]], reach), "material": name,
+                           "method": str(method), "settings": described(settings)} for knot, point in zip(knots, points)])
+    table = table.loc[table[["slip_load", "break_load"]].max(axis=1).sort_values(ascending=False).index].reset_index(drop=True)
+    table.to_csv(os.path.join(out, "rank.csv"), index=False)
+    table.attrs.update(units=MEANS, folder=out)
+    return table
+
+
+def _row(runs, reach):
+    done = runs[runs["exit_code"] == 0]
+    broke = done["ended_by"] == "break"
+    row = {"specimens": len(runs), "failed": len(runs) - len(done), "broke": int(broke.sum()),
+           "still_rose": int((done["peak_extension"][~broke] > STILL_RISES * reach).sum())}
+    for name, values in zip(MEANS, (done["peak_force"][~broke], done["peak_force"][broke], done["knot_efficiency"][broke], done["tail_slip"])):
+        row[name], row[name + "_error"] = values.mean(), values.sem()
+    return row
 
 
 def main(words):
-    return exit_code_of(PROGRAM, lambda: _rank(_arguments(words)), tool.command_to_paste("rank", words))
-
-
-def _rank(asked):
-    settings = settings_of(asked.set)
-    out = asked.out or usual_folder(asked.material)
-    file = os.path.join(out, FILE)
-    about = about_of(asked.material, asked.method, settings)
-    _require_same(file, about)
-    table = rank(asked.knots, asked.material, asked.specimens, out, asked.jobs, asked.method, settings)
-    table.to_csv(file, index=False)
-    print(f"{_words(about)}:")
-    print(_told(table))
-    print(f"the table is in {file}")
-    failed = table[table["failed"] > 0]
-    for _, row in failed.iterrows():
-        say(PROGRAM, f"{row['knot']}: {row['failed']} of {row['specimens']} failed: see error in {os.path.join(out, 'table.csv')}", 1)
-    return 1 if len(failed) else 0
-
-
-def _words(about):
-    return f"in {about['material']}, by {about['method']}" + (f" with {about['settings']}" if about["settings"] else "")
-
-
-def _require_same(file, about):
-    """Raises WrongInput where a table is there that is of another material, method or settings: one table is of one."""
-    if not os.path.lexists(file):
-        return
-    try:
-        with open(file, encoding="utf-8", newline="") as opened:
-            had = next(csv.DictReader(opened), {})
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise WrongInput(f"{file} cannot be read, and is not written over: choose another folder (--out)") from error
-    had = {name: had.get(name) for name in about}
-    if had != about:
-        whose = f"of knots {_words(had)}" if all(text is not None for text in had.values()) else "no table of a ranking"
-        raise WrongInput(f"{file} is {whose}: choose another folder (--out)")
-
-
-def mean_and_error(mean, error):
-    """As text: the error with two digits, and the mean to the same place; three digits of one without an error."""
-    if mean != mean:
-        return "-"
-    if error != error:
-        return f"{mean:.3g}"
-    if error <= EXACT * abs(mean):
-        return f"{mean:.4g} ± 0"
-    places = 1 - int(f"{error:.1e}".split("e")[1])
-    return " ± ".join(f"{round(value, places):.{max(places, 0)}f}" for value in (mean, error))
-
-
-def _told(table):
-    """The table for people: each mean with its standard error."""
-    def cell(row, name):
-        return mean_and_error(row[name], row[name + "_error"])
-
-    def slip_load(row):
-        return ("at least " if row["still_rose"] > 0 else "") + cell(row, "slip_load")
-
-    lines = [["knot", "broke", "slip load [N]", "break load [N]", "efficiency", "tail slip [h]"]]
-    for _, row in table.iterrows():
-        lines.append([row["knot"], f"{row['broke']} of {row['specimens'] - row['failed']}", slip_load(row),
-                      cell(row, "break_load"), cell(row, "efficiency"), cell(row, "tail_slip")])
-    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
-    return "\n".join("  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip() for line in lines)
-
-
-def _arguments(words):
     parser = parser_of(PROGRAM)
     parser.add_argument("knots", nargs="+")
     parser.add_argument("--material", default="nylon")
     parser.add_argument("--specimens", type=int, default=3)
     parser.add_argument("--method", default="knot")
     parser.add_argument("--set", action="append", default=[])
-    return parsed(parser, words)
+    return exit_code_of(PROGRAM, lambda: _rank(parsed(parser, words)), tool.command_to_paste("rank", words))
+
+
+def _rank(asked):
+    table = rank(asked.knots, asked.material, asked.specimens, asked.out, asked.jobs, asked.method, settings_of(asked.set))
+    told, (with_settings, *_) = table[["knot", "broke"]].copy(), table["settings"]
+    for name in MEANS:
+        told[name] = ["-" if mean != mean else f"{mean:.4g} ± {error:.2g}" for mean, error in zip(table[name], table[name + "_error"])]
+    told.loc[table["still_rose"] > 0, "slip_load"] = "at least " + told["slip_load"]
+    print(f"in {asked.material}, by {asked.method}" + (f" with {with_settings}" if with_settings else "") + ":")
+    print(told.rename(columns={"slip_load": "slip load [N]", "break_load": "break load [N]"}).to_string(index=False))
+    print(f"the table is in {table.attrs['folder']}/rank.csv")
+    failed = table["failed"].sum()
+    return say(PROGRAM, f"{failed} specimens failed: see error in {table.attrs['folder']}/table.csv", 1) if failed else 0
 
 
 if __name__ == "__main__":

@@ -37,7 +37,7 @@ class SweepFolder:
         """For one sweep alone; what a killed one left is cleared away. Raises WrongInput where others are at work."""
         with self._locked(fcntl.LOCK_EX):
             for name in os.listdir(self.runs):
-                if name.startswith("."):
+                if name.startswith(".") and "." in name[1:]:  # of `making`
                     shutil.rmtree(os.path.join(self.runs, name), ignore_errors=True)
             yield
 

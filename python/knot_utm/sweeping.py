@@ -48,6 +48,12 @@ class Sweep:
             work.require_all()
         return frame
 
+    def make(self, jobs):
+        """Makes the runs that are open, unchecked and without a table."""
+        with self._work() as work, self.folder.claimed():
+            work.run(self._open(), jobs)
+            work.require_all()
+
     def check(self, jobs):
         """Raises WrongInput where one of the runs that are open would be refused."""
         self._require_same_readings()

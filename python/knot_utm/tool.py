@@ -73,7 +73,7 @@ def package_version():
 
 @functools.cache
 def listing(name):
-    """A table that tensile_test prints, as rows by column: results, method-keys, knots or phases."""
+    """A table that tensile_test prints, as rows by column: results, limits, fields, method-keys, knots or phases."""
     return list(csv.DictReader(_said("--list-" + name).splitlines()))
 
 
@@ -83,7 +83,7 @@ def result_keys():
 
 
 def method_keys():
-    """The keys that methods may have, but for those of sections that do not act on the test, such as analysis."""
+    """The keys that methods may have, but for those of sections that do not act on the test, such as report."""
     return tuple(row["key"] for row in listing("method-keys"))
 
 

@@ -3,22 +3,25 @@ import contextlib
 import os
 import signal
 import threading
+from concurrent.futures import ThreadPoolExecutor, as_completed
+
+from tqdm import tqdm
 
 from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
-from knot_utm.runner import Runner
 from knot_utm.sweep_folder import RESULT, STATISTICS
 from knot_utm.yaml_text import described, load
 
 INTERRUPTED = "interrupted"  # the reason of a run that may go on
 
 
-class Work(Runner):
+class Work:
     """What is done for a study, until it is done or stopped."""
 
     def __init__(self, study, folder, runs, readings=None):
         """`runs`: the names of all; `readings`: the word of tensile_test's option, or None."""
-        super().__init__()
+        self.stopped = None  # why
+        self._live = set()
         self.study, self.folder, self.runs, self.readings = study, folder, runs, readings
         self._options = ("--readings", readings) if readings else ()
         self._handlers = {}
@@ -32,6 +35,25 @@ class Work(Runner):
     def __exit__(self, *_):
         for code, handler in self._handlers.items():
             signal.signal(code, handler)
+
+    def stop(self, why):
+        """No run begins any more, and those in flight are lost."""
+        self.stopped = self.stopped or why
+        for process in list(self._live):
+            process.kill()
+
+    def _each(self, do, points, jobs, what):
+        """`do(*point)` for all points, some at a time; what each returned, in their order."""
+        with ThreadPoolExecutor(jobs) as pool, tqdm(total=len(points), desc=what, unit="run", disable=None) as bar:
+            futures = [pool.submit(do, *point) for point in points]
+            try:
+                for future in as_completed(futures):
+                    future.result()
+                    bar.update()
+            except BaseException as error:
+                self.stop("it was interrupted" if isinstance(error, KeyboardInterrupt) else str(error))
+                raise Interrupted(self.stopped) if isinstance(error, KeyboardInterrupt) else error
+            return [future.result() for future in futures]
 
     @contextlib.contextmanager
     def stopping(self):
@@ -48,7 +70,7 @@ class Work(Runner):
 
     def check(self, points, jobs):
         """Raises WrongInput where tensile_test would refuse one of them."""
-        reasons = self.each(self._refusal, points.items(), jobs, "checked")
+        reasons = self._each(self._refusal, points.items(), jobs, "checked")
         refused = [(point, why) for point, why in zip(points.values(), reasons) if why]
         self.require_all()
         if refused:
@@ -58,7 +80,7 @@ class Work(Runner):
 
     def run(self, points, jobs):
         """Makes each of them."""
-        self.each(self._make, points.items(), jobs, "run")
+        self._each(self._make, points.items(), jobs, "run")
 
     def _refusal(self, _run, point):
         return None if self.stopped else tool.refusal(self.study.method, point, *self._options)
@@ -73,7 +95,14 @@ class Work(Runner):
                 self._keep(part, run, point, code, said.replace(part, self.folder.of(run)))
 
     def _wait(self, point, part):
-        return self.wait(self.study.method, point, part, *self._options, *(("--jobs", "1") if self.study.repeat > 1 else ()))
+        """(exit code, the last line that it said) of a run that goes on to its end or until it is stopped."""
+        process = tool.start(self.study.method, point, part, *self._options, *(("--jobs", "1") if self.study.repeat > 1 else ()))
+        self._live.add(process)
+        if self.stopped:  # between the question and the start
+            process.kill()
+        _, stderr = process.communicate()
+        self._live.discard(process)
+        return process.returncode, tool.said_by(stderr)
 
     def _keep(self, part, run, point, code, said):
         """What became of a run that ended by itself, or was ended by another than the sweep."""

@@ -16,8 +16,7 @@ from knot_utm import tool
 from knot_utm.report.commands import CannotReport, in_one_line, OneLineParser, refuse, why_not
 from knot_utm.report.picture import facts_of_run
 
-COLUMNS, WIDTH, HEIGHT = 6, 190, 250  # of the knots [pixels]
-TITLE = 50  # height of the title of a drawn knot [its own units]
+COLUMNS = 5  # of the knots
 # Who must listen before the test begins: else its curve would be none.
 LISTENERS = {"/knot/markers": "rviz", "/view/panel": "rviz", "/utm/load_cell": "panel_node"}
 
@@ -44,25 +43,15 @@ def main():
 
 
 def shot_of_knots(folder, shot):
-    """The first view of each drawing, without its title, on one page."""
+    """The pictures of all drawings on one page."""
     names = sorted(os.path.splitext(name)[0] for name in os.listdir(os.path.join(tool.CONFIG, "knots")))
-    size, page = (COLUMNS * WIDTH, -(-len(names) // COLUMNS) * HEIGHT), os.path.join(folder, "page.svg")
-    with open(page, "w", encoding="utf-8") as out:
-        out.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{size[0]}" height="{size[1]}" font-family="sans-serif">')
-        for place, name in enumerate(names):
-            subprocess.run([tool.tensile_test(), "--draw", name, "--out", folder], check=True, stdout=subprocess.DEVNULL)
-            with open(os.path.join(folder, name + ".svg"), encoding="utf-8") as text:
-                drawn = text.read()
-            (front, below), (side, _) = re.findall(r'x="(\d+)" y="(\d+)"[^>]*>from the', drawn)  # where their words begin
-            width, height = int(side) - int(front), int(below) - 1.5 * TITLE
-            scale = min(WIDTH / width, (HEIGHT - 25) / height)  # below its name
-            middle, top = (place % COLUMNS + 0.5) * WIDTH, place // COLUMNS * HEIGHT
-            out.write(f'<text x="{middle}" y="{top + 14}" font-size="11" text-anchor="middle">{name}</text>'
-                      f'<svg x="{middle - 0.5 * scale * width}" y="{top + 20}" width="{scale * width}" height="{scale * height}" '
-                      f'viewBox="0 {TITLE} {width} {height}">{drawn}</svg>')
-        out.write("</svg>")
-    subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", f"--user-data-dir={folder}/browser",
-                    "--window-size={},{}".format(*size), f"--screenshot={shot}", page], check=True, stderr=subprocess.DEVNULL)
+    page, axes = pyplot.subplots(-(-len(names) // COLUMNS), COLUMNS, figsize=(12, 2.4 * -(-len(names) // COLUMNS)), layout="tight")
+    for one in axes.flat:
+        one.set_axis_off()
+    for name, one in zip(names, axes.flat):
+        subprocess.run([tool.tensile_test(), "--draw", name, "--out", folder], check=True, stdout=subprocess.DEVNULL)
+        one.imshow(pyplot.imread(os.path.join(folder, name + ".png")), interpolation="antialiased")
+    page.savefig(shot, dpi=100)
     return {"version": tool.version(), "method": "--draw of all knots"}
 
 

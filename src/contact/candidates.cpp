@@ -67,12 +67,11 @@ std::size_t fours(std::size_t number) { return (number + kLanes - 1) / kLanes; }
 
 }  // namespace
 
-Candidates::Candidates(const RodProperties& rod, double reach, double margin, double exclusion, double extent)
+Candidates::Candidates(const RodProperties& rod, double reach, double margin, double exclusion)
     : reach_(reach),
       margin_(margin),
       exclusion_(exclusion),
       other_exclusion_(rod.other_material ? exclusion * (rod.other_material->radius / rod.material.radius) : exclusion),
-      extent_(extent),
       first_of_other_(static_cast<int>(rod.first_of_other())),
       arclength_(rod.arclength()),
       size_(Eigen::VectorXd::Zero(rod.nodes())),
@@ -111,7 +110,7 @@ void Candidates::measure(const Points& position) {
   double before = (position.col(1) - position.col(0)).norm();
   for (Eigen::Index i = 1; i + 1 < position.cols(); ++i) {
     const double after = (position.col(i + 1) - position.col(i)).norm();
-    size_[i] = touches_[static_cast<std::size_t>(i)] == 0 ? 0.0 : extent_ * std::max(before, after);
+    size_[i] = touches_[static_cast<std::size_t>(i)] == 0 ? 0.0 : 0.5 * std::max(before, after);
     before = after;
   }
 }

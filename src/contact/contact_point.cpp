@@ -144,13 +144,6 @@ void linearise_all(const ContactLaws& laws, double dt, const ContactLinearisatio
 
 }  // namespace
 
-void evaluate_forces(const Friction& friction, double dt, std::vector<ContactPoint>& contacts) {
-  friction.visit([&](const auto& law) {
-    visit_active(contacts,
-                 [&](const std::array<ContactPoint*, 4>& four, std::size_t) { evaluate_forces(law, dt, four); });
-  });
-}
-
 void evaluate_forces(const ContactLaws& laws, double dt, std::vector<ContactPoint>& contacts) {
   visit_active(laws, contacts, [&](const NormalLaw& normal, const auto& law, const auto& four, std::size_t) {
     set_pressures(normal, four);

@@ -1,6 +1,5 @@
 #include "four_contacts.hpp"
 #include "four_surfaces.hpp"
-#include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/soft_section.hpp"
 #include "knot_utm/contact/surface_contact.hpp"
 
@@ -13,32 +12,6 @@ FourVectors unit_vector(int component) {
   (component == 0 ? out.x : component == 1 ? out.y : out.z) = constant<Lanes>(1.0);
   return out;
 }
-
-/// The foot of a smooth strand, or none, on a roller: du = (b'.S + x.V_b)/G.
-struct OneFoot {
-  static constexpr bool kTwo = false;
-  Lanes inverse_g;
-
-  void find(const FourVectors& shift, const FourVectors&, const FourVectors& turn_b, const FourVectors&,
-            const FourVectors& db, const FourVectors& x, Lanes& a, Lanes& b) const {
-    a = Lanes{};
-    b = inverse_g * (dot(db, shift) + dot(x, turn_b));
-  }
-};
-
-/// The feet of two edges: H (dt, du) = (-a'.S - x.V_a, b'.S + x.V_b).
-struct TwoFeet {
-  static constexpr bool kTwo = true;
-  Lanes tt, tu, uu;
-
-  void find(const FourVectors& shift, const FourVectors& turn_a, const FourVectors& turn_b, const FourVectors& da,
-            const FourVectors& db, const FourVectors& x, Lanes& a, Lanes& b) const {
-    const Lanes of_a = -1.0 * (dot(da, shift) + dot(x, turn_a));
-    const Lanes of_b = dot(db, shift) + dot(x, turn_b);
-    a = tt * of_a + tu * of_b;
-    b = tu * of_a + uu * of_b;
-  }
-};
 
 /// How far a direction of friction or rolling has turned by `apart` from that of the last trial: 0 where it hardly has,
 /// 1 where it points elsewhere, 0 where there was none, `old` squared being 0.
@@ -100,16 +73,15 @@ struct SoftSections {
 };
 
 /// Four contacts at the point at which they are linearised; symbols as in SurfacePoint and ContactPoint.
-template <typename Law, typename Feet, typename Levers = EvenLevers, typename Sections = RoundSections>
+template <typename Law, typename Levers = EvenLevers, typename Sections = RoundSections>
 class FourSurfaces : private Levers {
  public:
   FourSurfaces(const FourPressures& pressures, const Law& law, const RollingResistance& rolling, double dt,
                const ContactLinearisation& how, const std::array<const ContactPoint*, 4>& contacts,
-               const Points4& surfaces, const Feet& feet, const Levers& levers = {}, const Sections& sections = {})
+               const Points4& surfaces, const Levers& levers = {}, const Sections& sections = {})
       : Levers(levers),
         sections_(sections),
         pressures_(pressures),
-        feet_(feet),
         a_(Section::of_a(surfaces)),
         b_(Section::of_b(Four<const ContactPoint>(contacts), surfaces)),
         bend_b_(four(surfaces, &SurfacePoint::bend_b)),
@@ -124,7 +96,7 @@ class FourSurfaces : private Levers {
     axis_ = of(&ContactPoint::axis);
     r_ = of(&ContactPoint::slip);
     over_d_ = 1.0 / of(&ContactPoint::d);
-    da_ = four(surfaces, &SurfacePoint::along_a);
+    inverse_g_ = of(&ContactPoint::inverse_g);
     turned_ = of(&ContactPoint::turned);
     remembered_ = remembered_by(contacts);
     const FourVectors of_a = a_.rotation(), of_b = b_.rotation();
@@ -161,7 +133,6 @@ class FourSurfaces : private Levers {
       models[i].force = forces[i];
       models[i].on_a = on_a[i];
       models[i].on_b = on_b[i];
-      models[i].two_feet = Feet::kTwo;
     }
     Response by_rotation[3], by_rolling;
     for (int i = 0; i < 3; ++i) by_rotation[i] = rotated(unit_vector(i));
@@ -170,49 +141,43 @@ class FourSurfaces : private Levers {
     const auto turned = [&](const Section::Change& a, const Section::Change& b) {
       return sections_change(by_rotation, by_twirl, by_rolling, a, b);
     };
-    Response by_foot_a, by_foot, longer_a, longer_b;
+    Response by_foot, longer_a, longer_b;
     if constexpr (Sections::kSoft) {
       longer_a = longer(sections_.share_a, true);
       if (!on_roller_) longer_b = longer(sections_.share_b, false);
     }
-    if constexpr (Feet::kTwo) by_foot_a = moved(da_, a_.turn);
     if (!on_roller_) {
       by_foot = moved(-1.0 * db_, -1.0 * b_.turn);
       by_foot += turned(Section::Change(), b_.change(bend_b_, bend_turn_b_, spin_slope_b_));
       if constexpr (Sections::kSoft) by_foot.add(dot(b_.over, bend_b_) - sections_.rest_growth, longer_b);
     }
-    const auto add_feet = [&](Response response, const FourVectors& shift, const FourVectors& turn_a,
-                              const FourVectors& turn_b, int number) {
-      Lanes foot_a, foot;
-      feet_.find(shift, turn_a, turn_b, da_, db_, x_, foot_a, foot);
-      if constexpr (Feet::kTwo) response.add(foot_a, by_foot_a);
+    // The foot of a strand, or none on a roller: du = (b'.S + x.V_b)/G.
+    const auto add_foot = [&](Response response, const FourVectors& shift, const FourVectors& turn_b, int number) {
+      const Lanes foot = inverse_g_ * (dot(db_, shift) + dot(x_, turn_b));
       if (!on_roller_) response.add(foot, by_foot);
-      write(response, foot_a, foot, number, models);
+      write(response, foot, number, models);
     };
     const Lanes still = {};
     const FourVectors none = {};
     for (int i = 0; i < 3; ++i) {
       const FourVectors unit = unit_vector(i);
-      add_feet(moved(unit - dot(axis_, unit) * axis_, unit), unit, none, none, SurfaceModel::kShift + i);
+      add_foot(moved(unit - dot(axis_, unit) * axis_, unit), unit, none, SurfaceModel::kShift + i);
       Response turns_a = turned(a_.change(unit, unit, still), Section::Change());
       if (resists_) add_couple(turns_a, swung(unit));
       if constexpr (Sections::kSoft) turns_a.add(dot(a_.over, unit), longer_a);
-      if constexpr (Feet::kTwo)
-        add_feet(turns_a, none, unit, none, SurfaceModel::kTurnA + i);
-      else
-        write(turns_a, still, still, SurfaceModel::kTurnA + i, models);
+      write(turns_a, still, SurfaceModel::kTurnA + i, models);
       if (on_roller_) continue;
       Response turns_b = turned(Section::Change(), b_.change(unit, unit, still));
       if constexpr (Sections::kSoft) turns_b.add(dot(b_.over, unit), longer_b);
-      add_feet(turns_b, none, none, unit, SurfaceModel::kTurnB + i);
+      add_foot(turns_b, none, unit, SurfaceModel::kTurnB + i);
     }
-    write(turned(a_.spun(), Section::Change()), still, still, SurfaceModel::kSpinA, models);
+    write(turned(a_.spun(), Section::Change()), still, SurfaceModel::kSpinA, models);
     if (on_roller_) {
       Response by_turn = slipped(-1.0 * cross(axis_, (1.0 - lever_) * x_));
       if (resists_) by_turn.add(-1.0 * dot(axis_, line_), by_rolling);
-      write(by_turn, still, still, SurfaceModel::kTurned, models);
+      write(by_turn, still, SurfaceModel::kTurned, models);
     } else
-      write(turned(Section::Change(), b_.spun()), still, still, SurfaceModel::kSpinB, models);
+      write(turned(Section::Change(), b_.spun()), still, SurfaceModel::kSpinB, models);
   }
 
  private:
@@ -353,21 +318,20 @@ class FourSurfaces : private Levers {
     return out;
   }
 
-  void write(const Response& response, const Lanes& foot_a, const Lanes& foot, int number, SurfaceModel* models) const {
+  void write(const Response& response, const Lanes& foot, int number, SurfaceModel* models) const {
     const Parted forces(-1.0 * response.force), all_a(-1.0 * response.on_a, response.torque_a),
         all_b(-1.0 * response.on_b, response.torque_b);
     for (std::size_t i = 0; i < 4; ++i)
-      models[i].by[number] = {forces[i], all_a[i], all_b[i], foot_a[static_cast<int>(i)], foot[static_cast<int>(i)]};
+      models[i].by[number] = {forces[i], all_a[i], all_b[i], foot[static_cast<int>(i)]};
   }
 
   Sections sections_;
   FourPressures pressures_;
-  Feet feet_;
   Section a_, b_;
   FourVectors bend_b_, bend_turn_b_;
   Lanes spin_slope_b_, lever_;
-  FourVectors x_, n_, da_, db_, axis_, r_, remembered_;
-  Lanes over_d_, turned_;
+  FourVectors x_, n_, db_, axis_, r_, remembered_;
+  Lanes over_d_, inverse_g_, turned_;
   FourVectors rotation_;  // phi_a + phi_b
   FourVectors sweeping_;  // phi_a + q phi_b
   Lanes alpha_, away_;    // n.r
@@ -416,46 +380,21 @@ std::size_t linearise(const ContactLaws& laws, const RollingLaws& rolling, doubl
   return linearise_next(
       friction, contacts, surfaces, from, models, [&](const auto& law, const Contacts4& four, const Points4& points) {
         const Four<const ContactPoint> of(four);
-        const OneFoot foot{of(&ContactPoint::inverse_g)};
         const NormalLaw& normal = laws[four[0]->pair].normal;
         const FourPressures pressures(normal, how, of);
         if (!soft.empty()) {
           std::array<const SoftPoint*, 4> giving;
           for (std::size_t i = 0; i < 4; ++i) giving[i] = &soft[number_of(four[i], contacts)];
-          FourSurfaces(pressures, law, rolling[four[0]->pair], dt, how, four, points, foot, UnevenLevers(points),
+          FourSurfaces(pressures, law, rolling[four[0]->pair], dt, how, four, points, UnevenLevers(points),
                        SoftSections(normal, pressures, four, giving))
               .model(models.model);
           return;
         }
         const auto fill = [&](const auto& levers) {
-          FourSurfaces(pressures, law, rolling[four[0]->pair], dt, how, four, points, foot, levers).model(models.model);
+          FourSurfaces(pressures, law, rolling[four[0]->pair], dt, how, four, points, levers).model(models.model);
         };
         is_even(points) ? fill(EvenLevers()) : fill(UnevenLevers(points));
       });
-}
-
-std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingLaws& rolling, double dt,
-                      const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
-                      const std::vector<SurfacePoint>& surfaces, const std::vector<EdgeFeet>& feet, std::size_t from,
-                      SurfaceModels& models) {
-  const auto friction_of = [&](int) -> const Friction& { return friction; };
-  return linearise_next(friction_of, contacts, surfaces, from, models,
-                        [&](const auto& law, const Contacts4& four, const Points4& points) {
-                          FourPressures pressures;
-                          TwoFeet both;
-                          for (std::size_t i = 0; i < 4; ++i) {
-                            const int lane = static_cast<int>(i);
-                            const EdgePressure p = pressure_of(normal, how, *four[i]);
-                            pressures.slope[lane] = p.slope;
-                            pressures.pressure[lane] = p.pressure;
-                            pressures.turning[lane] = p.turning;
-                            const EdgeFeet& feet_of = feet[static_cast<std::size_t>(four[i] - contacts.data())];
-                            both.tt[lane] = feet_of.inverse_tt;
-                            both.tu[lane] = feet_of.inverse_tu;
-                            both.uu[lane] = feet_of.inverse_uu;
-                          }
-                          FourSurfaces(pressures, law, rolling[0], dt, how, four, points, both).model(models.model);
-                        });
 }
 
 }  // namespace knot_utm

@@ -28,8 +28,6 @@ std::optional<Tunnelling> TunnellingSearch::find(const Points& start, const Poin
   join_pieces();
   start_ = &start;
   end_ = &end;
-  const Eigen::Index last = start.cols() - 1;
-  closed_ = start.col(0) == start.col(last) && end.col(0) == end.col(last);
   return search(pieces_.size() - 1, 0, 0);
 }
 
@@ -111,14 +109,13 @@ bool TunnellingSearch::is_cut(int edge) const { return std::find(cuts_.begin(), 
 
 /// A free end edge is tested on its inner half only; its midpoint, too, moves straight.
 TunnellingSearch::Tested TunnellingSearch::tested(int edge) const {
-  const bool bare = bare_ends_ && !closed_;
   const int last = static_cast<int>(start_->cols()) - 2;
-  return {bare && (edge == 0 || is_cut(edge - 1)) ? 0.5 : 0.0, bare && (edge == last || is_cut(edge + 1)) ? 0.5 : 1.0};
+  return {bare_ends_ && (edge == 0 || is_cut(edge - 1)) ? 0.5 : 0.0,
+          bare_ends_ && (edge == last || is_cut(edge + 1)) ? 0.5 : 1.0};
 }
 
 std::optional<Tunnelling> TunnellingSearch::edges_meet(int a, int b) const {
   if (is_cut(a) || is_cut(b)) return std::nullopt;
-  if (closed_ && a == 0 && b + 2 == start_->cols()) return std::nullopt;  // they share the node that closes the rod
   const Tested on_a = tested(a), on_b = tested(b);
   auto place = [](const Points& nodes, int edge, double on) -> Vec3 {
     if (on == 0.0) return nodes.col(edge);

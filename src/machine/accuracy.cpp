@@ -111,7 +111,6 @@ double coarseness(const Tolerances& own, const Tolerances& normal, double edge) 
 std::optional<double> error_of_break_in_bend(const SpecimenOptions& specimen, const Material& material,
                                              const PhysicsOptions& physics) {
   const bool studied = knot_of(specimen).about().may_hold_a_knot() && parts_by_bending(material) &&
-                       physics.contact_law == ContactLaw::kSmooth &&
                        FrictionRegistry::entry(physics.friction.law).studied;
   if (!studied) return {};
   const bool crushed = material.breaking.number(FibreBreaking::kCrushingShare) > 0.0;
@@ -163,8 +162,8 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   if (!studied_stretching(material)) return out;
   if (study == ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
   out.break_in_bend = error_of_break_in_bend(specimen, material, physics);
-  const bool studied = specimen.to_be_tied && physics.contact_law == ContactLaw::kSmooth &&
-                       FrictionRegistry::entry(physics.friction.law).studied && studied_section(material, physics);
+  const bool studied = specimen.to_be_tied && FrictionRegistry::entry(physics.friction.law).studied &&
+                       studied_section(material, physics);
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
   const Answer rod = answer(physics, specimen, material);

@@ -22,18 +22,10 @@ namespace {
 constexpr double kClosed = 2.0;        // radius of a coil that lies on the strands in it [h]
 constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
 constexpr double kCoarsestEdge = 0.9;  // of a rope whose knots slide as with finer ones [h]: doc/developers/history.md
-constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which a law of tension was ever measured [-]
 // Pink VPS was tied and mounted with a linear law up to a strain of 4.8 (4.8 k_s) and with a neo-Hookean one up to 5.6
 // (2.2 k_s); at 6 and 6.8 the tail grips came to the end of their way first (config/tighten.yaml with material=pink_vps
 // and specimen.preload= at draft).
 constexpr double kLargestStrain = 5.0;  // by a pre-load [-]
-constexpr double kMuchStretch = 0.2;    // by choice: no shipped rope is stretched by a tenth of it as it is tied [-]
-// The limits follow from runs of ropes that bend elastically, with friction on centrelines. Of those that were tied
-// with 2 to 8 k_b/h^2, 41 of 43 opened or jumped open with a friction of 0.3 to 0.5, and 5 of 111 with more; of those
-// with 20 to 60 k_b/h^2, 12 of 34 did (the Sobol sequence of config/studies/pattern_map.yaml with compatibility: 1).
-constexpr double kHoldsLoosely = 0.5, kLimp = 300.0;    // friction [-]; k_s h^2/k_b of a rope [-]
-constexpr double kTightly = 20.0, kVeryTightly = 60.0;  // [k_b/h^2]
-constexpr double kMetal = 20e9;  // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
 
 double drawn_coil(const SpecimenOptions& specimen) { return knot_of(specimen).about().drawn_coil; }  // R_0 [h]
 
@@ -48,20 +40,6 @@ double least_preload(const SpecimenOptions& specimen, const Material& material) 
   return std::min(closed * fraction * fraction, bending_force(material) / (2.0 * kClosed * kClosed));
 }
 
-/// Warns of a pre-load that nobody chose, not even for the material. It is empty where the pre-load suits the rod.
-std::string automatic_warning(double preload, double stretch, const Material& material) {
-  if (material.tying_preload || preload != default_preload(material)) return "";
-  const double force = bending_force(material);
-  const std::string which = "the automatic pre-load of " + short_number(preload) + " N";
-  const std::string set = "; set specimen.preload or material.tying_preload to the load that your knots are tied with";
-  if (stretch > kMuchStretch) return which + " stretches the rod by " + short_number(100.0 * stretch) + " %" + set;
-  if (remembers_bends(material)) return "";  // 4 of 4 of nylon's specimens hold that are tied so
-  if (material.stretching_stiffness <= kLimp * force || material.friction_coefficient >= kHoldsLoosely) return "";
-  return which + " is little for a rope whose friction is below " + short_number(kHoldsLoosely) +
-         ": most knots that are tied so open, while most hold that are tied with " + short_number(kTightly * force) +
-         " to " + short_number(kVeryTightly * force) + " N" + set;
-}
-
 /// Strain of the outermost fibre over the one that parts it, of a rod that is stretched and bent; 0: bending does not
 /// part it.
 double exposed_by(double stretch, double bend, const Material& material) {
@@ -72,20 +50,15 @@ double exposed_by(double stretch, double bend, const Material& material) {
 /// Warns of a strain that the outermost fibre of a tied knot may not bear. It is empty where nothing is known to fail.
 std::string strain_warning(double stretch, const Material& material) {
   const double strain = stretch + kSharpestBend, exposed = exposed_by(stretch, kSharpestBend, material);
-  const std::string needed = "tied knots strain the outermost fibre by up to " + short_number(strain);
   if (exposed > 1.0)
     return "tied knots strain their fibres by up to " + short_number(exposed) +
            " times what parts them (material.breaking), so the rod may part while it is tied";
   if (remembers_bends(material)) return "";
   if (material.yield_strain && *material.yield_strain < strain)
-    return needed + ", and the material yields at a strain of " + short_number(*material.yield_strain) +
+    return "tied knots strain the outermost fibre by up to " + short_number(strain) +
+           ", and the material yields at a strain of " + short_number(*material.yield_strain) +
            " (material.yield_strain), which only material.bending_law: plastic simulates";
-  if (parts_by_bending(material) || material.yield_strain || !is_solid(material)) return "";
-  const double modulus = material.stretching_stiffness / (M_PI * material.radius * material.radius);
-  if (modulus < kMetal) return "";
-  return needed + ", but a solid rod with a modulus of " + short_number(1e-9 * modulus) +
-         " GPa yields or breaks at a much smaller strain, which is not simulated; set material.yield_strain or "
-         "material.breaking if you know them";
+  return "";
 }
 
 /// Warns of edges that are too long for the bends of a tied rope. Knots of solid rods were the same with edges of 2 h.
@@ -156,32 +129,20 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
             " N: it strains the outermost fibre by " + short_number(exposed) + " times what parts it");
 }
 
-namespace {
-
-void add_preload_warnings(const SpecimenOptions& specimen, const Material& material, double stretch,
-                          std::vector<std::string>& all) {
-  const double preload = tying_load(specimen, material), closing = closing_preload(material);
-  if (preload < closing)
-    all.push_back("a pre-load of " + short_number(preload) + " N leaves the coils open, at a radius of about " +
-                  short_number(std::min(coil_radius(material, preload) / material.radius, drawn_coil(specimen))) +
-                  " radii of the rod: they close at " + short_number(closing) + " N");
-  const std::string automatic = automatic_warning(preload, stretch, material);
-  if (!automatic.empty())
-    all.push_back(automatic);
-  else if (stretch > kMostStretch)
-    all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " + short_number(1.0 + stretch) +
-                  " times its length");
-}
-
-}  // namespace
-
 std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const Material& material,
                                         const PhysicsOptions& physics) {
   std::vector<std::string> all;
   double stretch = 0.0;
   if (tied_by_preload(specimen)) {
-    stretch = strain_under(material, tying_load(specimen, material));
-    add_preload_warnings(specimen, material, stretch, all);
+    const double preload = tying_load(specimen, material), closing = closing_preload(material);
+    stretch = strain_under(material, preload);
+    if (preload < closing)
+      all.push_back("a pre-load of " + short_number(preload) + " N leaves the coils open, at a radius of about " +
+                    short_number(std::min(coil_radius(material, preload) / material.radius, drawn_coil(specimen))) +
+                    " radii of the rod: they close at " + short_number(closing) + " N");
+    if (stretch > kMostStretch)
+      all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " +
+                    short_number(1.0 + stretch) + " times its length");
   }
   const double edge = specimen.edge_length / tolerances(physics, specimen, material).refinement;
   for (const std::string& found : {strain_warning(stretch, material), mesh_warning(edge, material)})

@@ -90,25 +90,12 @@ void each_edge(const Law& law, const Loading& on, const EdgesOfRopes& edges, con
 }
 
 template <class Law>
-Exposure worst_edge(const Law& law, const Loading& on, const EdgesOfRopes& edges) {
+Exposure exposure(const Law& law, const Loading& on, const EdgesOfRopes& edges) {
   Exposure out;
   each_edge(law, on, edges, [&](Eigen::Index j, const LoadedEdge& edge) {
     const double fraction = law.fraction(edge);
     if (fraction > out.fraction) out = {fraction, static_cast<int>(j), Law::kLimit, law.limited(edge)};
   });
-  return out;
-}
-
-Exposure exposure(const TensionBreaking& law, const Loading& on, const EdgesOfRopes& edges) {
-  return worst_edge(law, on, edges);
-}
-
-Exposure exposure(const FibreBreaking& law, const Loading& on, const EdgesOfRopes& edges) {
-  Exposure out = worst_edge(law, on, edges);
-  WeakestLink::Sum sum(law.link);
-  each_edge(law, on, edges,
-            [&](Eigen::Index j, const LoadedEdge& edge) { sum.add(law.fraction(edge), on.rod.rest_length[j]); });
-  out.fraction = sum.fraction();
   return out;
 }
 
@@ -138,11 +125,6 @@ Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& pos
     if (found.fraction > out.fraction || out.edge < 0) out = found;
   }
   return out;
-}
-
-double transit_time(const RodMaterial& material, double length) {
-  const double mass = material.density * M_PI * material.radius * material.radius;
-  return length * std::sqrt(mass / material.stretching_stiffness);
 }
 
 bool lies_in_knot(const RodProperties& rod, const Points& position, int edge) {

@@ -33,7 +33,6 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     // A ring as heavy as the rod would be all around the roller: nothing that a slow test feels.
     if (machine.roller_rotation == RollerRotation::kFree)
       roller.inertia = specimen_scales(material).mass * 2.0 * M_PI * std::pow(roller.radius, 3);
-    if (machine.roller_rotation == RollerRotation::kTurned) roller_rate_ = machine.roller_rate;
     rollers_.push_back(roller);
     narrower_ = roller.radius + radius - centreline.loop.radius;
     clearance_ = kClearance * radius;
@@ -108,15 +107,6 @@ double Grips::torque(const TimeStep& step) const {
   for (const FixedNode& node : upper_nodes_)
     sum += (step.state().position.col(node.node) - turns_around_).cross(step.readings().reaction(node.node))[2];
   return sum;
-}
-
-void Grips::turn_rollers_from(double time) {
-  if (!turning_from_) turning_from_ = time;
-}
-
-void Grips::turn_rollers(double time, std::vector<Roller>& rollers) const {
-  if (roller_rate_ == 0.0 || !turning_from_) return;
-  for (Roller& roller : rollers) roller.turn = roller_rate_ * (time - *turning_from_);
 }
 
 void Grips::set(double displacement, double left, Boundary& boundary) const {
@@ -287,7 +277,7 @@ double Grips::force_lower(const TimeStep& step) const {
 }
 
 void Grips::state(Archive& archive) {
-  archive.section("GRP4");  // "GRP3" had no ends that slip, and no weights
+  archive.section("GRP5");  // "GRP4" had rollers that were driven, "GRP3" had no ends that slip, and no weights
   archive(lift_, holds_far_side_);
   archive.list(pins_);
   archive.require(pins_.empty() || pins_.size() == rollers_.size(), "pins of the rollers",
@@ -297,11 +287,6 @@ void Grips::state(Archive& archive) {
   for (FixedNode& node : upper_nodes_) archive(node.position);
   archive.list(slipping_);
   archive(pulled_with_, hung_);
-  bool turns = turning_from_.has_value();
-  archive(turns);
-  if (!turns) return turning_from_.reset();
-  if (!turning_from_) turning_from_ = 0.0;
-  archive(*turning_from_);
 }
 
 }  // namespace knot_utm

@@ -37,32 +37,27 @@ LoadCell::LoadCell(const LoadCellOptions& options)
   check("accuracy", options.accuracy, options.accuracy >= 0.0 && options.accuracy < 1.0, "0 or more, less than 1");
   check("floor", options.floor, options.floor >= 0.0 && options.floor <= 1.0, "0 to 1 of the capacity");
   check("overload", options.overload, options.overload >= 1.0, "1 or more of the capacity");
-  check("drift", options.drift, std::isfinite(options.drift), "a finite number of N/s");
   check("resolution", options.resolution, options.resolution >= 0.0, "0 N or more");
   check("noise", options.noise, options.noise >= 0.0, "0 N or more");
 }
 
-void LoadCell::balance(double true_force, double time) {
-  balanced_ = true_force;
-  balanced_at_ = time;
-}
+void LoadCell::balance(double true_force) { balanced_ = true_force; }
 
-double LoadCell::read(double true_force, double time) {
+double LoadCell::read(double true_force) {
   const double stop = options_.overload * options_.capacity;
   double reading = gain_ * balanced(std::clamp(true_force, -stop, stop));
-  if (options_.drift != 0.0) reading += options_.drift * (time - balanced_at_);
   if (options_.noise > 0.0) reading += options_.noise * standard_normal(random_);
   if (options_.resolution > 0.0) reading = std::round(reading / options_.resolution) * options_.resolution;
   return reading;
 }
 
 void LoadCell::state(Archive& archive) {
-  archive.section("CELT");  // "CELL" did not know when it was balanced
+  archive.section("CELU");  // "CELT" knew when it was balanced
   std::stringstream random;
   random.imbue(std::locale::classic());
   random << random_;
   std::string text = random.str();
-  archive(balanced_, balanced_at_, text);
+  archive(balanced_, text);
   if (!archive.loads()) return;
   random.str(text);
   random >> random_;

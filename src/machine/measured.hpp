@@ -84,9 +84,8 @@ inline constexpr double kSoftPlateau = 0.6, kSoftHardlyClosed = 0.25, kSoftLock 
 inline constexpr double kStraightStiffness = 1e-3;
 
 // The largest load of a knot from a file, in a solid rod and in a rope that slips at less than its pre-load. They hold
-// 21 of 22 and 13 of 13 means of two starts (`scripts/bench knots`, by default and with six other knots). Of six more,
-// tried once they were set, they hold 11 of 12, one being off by 10.3 % while the error of the finer mean is 9 %, and 2
-// of 2.
+// 21 of 22 and 13 of 13 means of two starts (bench/results/knots.md, and six other knots). Of six more, tried once they
+// were set, they hold 11 of 12, one being off by 10.3 % while the error of the finer mean is 9 %, and 2 of 2.
 inline constexpr double kDrawnInSolid = 0.10, kDrawnInRope = 0.15;
 
 // Fraction of the error that each source contributes at `normal` with edges of one radius [-]; they sum to 1. For the

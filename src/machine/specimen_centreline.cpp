@@ -20,7 +20,7 @@ Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& 
 
 double slack_of(const SpecimenOptions& specimen, const Centreline& centreline) {
   const KnotDescription& knot = knot_of(specimen).about();
-  if (!knot.may_hold_a_knot() || knot.loop || centreline.closed) return 0.0;
+  if (!knot.may_hold_a_knot() || knot.loop) return 0.0;
   const Points& x = centreline.points;
   const std::vector<double> at = arclengths(x);
   double slack = 0.0;

@@ -43,7 +43,7 @@ double friction_couple(const Material& material, const PhysicsOptions& physics) 
 NormalLaw normal_law(const Material& material, double tolerance) {
   constexpr double kStiffeningDepth = 0.015;  // c: at the kN of a locked knot a rod gives 5 % [h]
   // A cylinder of rubber squeezed by 20 to 50 % of its diameter, in plane strain: within 8 % of finite elements
-  // (bench/rubber_cylinder.py).
+  // (doc/developers/history.md).
   constexpr double kSoftStiffeningDepth = 0.8;
   const double depth = material.is_soft() ? kSoftStiffeningDepth : kStiffeningDepth;
   return {default_contact_stiffness(material), tolerance, depth * material.radius};
@@ -84,7 +84,6 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   const Tolerances tolerance = tolerances(physics, specimen, material);
   const double h = material.radius;
   StepSettings out;
-  out.contact_law = physics.contact_law;
   out.pressure_law = normal_law(material, tolerance.contact_tolerance * h);
   out.friction = Friction::of(physics.friction, {material.friction_coefficient, h, tolerance.presliding});
   out.roller_friction = Friction::of(physics.friction, {machine.roller_friction, h, tolerance.presliding});

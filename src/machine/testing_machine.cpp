@@ -9,9 +9,7 @@
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/break_watch.hpp"
 #include "knot_utm/machine/frame.hpp"
-#include "knot_utm/machine/free_ends.hpp"
 #include "knot_utm/machine/grips.hpp"
-#include "knot_utm/machine/knot_readings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
@@ -22,6 +20,7 @@
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_readings.hpp"
 #include "knot_utm/specimen/knot_watch.hpp"
 #include "knot_utm/specimen/rest_shape.hpp"
 #include "knot_utm/specimen/scales.hpp"
@@ -38,9 +37,8 @@ constexpr double kAimedSlip = 0.4;      // of strands on each other, in a step [
 constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
-constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
-constexpr double kLeastPassed = 1e-2;    // by which the grip may pass the balance of forces [k_b/h^2]
-constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for
+constexpr double kNearBreak = 1e-3;    // steps are no shorter for a break that is near [longest step]
+constexpr double kLeastPassed = 1e-2;  // by which the grip may pass the balance of forces [k_b/h^2]
 
 }  // namespace
 
@@ -69,7 +67,7 @@ struct TestingMachine::Impl {
   double grip_tried = 0.0;    // in the step that is being made
   double borne_before = 0.0;  // by the upper grip as that step begins, on a frame that gives [N]
   double extension_zero = 0.0, raw_extension_zero = 0.0;
-  double recoil_end = 0.0;  // of a rod that has just parted [s]
+  int parted_edge = -1;  // -1: none
   BreakPlace break_place = BreakPlace::kNone;
   double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]
   double drag_tried = 0.0;    // of its motion [N s/m^2]
@@ -102,8 +100,8 @@ struct TestingMachine::Impl {
     RodProperties rod = material.other ? make_rod(material, *material.other, rest, centreline.cuts)
                                        : make_rod(material, rest, centreline.cuts);
     if (bends_on_frames(material)) remember_bends(rod, &state);
-    give_rest_shape(specimen, &rod, &state);
-    if (solves_for_twist(rod, state)) initialise_frames(&state);
+    give_rest_shape(specimen, rod, &state);
+    if (solves_for_twist(state)) initialise_frames(&state);
     StepSettings settings = step_settings(specimen, material, machine, physics);
     // A weight is that of the rod's own mass.
     gravity = settings.gravity = physics.gravity / inertia_factor(material_, physics, slack_of(specimen, centreline));
@@ -122,8 +120,8 @@ struct TestingMachine::Impl {
     if (!centreline.free.empty()) free_ends.emplace(centreline, stepper->rod());
     if (!centreline.read.empty()) knot_readings.emplace(centreline, stepper->rod());
     if (type_is_followed(specimen)) {
-      watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), centreline.closed, material.core_radius(),
-                    centreline.points, centreline.windings());
+      watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), material.core_radius(), centreline.points,
+                    centreline.windings());
     }
     if (can_part(material)) breaks.emplace(material, *stepper, kNearBreak * options.longest);
     if (breaks || !frame.rigid()) stepper->refuse_by([this](const Points& end, double dt) { return refuse(end, dt); });
@@ -143,7 +141,7 @@ struct TestingMachine::Impl {
   /// `auto`: where frames are held at two places or friction rolls strands, of a rod that does not stay straight; or
   /// where its bends are remembered, or it is twisted at rest. A rod whose ends are free to turn has no twist where
   /// friction acts on its centreline.
-  bool solves_for_twist(const RodProperties& rod, const RodState& state) const {
+  bool solves_for_twist(const RodState& state) const {
     switch (physics.twist) {
       case TwistMode::kOn:
         return true;
@@ -152,7 +150,7 @@ struct TestingMachine::Impl {
       case TwistMode::kAuto:
         break;
     }
-    return state.curved_at_rest() || rod.natural_twist.size() > 0 ||
+    return state.curved_at_rest() ||
            ((grips.hold_frames() || material.is_soft() || friction_rolls(material, machine, physics)) &&
             !knot_of(specimen).about().straight);
   }
@@ -164,7 +162,6 @@ struct TestingMachine::Impl {
 
   const Boundary& boundary_at(const Command& command, double from, double to, const Start& start) {
     const double whole = command.time - start.time;
-    // A recoil may go on behind the command; the crosshead does not.
     const double fraction = whole > 0.0 ? std::min(1.0, (to - start.time) / whole) : 1.0;
     const double travel = mounts() ? displacement + tying->mounting_velocity(command.speed) * (to - from)
                                    : start.displacement + fraction * (command.displacement - start.displacement);
@@ -175,7 +172,6 @@ struct TestingMachine::Impl {
     drag_tried = drag() + boundary.extra_drag;
     grip_tried = frame.grip_after(grip, travel, borne_before, held_length(from, to), to - from, drag_tried);
     grips.set(grip_tried, tying ? tying->left_to_put_on(to) : 0.0, boundary);
-    grips.turn_rollers(to, boundary.rollers);
     grips.turn_clamp(start.turn + fraction * (command.turn - start.turn), boundary);
     apply_weight(to);
     boundary.grips.clear();
@@ -211,7 +207,6 @@ struct TestingMachine::Impl {
     step_index = command.step;
     phase = command.phase;
     pulled |= moves(phase) && phase != Phase::kMount;
-    if (pulled) grips.turn_rollers_from(time);
     status = BenchStatus::kRunning;
     if (tying) tying->enter(command, place());
   }
@@ -221,13 +216,12 @@ struct TestingMachine::Impl {
 
   Tying::Place place() const { return {time, displacement, grip}; }
 
-  bool parted() const { return stepper->parted_edge() >= 0; }
-  /// A step that could not be made leaves contacts that no accepted step has, of a recoil too.
+  bool parted() const { return parted_edge >= 0; }
+  /// A step that could not be made leaves contacts that no accepted step has.
   bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
   /// Why a step that was solved is none that the rod and the machine make. Empty: it is.
   std::string refuse(const Points& end, double dt) const {
-    if (parted()) return "";
     if (breaks)
       if (std::string why = breaks->refuse(*stepper, end, dt); !why.empty()) return why;
     const double least = kLeastPassed * material.bending_stiffness / (material.radius * material.radius);
@@ -239,7 +233,7 @@ struct TestingMachine::Impl {
 
   /// After an accepted step: does the rod part? The next step ends where at this pace it will.
   void judge_break(double dt) {
-    if (!breaks || parted()) return;
+    if (!breaks) return;
     const std::optional<Exposure> reached = breaks->judge(*stepper, dt);
     if (!reached) return control.at_most(breaks->next());
     message = not_by_tension(*reached, grips.force_upper(*stepper), grips.force_lower(*stepper));
@@ -249,14 +243,10 @@ struct TestingMachine::Impl {
   }
 
   void part(const Exposure& reached) {
-    const int edge = reached.edge;
-    break_place = place_of_break(*stepper, grips, grip, edge);
+    parted_edge = reached.edge;
+    break_place = place_of_break(*stepper, grips, grip, parted_edge);
     status = BenchStatus::kBroken;
     message = breaks->describe(*stepper, reached, break_place);
-    stepper->part(edge);
-    const RodMaterial& rope = stepper->rod().material_at(edge);
-    recoil_end = time + kRecoilTransits * transit_time(rope, grips.end_to_end(grip));
-    control.at_most(transit_time(rope, stepper->rod().rest_length[edge]));
     control.halt();
   }
 
@@ -318,7 +308,7 @@ struct TestingMachine::Impl {
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
     if (watch) s.knot_type = watch->type();
-    if (parted()) s.break_arclength = break_arclength(*stepper, stepper->parted_edge());
+    if (parted()) s.break_arclength = break_arclength(*stepper, parted_edge);
     s.break_place = break_place;
     s.status = status;
     s.message = message;
@@ -326,10 +316,8 @@ struct TestingMachine::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCN");  // "BNCM" had no turn of the upper clamp
-    int parted_edge = stepper->parted_edge();
+    archive.section("BNCO");  // "BNCN" let parted ends recoil, "BNCM" had no turn of the upper clamp
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
-    if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
     if (breaks) archive(*breaks);
     archive(time, displacement, turn, grip, extension_zero, raw_extension_zero, step_index, work, message);
@@ -394,15 +382,13 @@ struct TestingMachine::Impl {
     }
     stepper->set_drag(drag());
     if (command.balance) {
-      cell.balance(grips.force_upper(*stepper), time);
+      cell.balance(grips.force_upper(*stepper));
       extension_zero = grips.end_to_end(grip);
       raw_extension_zero = displacement;
     }
-    std::string gave_up = advance(command, {time, displacement, turn}, command.time);
+    const std::string gave_up = advance(command, {time, displacement, turn}, command.time);
     if (parted()) {
-      if (machine.after_break == AfterBreak::kFollow)
-        gave_up = advance(command, {time, displacement, turn}, recoil_end);
-      if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
+      // The test ends here.
     } else if (!gave_up.empty() || status == BenchStatus::kFailed) {
       status = BenchStatus::kFailed;
       if (!gave_up.empty()) message = gave_up;
@@ -415,7 +401,7 @@ struct TestingMachine::Impl {
     if (watch && !parted()) watch->follow(stepper->state().position);
     Sample last = read(command, time);
     if (knot_readings && knows_contacts()) last.knot_readings = knot_readings->at(stepper->state().position);
-    if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper, time);
+    if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper);
     for (const Sample& step : substeps) {
       last.highest_load = std::max(last.highest_load, step.highest_load);
       last.lowest_load = std::min(last.lowest_load, step.lowest_load);

@@ -44,8 +44,7 @@ TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, co
     : stepper_(stepper),
       grips_(grips),
       radius_(material.radius),
-      sets_to_marks_(specimen.set_to_marks &&
-                     coil_radius(material, tying_load(specimen, material)) < kOpenCoil * material.radius),
+      sets_to_marks_(coil_radius(material, tying_load(specimen, material)) < kOpenCoil * material.radius),
       knot_distance_(specimen.knot_distance),
       end_to_end_(specimen.end_to_end),
       rig_(centreline, stepper.rod(), tying_options(specimen, material, creep_speed)),
@@ -182,7 +181,7 @@ void TiedLoop::state(Archive& archive) {
 }
 
 double marks_of(const SpecimenOptions& specimen, const Program& program) {
-  return specimen.to_be_tied && specimen.set_to_marks && has_step<MountStep>(program) ? specimen.knot_distance : 0.0;
+  return specimen.to_be_tied && has_step<MountStep>(program) ? specimen.knot_distance : 0.0;
 }
 
 }  // namespace knot_utm

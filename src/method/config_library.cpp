@@ -17,11 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The keys that shipped materials have gained after release 1.
-constexpr std::array kSinceFirstRelease{"bending_law",        "friction_moment", "stick_ratio",
-                                        "compaction",         "stretching_law",  "rolling_resistance",
-                                        "rolling_hysteresis", "friction_couple", "section"};
-
 bool comes_with_the_package(const fs::path& folder) {
   const std::vector<std::string> shipped = shipped_folders();
   return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& one) {
@@ -79,20 +74,6 @@ void ConfigLibrary::add(const fs::path& folder) {
 
 bool is_shipped(const std::string& kind, const fs::path& file) {
   return file.parent_path().filename() == kind && comes_with_the_package(file.parent_path().parent_path());
-}
-
-YAML::Node read_material_file(const fs::path& file, const YAML::Node& method) {
-  YAML::Node map = read_yaml(file);
-  const YAML::Node asked = method["compatibility"];
-  const bool of_first_release = asked.IsDefined() && asked.IsScalar() && parse_number(asked.Scalar()) == 1.0;
-  if (!of_first_release || !map.IsMap() || !is_shipped("materials", file)) return map;
-  for (const char* key : kSinceFirstRelease) map.remove(key);
-  return map;
-}
-
-YAML::Node named_map(YAML::Node map, const fs::path& file) {
-  if (map.IsMap() && !map["name"].IsDefined()) map["name"] = file.stem().string();
-  return map;
 }
 
 std::string material_name(const YAML::Node& method, const std::string& key) {

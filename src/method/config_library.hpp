@@ -38,10 +38,6 @@ class ConfigLibrary {
 /// Whether a file of this kind comes with the package.
 bool is_shipped(const std::string& kind, const std::filesystem::path& file);
 
-/// What the file of a method's material says. With `compatibility: 1` in the method a material that comes with the
-/// package is the one of release 1, without the keys that it has had since. An own material is what it is.
-YAML::Node read_material_file(const std::filesystem::path& file, const YAML::Node& method);
-
 /// The map of a file, with the file's name added, so that it can be put into the method.
 YAML::Node named_map(YAML::Node map, const std::filesystem::path& file);
 

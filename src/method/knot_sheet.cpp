@@ -10,10 +10,10 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/knot_facts.hpp"
-#include "knot_utm/specimen/knot_picture.hpp"
 
 namespace knot_utm {
 namespace {
@@ -58,6 +58,10 @@ std::vector<std::array<std::string, 2>> names_of_ends(const Method& method) {
   if (!method.specimen.drawing) return {{"first end", "last end"}};
   for (const KnotDrawing::Strand& strand : method.specimen.drawing->strands) out.push_back(strand.ends);
   return out;
+}
+
+std::string title_of(const Method& method) {
+  return method.specimen.drawing ? method.specimen.drawing->title : knot_of(method.specimen).about().title;
 }
 
 std::string held(const Method& method, const Supports& supports) {
@@ -105,7 +109,7 @@ std::string facts_text(const Method& method, const Supports& supports, const Kno
   const double h = thickest(method.material);
   Vec3 origin = Vec3::Zero();
   if (drawing) origin.z() = height_of_origin(*drawing, {h, method.specimen.end_to_end, 0.0, 0.0});
-  std::string out = "title: " + (drawing ? drawing->title : knot_of(method.specimen).about().title) + "\n";
+  std::string out = "title: " + title_of(method) + "\n";
   if (drawing && !drawing->use.empty()) out += "use: " + drawing->use + "\n";
   out += "strands: " + std::to_string(facts.strands) + "\n";
   out += "held: " + held(method, supports) + "\n";
@@ -122,6 +126,39 @@ std::string facts_text(const Method& method, const Supports& supports, const Kno
   return out;
 }
 
+std::string json_of(const Vec3& vector) {
+  std::ostringstream out;
+  out << '[' << vector.x() << ", " << vector.y() << ", " << vector.z() << ']';
+  return out.str();
+}
+
+/// All lengths in radii of the rod.
+std::string shape_json(const std::string& title, const Method& method, const Centreline& shown,
+                       const Supports& supports) {
+  const double h = thickest(method.material);
+  const std::vector<std::array<std::string, 2>> ends = names_of_ends(method);
+  std::ostringstream out;
+  out << "{\"title\": " << quoted(title) << ", \"ropes\": [";
+  const std::vector<Piece> ropes = pieces_between(shown.points.cols(), shown.cuts);
+  for (std::size_t k = 0; k < ropes.size(); ++k) {
+    out << (k > 0 ? ", " : "") << "{\"ends\": [" << quoted(ends[k][0]) << ", " << quoted(ends[k][1])
+        << "], \"points\": [";
+    for (Eigen::Index i = ropes[k].begin; i < ropes[k].end; ++i)
+      out << (i > ropes[k].begin ? ", " : "") << json_of(shown.points.col(i) / h);
+    out << "]}";
+  }
+  out << "], \"posts\": [";
+  const char* comma = "";
+  for (const std::vector<Roller>* posts : {&supports.posts, &supports.pins})
+    for (const Roller& post : *posts) {
+      out << comma << "{\"centre\": " << json_of(post.centre / h) << ", \"axis\": " << json_of(post.axis)
+          << ", \"radius\": " << post.radius / h << ", \"ring\": " << post.ring / h << '}';
+      comma = ", ";
+    }
+  out << "]}\n";
+  return out.str();
+}
+
 }  // namespace
 
 KnotSheet knot_sheet(const std::string& knot, const std::string& option) {
@@ -133,10 +170,7 @@ KnotSheet knot_sheet(const std::string& knot, const std::string& option) {
   KnotSheet out;
   out.name = drawing ? std::filesystem::path(drawing->name).stem().string() : knot_of(method.specimen).about().name;
   out.facts = facts_text(method, supports, facts_of(shown, thickest(method.material)));
-  std::vector<Roller> posts = supports.posts;
-  posts.insert(posts.end(), supports.pins.begin(), supports.pins.end());
-  out.picture = knot_svg({drawing ? drawing->title : knot_of(method.specimen).about().title, shown,
-                          thickest(method.material), posts, names_of_ends(method)});
+  out.shape = shape_json(title_of(method), method, shown, supports);
   return out;
 }
 

@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "config_library.hpp"
 #include "knot_utm/machine/before_tying.hpp"
-#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
@@ -38,11 +35,9 @@ using fields::Fields;
 using fields::one_line;
 using fields::Reader;
 
-constexpr double kCoupleOfFirstRelease = 0.0;  // friction acted on the centrelines then
-
 /// `key`: that of the method.
-Material read_material(const std::string& key, const YAML::Node& node, const YAML::Node& method,
-                       const std::string& file, const ConfigLibrary& library) {
+Material read_material(const std::string& key, const YAML::Node& node, const std::string& file,
+                       const ConfigLibrary& library) {
   Material material;
   if (!node.IsDefined() || node.IsNull()) {
     throw InvalidInput::missing(key, library.allowed("materials")).in_file(file);
@@ -50,7 +45,7 @@ Material read_material(const std::string& key, const YAML::Node& node, const YAM
   if (!node.IsScalar() && !node.IsMap()) throw InvalidInput(file, key, as_given(node), library.allowed("materials"));
   if (node.IsScalar()) {
     const fs::path path = library.find("materials", node.Scalar(), key);
-    Reader reader(read_material_file(path, method), path.string(), "", "a material");
+    Reader reader(read_yaml(path), path.string(), "", "a material");
     fields::material(reader, material);
     reader.finish();
     if (material.name.empty()) material.name = path.stem().string();
@@ -193,11 +188,9 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   Method method;
   Reader top(root, file, "");
   top.note_automatic(automatic);
-  fields::compatibility(top, method.compatibility);
-  method.material = read_material("material", top.take("material"), root, file, library);
+  method.material = read_material("material", top.take("material"), file, library);
   if (const YAML::Node other = top.take("other_material"); other.IsDefined())
-    method.material.other =
-        std::make_shared<const Material>(read_material("other_material", other, root, file, library));
+    method.material.other = std::make_shared<const Material>(read_material("other_material", other, file, library));
   Reader specimen = top.in("specimen");
   YAML::Node knot = specimen.take("knot");
   method.specimen.drawing = read_drawing(knot, file, library);
@@ -216,7 +209,6 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   method.program = read_program(top.take("program"), file, method.material, defaults, automatic);
   if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
   fields::behind_program(top, method);
-  top.section("analysis", [&](Fields& f) { fields::analysis(f, method.analysis); });
   top.section("report", [&](Fields& f) { fields::report(f, method.report); });
   method.specification = read_specification(top.take("specification"), file);
   bool usual_scatter = true;
@@ -227,66 +219,10 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   return method;
 }
 
-/// Whether a value of this key may be refused only as the rod is laid, which does not take long.
-bool is_soon_laid(const std::string& key, const SpecimenOptions& specimen) {
-  constexpr double kFewEdges = 8000.0;
-  const double length = std::max({specimen.length, specimen.end_to_end, specimen.knot_distance, specimen.tail});
-  const bool may_be = key.rfind("specimen.", 0) == 0 || key == "machine.roller_diameter";
-  return may_be && length < kFewEdges * specimen.edge_length;
-}
-
-/// The number that a limit ends with: 0.0381 of "at least 12 radii, 0.0381 m". Empty: it has none.
-std::string last_number(const std::string& limit) {
-  std::istringstream words(limit.substr(0, limit.find(':')));
-  std::string found;
-  for (std::string word; words >> word;)
-    if (parse_number(word)) found = word;
-  return found;
-}
-
-/// The same sentence with what the other values of this method allow, where that is less than the range: "must be 1e-6
-/// to 0.1 m, and here at most twice the radius, 0.00635 m". `attempt` receives an override for each end of the range,
-/// and throws InvalidInput where the method with it would be refused.
-InvalidInput narrowed(const OutOfRange& wrong, const std::function<void(const std::string& override)>& attempt) {
-  std::string here;
-  // The limit that a value says, or an empty text.
-  const auto limit_at = [&](const std::string& value) -> std::string {
-    try {
-      attempt(wrong.key + "=" + value);
-    } catch (const InvalidInput& inner) {
-      const bool says_a_range = std::string(inner.what()).find(", but must be " + inner.allowed) != std::string::npos;
-      if (inner.key == wrong.key && says_a_range && here.find(inner.allowed) == std::string::npos) return inner.allowed;
-    }
-    return {};
-  };
-  for (const double end : {wrong.min, wrong.max}) {
-    std::string value = std::isfinite(end) ? format_yaml_number(end) : "";
-    // A value at the first limit may be refused by a second one.
-    for (int i = 0; i < 2 && !value.empty(); ++i) {
-      const std::string limit = limit_at(value);
-      if (!limit.empty()) here += (here.empty() ? ", and here " : " and ") + limit;
-      value = limit.rfind("at ", 0) == 0 ? last_number(limit) : "";
-    }
-  }
-  return {wrong.file, wrong.key, wrong.value, wrong.allowed + here};
-}
-
 }  // namespace
 
 Method load_method(const std::string& file, const std::vector<std::string>& overrides, const std::string& option) {
-  const std::string text = read_text(file);
-  try {
-    return parse_method(text, file, overrides, option);
-  } catch (const OutOfRange& wrong) {
-    if (wrong.file != file) throw;
-    throw narrowed(wrong, [&](const std::string& override) {
-      std::vector<std::string> with = overrides;
-      with.push_back(override);
-      const Method method = parse_method(text, file, with, option);
-      if (is_soon_laid(wrong.key, method.specimen))
-        TestingMachine(method.specimen, method.material, method.machine, method.physics);
-    });
-  }
+  return parse_method(read_text(file), file, overrides, option);
 }
 
 Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides,
@@ -305,11 +241,9 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     Method method = read_method(root, file, library, &first, noted);
     method.name = path.stem().string();
     method.specimen.to_be_tied = has_step<TieStep>(method.program);
-    method.specimen.set_to_marks = !method.compatibility;
 
     if (!method.material.friction_couple) {
-      method.material.friction_couple =
-          method.compatibility ? kCoupleOfFirstRelease : default_friction_couple(method.material);
+      method.material.friction_couple = default_friction_couple(method.material);
       noted.emplace_back("material.friction_couple");
     }
     if (method.physics.twist == TwistMode::kAuto && has_step<TwistStep>(method.program)) {
@@ -332,8 +266,6 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     keep_own_keys(method);
     keep_automatic(noted, method);
     return method;
-  } catch (const OutOfRange&) {
-    throw;
   } catch (const InvalidInput& invalid) {
     if (invalid.key == option) throw;  // an override stands in no file
     throw invalid.in_file(file);

@@ -60,7 +60,7 @@ void check_law(const LawOptions<Number>& given, const std::string& section, cons
   }
 }
 
-/// A breaking law needs the strength of a straight rod, and a specimen is one of many only where they scatter.
+/// A breaking law needs the strength of a straight rod.
 /// `section`: that of the material, with a dot.
 void check_breaking(const Material& material, const std::string& section) {
   check_law<BreakingRegistry>(material.breaking, section + "breaking.", "law");
@@ -68,10 +68,6 @@ void check_breaking(const Material& material, const std::string& section) {
   if (law != TensionBreaking::kName && !material.breaking_force)
     throw InvalidInput::missing(section + "breaking_force",
                                 "a number of newtons, which " + section + "breaking.law: " + law + " needs");
-  const bool scatters = std::isfinite(material.breaking.number(FibreBreaking::kWeibullModulus));
-  for (const LawKey& key : {FibreBreaking::kTestedLength, FibreBreaking::kWeakerShare})
-    has_effect(scatters, (section + "breaking." + key.name).c_str(), material.breaking.number(key), key.plain,
-               "with " + section + "breaking.weibull_modulus");
 }
 
 /// What resists rolling needs surfaces that rub and roll. `section`: as for check_breaking.
@@ -124,8 +120,6 @@ void check_other_material(const Method& m) {
        StretchingRegistry::entry(own.stretching.law).name);
   same("bending_law", BendingRegistry::entry(other.bending.law).name, BendingRegistry::entry(own.bending.law).name);
   same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
-  if (m.physics.contact_law == ContactLaw::kEdge)
-    throw InvalidInput("physics.contact.law", "edge", "smooth where there is an other_material");
   const auto section_of = [](const Material& of) { return fields::kSections[static_cast<std::size_t>(of.section)]; };
   same("section", section_of(other), section_of(own));
   check_rolling(m, other, "other_material.");
@@ -171,16 +165,9 @@ void check_effects(const Method& m) {
              std::string(fields::kRotations[static_cast<std::size_t>(machine.roller_rotation)]),
              std::string(fields::kRotations[0]),
              std::string("with a roller_friction above 0") + (rollers ? "" : " of grips: rollers"));
-  has_effect(machine.roller_rotation == RollerRotation::kTurned, "machine.roller_rate", machine.roller_rate,
-             bare.roller_rate, "with roller_rotation: turned");
-  if (machine.roller_rotation == RollerRotation::kTurned && machine.roller_rate == 0.0)
-    reject("machine.roller_rate", machine.roller_rate, "other than 0 where rollers are turned");
   const bool held = machine.far_side == FarSide::kHeld;
   has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
              "for knot: " + loops() + ", with grips: rollers");
-  const bool follows = machine.after_break == AfterBreak::kFollow;
-  has_effect(can_part(m.material), "machine.after_break", std::string(follows ? "follow" : "stop"), std::string("stop"),
-             "with material.breaking_force");
 
   check_rolling(m, m.material, "material.");
   check_section(m, m.material, "material.");
@@ -204,7 +191,6 @@ void check_specimen(const Method& m) {
     reject("material.breaking_force", *breaking,
            "more than specimen.preload, " + format_number(*s.preload) + " N, the force that ties the knots");
   }
-  check_ends(s);
 }
 
 /// What takes part in a rod's twist needs a rod that has it. Friction at the surface, for one, turns strands about
@@ -221,9 +207,8 @@ void check_twist(const Method& m) {
   need(has_step<TwistStep>(m.program), "a step of the program twists the rod", "no twist step");
   need(knotted && friction_rolls(m.material, m.machine, m.physics), "friction at the surface twists the rod",
        "physics.friction.at: centreline");
-  need(m.specimen.natural_curvature != 0.0 || m.specimen.pre_twist != 0.0,
-       "a rod that is curved or twisted at rest takes part in its twist",
-       "specimen.natural_curvature: 0 and specimen.pre_twist: 0");
+  need(m.specimen.natural_curvature != 0.0, "a rod that is curved at rest takes part in its twist",
+       "specimen.natural_curvature: 0");
   need(bends_on_frames(m.material), "a rod of this material.bending_law bends on frames, which take part in its twist",
        "material.bending_law: elastic");
   if (!needs.empty())
@@ -235,8 +220,7 @@ void check_bending(const Method& m) {
   remembers_bends(m.material);  // throws where its law misses a value
 }
 
-/// A natural curvature stays only where the bending law does not change it, and grips that let the rod turn would let a
-/// pre-twist out at once.
+/// A natural curvature stays only where the bending law does not change it.
 void check_rest_shape(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   const bool curved = s.natural_curvature != 0.0;
@@ -250,19 +234,6 @@ void check_rest_shape(const Method& m) {
     const std::string most = most_text(1.0 / h);
     reject("specimen.natural_curvature", s.natural_curvature,
            "more than -" + most + " and less than " + most + " 1/m, one over the radius");
-  }
-  has_effect(curved, "specimen.natural_towards", std::string(kAxisNames[static_cast<std::size_t>(s.natural_towards)]),
-             std::string(kAxisNames[0]), "with specimen.natural_curvature");
-  if (s.pre_twist == 0.0) return;
-  if (m.machine.grips != GripKind::kClamps)
-    throw InvalidInput::sentence("machine.grips", "nodes",
-                                 "specimen.pre_twist is " + format_number(s.pre_twist) +
-                                     ", but machine.grips is nodes: only clamps hold a twist");
-  constexpr double kMostTurns = 0.125;  // from an edge to the next
-  if (std::abs(s.pre_twist) * s.edge_length > kMostTurns) {
-    const std::string most = most_text(kMostTurns / s.edge_length);
-    reject("specimen.pre_twist", s.pre_twist,
-           "-" + most + " to " + most + " turns/m, an eighth of a turn in specimen.edge_length");
   }
 }
 
@@ -318,12 +289,6 @@ bool pulls_anything(const Method& m) {
   return std::any_of(m.program.begin(), m.program.end(), [](const ProgramStep& step) { return pulls(step->phase()); });
 }
 
-void check_analysis(const Method& m) {
-  const bool has = m.specimen.to_be_tied && pulls_anything(m) && !m.material.other;
-  has_effect(has, "analysis.margin", std::string(m.analysis.margin ? "true" : "false"), std::string("false"),
-             "with a program that ties the knots and pulls them, and ropes of one material");
-}
-
 }  // namespace
 
 void check_method(const Method& method) {
@@ -336,7 +301,6 @@ void check_method(const Method& method) {
   check_ends(method);
   check_effects(method);
   check_rest_shape(method);
-  check_analysis(method);
   check_scatter(method);
   if (method.specimen.to_be_tied && pulls_anything(method)) check_tying(method.specimen, method.material);
 }

@@ -36,10 +36,6 @@ void chosen_law(Fields& f, const char* name, LawOptions<Number>& o) {
   law_keys<Registry>(f, o);
 }
 
-inline void compatibility(Fields& top, std::optional<double>& release) {
-  top.optional_number("compatibility", release, Range{1.0, 1.0, "-"}, "none");
-}
-
 /// One that a file describes goes by the name of its drawing, which has been read.
 inline void knot(Fields& f, SpecimenOptions& o) { f.choice("knot", o.knot, knot_names(o.drawing.get())); }
 
@@ -48,7 +44,6 @@ inline void specimen(Fields& f, SpecimenOptions& o) {
   f.choice("handedness", o.handedness, std::array{"same", "opposite"});
   f.integer("turns", o.turns, 1, 4);
   f.file("file", o.file);
-  f.flag("closed", o.closed);
   f.scaled_number("knot_distance", o.knot_distance, Range{1e-4, 5.0, "m"});
   f.scaled_number("end_to_end", o.end_to_end, Range{1e-4, 20.0, "m"});
   f.scaled_number("length", o.length, Range{1e-4, 50.0, "m"});
@@ -58,8 +53,6 @@ inline void specimen(Fields& f, SpecimenOptions& o) {
   f.scaled_number("post_diameter", o.post_diameter, Range{1e-5, 5.0, "m"});
   f.optional_number("tail_load", o.tail_load, Range{1e-9, 1e8, "N"}, "auto");
   f.number("natural_curvature", o.natural_curvature, Range{-1e4, 1e4, "1/m"});
-  f.choice("natural_towards", o.natural_towards, kAxisNames);
-  f.number("pre_twist", o.pre_twist, Range{-1e4, 1e4, "turns/m"});
   f.scaled_number("edge_length", o.edge_length, Range{1e-6, 0.1, "m"});
   f.optional_number("refinement", o.refinement, Range{1.0, 8.0, "-"}, "auto");
 }
@@ -99,7 +92,6 @@ inline void load_cell(Fields& f, LoadCellOptions& o) {
   f.number("floor", o.floor, Range{0.0, 1.0, "of capacity"});
   f.number("resolution", o.resolution, Range{0.0, 1e5, "N"});
   f.number("noise", o.noise, Range{0.0, 1e5, "N"});
-  f.number("drift", o.drift, Range{-1e3, 1e3, "N/s"});
   f.number("overload", o.overload, Range{1.0, kInfinity, "of capacity"});
   f.integer("seed", o.seed, 0u, std::numeric_limits<unsigned>::max());
   f.integer("noise_run", o.noise_run, 0u, std::numeric_limits<unsigned>::max());
@@ -107,7 +99,7 @@ inline void load_cell(Fields& f, LoadCellOptions& o) {
 }
 
 /// The names of RollerRotation, in its order.
-inline constexpr std::array kRotations{"fixed", "free", "turned"};
+inline constexpr std::array kRotations{"fixed", "free"};
 
 /// All keys of `machine` except the load cell, which may also be a name.
 inline void machine(Fields& f, MachineOptions& o) {
@@ -115,9 +107,7 @@ inline void machine(Fields& f, MachineOptions& o) {
   f.scaled_number("roller_diameter", o.roller_diameter, Range{1e-5, 1.0, "m"});
   f.number("roller_friction", o.roller_friction, Range{0.0, 5.0, "-"});
   f.choice("roller_rotation", o.roller_rotation, kRotations);
-  f.number("roller_rate", o.roller_rate, Range{-100.0, 100.0, "rad/s"});
   f.choice("far_side", o.far_side, std::array{"held", "free"});
-  f.choice("after_break", o.after_break, std::array{"stop", "follow"});
   f.number("stiffness", o.stiffness, Range{1.0, kInfinity, "N/m"});
   f.scaled_number("travel", o.travel, Range{1e-3, 100.0, "m"});
 }
@@ -137,7 +127,8 @@ inline void physics(Fields& f, PhysicsOptions& o) {
     friction.number_or_word("pair", o.pair_friction, Range{0.0, 5.0, "-"}, o.pair_rule, std::array{"smaller", "mean"});
   });
   f.section("contact", [&o](Fields& contact) {
-    contact.choice("law", o.contact_law, std::array{"smooth", "edge"});
+    enum class Law { kSmooth } only = Law::kSmooth;
+    contact.choice("law", only, std::array{"smooth"});
     contact.optional_number("tolerance", o.contact_tolerance, Range{1e-3, 0.5, "of the radius"}, "auto");
   });
   f.choice("twist", o.twist, std::array{"auto", "on", "off"});
@@ -150,7 +141,6 @@ inline void physics(Fields& f, PhysicsOptions& o) {
 
 /// The keys that stand before the program, and those of the physics of the test behind it.
 inline void before_program(Fields& top, Method& m) {
-  compatibility(top, m.compatibility);
   top.section("specimen", [&](Fields& f) { specimen(f, m.specimen); });
   top.section("material", [&](Fields& f) { material(f, m.material); });
   if (m.material.other || top.lists_all()) {
@@ -167,8 +157,6 @@ inline void behind_program(Fields& top, Method& m) {
   top.section("ends", [&](Fields& f) { ends(f, m.ends); });
   top.section("physics", [&](Fields& f) { physics(f, m.physics); });
 }
-
-inline void analysis(Fields& f, AnalysisOptions& o) { f.flag("margin", o.margin); }
 
 /// The texts in the head of a report, and its units.
 inline void report(Fields& f, ReportOptions& o) {

@@ -1,6 +1,7 @@
 #include "knot_utm/method/method_keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "knot_utm/record/program.hpp"
@@ -104,8 +105,6 @@ constexpr Label kLabels[] = {
     {"specimen.preload", "Pre-load F_p"},
     {"specimen.wrap", "Angle around the post"},
     {"specimen.natural_curvature", "Natural curvature"},
-    {"specimen.natural_towards", "Side towards which it curves"},
-    {"specimen.pre_twist", "Twist before the test"},
     {"specimen.edge_length", "Edge length of the mesh"},
     {"specimen.refinement", "Refinement within the knots"},
     {"material.rolling_resistance", "Resistance of contacts to rolling"},
@@ -119,13 +118,8 @@ constexpr Label kLabels[] = {
     {"material.breaking.law", "What parts the rod"},
     {"material.breaking.bending_share", "Share of its bend that a fibre bears"},
     {"material.breaking.crushing_share", "Strength lost by being pressed flat"},
-    {"material.breaking.weibull_modulus", "Weibull modulus of the strength"},
-    {"material.breaking.tested_length", "Length whose mean strength is known"},
-    {"material.breaking.weaker_share", "Share of specimens that are weaker"},
     {"machine.roller_rotation", "Rollers"},
-    {"machine.roller_rate", "Rate of the rollers"},
     {"machine.far_side", "Far side of the loop"},
-    {"machine.after_break", "After the break"},
     {"machine.stiffness", "Frame stiffness"},
     {"machine.load_cell.capacity", "Capacity of the cell"},
     {"machine.load_cell.sampling_rate", "Readings of the cell"},
@@ -133,7 +127,6 @@ constexpr Label kLabels[] = {
     {"machine.load_cell.floor", "Floor of the cell"},
     {"machine.load_cell.resolution", "Resolution of the cell"},
     {"machine.load_cell.noise", "Noise of the cell, standard deviation"},
-    {"machine.load_cell.drift", "Drift of the cell"},
     {"machine.load_cell.overload", "Stop of the cell"},
     {"ends.break_at_fraction_of_peak", "Break at no more than"},
     {"physics.friction.at", "Friction acts at the"},
@@ -141,6 +134,10 @@ constexpr Label kLabels[] = {
     {"physics.inertia", "Mass that is accelerated"},
     {"physics.max_step", "Longest step"},
 };
+
+/// The experimental keys, by their last part.
+constexpr std::array kExperimental{"natural_curvature", "hardening", "roller_rotation", "overload", "noise_run",
+                                   "load_rate", "break_at_fraction_of_peak"};
 
 /// Whether a key belongs to an entry of a list, or to a step that goes by its number.
 bool is_numbered(const std::string& key) {
@@ -160,6 +157,11 @@ std::string words_of(const std::string& key) {
 }
 
 }  // namespace
+
+bool is_experimental(const std::string& key) {
+  const std::string last = key.substr(key.rfind('.') + 1);
+  return std::find(kExperimental.begin(), kExperimental.end(), last) != kExperimental.end();
+}
 
 std::vector<KeyUnit> key_units(const Method& method) {
   std::vector<KeyUnit> found;
@@ -203,8 +205,9 @@ std::vector<MethodKey> method_keys() {
 }
 
 std::string method_keys_csv() {
-  std::string all = "key,label,unit\n";
-  for (const MethodKey& one : method_keys()) all += one.key + ",\"" + one.label + "\"," + one.unit + "\n";
+  std::string all = "key,label,unit,experimental\n";
+  for (const MethodKey& one : method_keys())
+    all += one.key + ",\"" + one.label + "\"," + one.unit + (is_experimental(one.key) ? ",yes\n" : ",\n");
   return all;
 }
 

@@ -79,7 +79,7 @@ void expand(YAML::Node root, const Override& set, const ConfigLibrary& library) 
   const std::string& key = set.path[0];
   if (set.path.size() >= 2 && (key == "material" || key == "other_material") && !material_name(root, key).empty()) {
     const fs::path file = library.find("materials", material_name(root, key), key);
-    root[key] = named_map(read_material_file(file, root), file);
+    root[key] = named_map(read_yaml(file), file);
   }
   if (set.path.size() >= 3 && set.path[0] == "machine" && set.path[1] == "load_cell") {
     const YAML::Node machine = root["machine"];

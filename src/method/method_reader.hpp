@@ -21,17 +21,6 @@
 #include "knot_utm/specimen/material.hpp"
 #include "method_fields.hpp"
 
-namespace knot_utm {
-
-/// A number of a method that lies outside the range of its key.
-struct OutOfRange : InvalidInput {
-  OutOfRange(const InvalidInput& sentence, double min_, double max_) : InvalidInput(sentence), min(min_), max(max_) {}
-
-  double min, max;  ///< the ends of the range, both of which are allowed
-};
-
-}  // namespace knot_utm
-
 namespace knot_utm::fields {
 
 /// A method may give a load of its program in terms that suit every material, instead of a number of newtons: "50 %" of
@@ -286,7 +275,7 @@ class Reader : public Fields {
     if (!node.IsDefined()) return;
     const std::optional<double> number = number_in(node);
     if (!number || !(*number >= min && *number <= max) || *number != std::floor(*number))
-      fail_range(key, node, "a whole number from " + whole_text(min) + " to " + whole_text(max), min, max);
+      fail(key, node, "a whole number from " + whole_text(min) + " to " + whole_text(max));
     value = *number;
   }
 
@@ -296,11 +285,6 @@ class Reader : public Fields {
     const auto found = std::find(names.begin(), names.end(), node.IsScalar() ? node.Scalar() : "");
     if (found == names.end()) fail_name(key, node, names);
     index = static_cast<std::size_t>(found - names.begin());
-  }
-
-  [[noreturn]] void fail_range(const char* key, const YAML::Node& value, const std::string& allowed, double min,
-                               double max) const {
-    throw OutOfRange({file_, path_of(key), as_given(value), allowed}, min, max);
   }
 
   static bool is_auto(const YAML::Node& node) { return node.IsScalar() && node.Scalar() == "auto"; }
@@ -341,8 +325,7 @@ class Reader : public Fields {
     if (!number) fail(key, node, number_text(range) + or_word);
     // Written so that not-a-number fails.
     const bool between = range.only_ends && *number != range.min && *number != range.max;
-    if (between || !(*number >= range.min && *number <= range.max))
-      fail_range(key, node, range_text(range) + or_word, range.min, range.max);
+    if (between || !(*number >= range.min && *number <= range.max)) fail(key, node, range_text(range) + or_word);
     return *number;
   }
 

@@ -41,7 +41,6 @@ std::string method_yaml(const Method& method) {
     root["program"].push_back(entry_map);
   }
   fields::behind_program(top, m);
-  top.section("analysis", [&](Fields& f) { fields::analysis(f, m.analysis); });
   top.section("report", [&](Fields& f) { fields::report(f, m.report); });
   for (Requirement& required : m.specification) {
     Writer limits;

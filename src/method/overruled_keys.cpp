@@ -86,8 +86,6 @@ std::optional<NeedsRound> needs_round(const Material& material, const PhysicsOpt
   if (friction_couple(material, physics) == 0.0)
     return NeedsRound{"where " + section + "friction_couple is 0 or friction.at is centreline",
                       {section + "friction_couple", "physics.friction.at"}};
-  if (physics.contact_law == ContactLaw::kEdge)
-    return NeedsRound{"with physics.contact.law: edge", {"physics.contact.law"}};
   return std::nullopt;
 }
 
@@ -118,7 +116,7 @@ void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>
   if (friction_rolls(material, method.machine, method.physics)) return;
   const auto drop_rolling = [&](const std::string& section, Material& of) {
     const GivenBy rolls = std::max({by(section + "friction_couple"), by(section + "friction_coefficient"),
-                                    by("physics.friction.at"), by("machine.roller_friction"), by("compatibility")});
+                                    by("physics.friction.at"), by("machine.roller_friction")});
     for (const auto& [name, value] : {std::pair{"rolling_resistance", &of.rolling_resistance},
                                       std::pair{"rolling_hysteresis", &of.rolling_hysteresis}}) {
       const std::string key = section + name;

@@ -31,7 +31,6 @@ constexpr std::array<Law, 3> kLaws{{{ScatterLaw::kNormal, "normal", {1e-6, 0.3, 
 // As specimens that a person ties differ: chosen, as in bench/specimens.py. The distance of the knots and how loose an
 // overhand is are set against a ruler, the tails by eye, the speed by hand, the pre-load by a machine.
 constexpr double kByRuler = 0.01, kByEye = 0.05, kByHand = 0.1, kByMachine = 0.02;
-constexpr double kAllOfThem = 0.999;  // shares of weaker specimens from 0.0005 to 0.9995
 
 Scatter read_scatter(const std::string& key, const YAML::Node& node, const std::string& file) {
   const std::string path = "specimens.scatter." + key;
@@ -97,12 +96,6 @@ std::vector<Scatter> default_scatter(const Method& method) {
     if (preload_acts(method.specimen)) add("specimen.preload", kByMachine);
     add("program.tie.speed", kByHand);
   }
-  const auto add_strength = [&](const Material& material, const std::string& section) {
-    if (parts_by_bending(material) && std::isfinite(material.breaking.number(FibreBreaking::kWeibullModulus)))
-      out.push_back({section + ".breaking.weaker_share", ScatterLaw::kUniform, kAllOfThem});
-  };
-  add_strength(method.material, "material");
-  if (method.material.other) add_strength(*method.material.other, "other_material");
   return out;
 }
 

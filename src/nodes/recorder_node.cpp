@@ -8,8 +8,7 @@
 namespace {
 
 constexpr char kHelp[] = R"(Writes what a test measures: curve, result and bag.
-It is a part of: roslaunch knot_utm tighten.launch. It reads the test from the parameters test/..., which the launch
-file sets (doc/ros.md).
+It is a part of: roslaunch knot_utm tighten.launch. What is tested, and where it goes, utm_node says (doc/ros.md).
 )";
 
 }  // namespace
@@ -19,6 +18,6 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   return knot_utm::run_node(argc, argv, "recorder_node", kHelp, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "recorder_node");
-    return knot_utm::RecorderNode(node, knot_utm::read_test_setup(node).out).spin();
+    return knot_utm::RecorderNode(node).spin();
   });
 }

@@ -1,6 +1,10 @@
 // The machine: runs the test program against the physics of knot_node.
 #include "knot_utm/ros/utm_node.hpp"
 
+#include <cstdio>
+#include <map>
+
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 
@@ -14,12 +18,34 @@ file sets (doc/ros.md).
   _autostart:=FLAG            starts the test when knot_node is there; false: utm/start_test starts it [true]
   _record:=FLAG               waits for recorder_node [false]
   _exit_at_end:=FLAG          ends when the test has ended, and the launch with it [false]
-  _check:=FLAG                checks its parameters, and no more [false]
 )";
+
+constexpr int kInvalidInput = 2;
+
+/// For launch/check, before there is a master: utm_node --check NAME:=VALUE..., with arguments of the launch file.
+int check(int argc, char** argv) {
+  std::map<std::string, std::string> given;
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::size_t end = word.find(":=");
+    if (end != std::string::npos) given[word.substr(0, end)] = word.substr(end + 2);
+  }
+  try {
+    const std::string factor = given["real_time_factor"];
+    if (!(knot_utm::parse_number(factor).value_or(-1.0) >= 0.0))
+      throw knot_utm::InvalidInput("real_time_factor", factor, "0 (as fast as possible) or more");
+    knot_utm::set_up(knot_utm::read_words([&](const std::string& name) { return given[name]; }));
+  } catch (const knot_utm::InvalidInput& invalid) {
+    std::fprintf(stderr, "utm_node: %s\n", invalid.what());
+    return kInvalidInput;
+  }
+  return 0;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && argv[1] == std::string("--check")) return check(argc, argv);
   std::string verdict;
   const int code = knot_utm::run_node(argc, argv, "utm_node", kHelp, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "utm_node");
@@ -32,16 +58,11 @@ int main(int argc, char** argv) {
     knot_utm::read_parameter(own, "autostart", &options.autostart, "true or false");
     knot_utm::read_parameter(own, "record", &options.record, "true or false");
     knot_utm::read_parameter(own, "exit_at_end", &options.exit_at_end, "true or false");
-    bool check = false;
-    knot_utm::read_parameter(own, "check", &check, "true or false");
-    if (!(options.real_time_factor >= 0.0)) {
+    if (!(options.real_time_factor >= 0.0))
       throw knot_utm::InvalidInput("real_time_factor", std::to_string(options.real_time_factor),
                                    "0 (as fast as possible) or more");
-    }
-    knot_utm::UtmNode machine(node, knot_utm::read_test_setup(node), options);
-    return check ? 0 : machine.spin();
+    return knot_utm::UtmNode(node, knot_utm::read_test_setup(node), options).spin();
   });
-  constexpr int kInvalidInput = 2;
   if (code == kInvalidInput) knot_utm::write_verdict(verdict, code, "");
   return code;
 }

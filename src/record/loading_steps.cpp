@@ -179,17 +179,10 @@ EndedBy TwistStep::ended(const Sample& now, CrossheadCourse& course) {
 
 double TwistStep::usual_duration(const CrossheadCourse&) const { return std::abs(turns) / rate; }
 
-void FollowStep::keys(fields::Fields& f, double) {
-  f.file("record", record);
-  f.text("columns", words.columns);
-  f.text("units", words.units);
-  f.text("specimen", words.specimen);
-  f.text("invert", words.invert);
-}
+void FollowStep::keys(fields::Fields& f, double) { f.file("record", record); }
 
 void FollowStep::check(const StepPlace& place) const {
-  if (record.empty())
-    throw InvalidInput::missing(place.key() + ".record", "a curve.csv, or raw data of a testing machine");
+  if (record.empty()) throw InvalidInput::missing(place.key() + ".record", "a curve.csv, or the folder of a run");
 }
 
 void FollowStep::steer(const Sample& now, CrossheadCourse& course) {

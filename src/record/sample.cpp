@@ -1,10 +1,23 @@
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 
 namespace knot_utm {
+namespace {
+
+template <typename Value>
+constexpr const char* message_type() {
+  if constexpr (std::is_same_v<Value, Phase> || std::is_same_v<Value, std::string>) return "string";
+  if constexpr (std::is_enum_v<Value>) return "uint8";
+  if constexpr (std::is_same_v<Value, std::uint64_t>) return "uint64";
+  if constexpr (std::is_same_v<Value, int>) return "int32";
+  return std::is_same_v<Value, PerKnot> ? "float64[]" : "float64";
+}
+
+}  // namespace
 
 PerKnot::PerKnot(std::initializer_list<double> values) : PerKnot(of(values)) {}
 
@@ -39,6 +52,15 @@ void Sample::state(Archive& archive) {
       archive(value);
     }
   });
+}
+
+std::string sample_fields_csv() {
+  std::string all = "field,type,unit,meaning\n";
+  visit_sample_fields([&](const auto& field) {
+    const char* const type = message_type<ValueOf<std::decay_t<decltype(field)>>>();
+    all += std::string(field.name) + ',' + type + ',' + field.unit + ",\"" + field.meaning + "\"\n";
+  });
+  return all;
 }
 
 }  // namespace knot_utm

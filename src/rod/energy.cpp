@@ -47,7 +47,6 @@ InnerNode inner_node(const RodProperties& rod, const RodState& state, Eigen::Ind
   if (state.curved_at_rest()) node.bending.natural_curvature = state.natural_curvature.col(i - 1);
   node.twisting.k_t = left.twisting * rod.material_at(i).twisting_stiffness;
   node.twisting.voronoi_length = rod.voronoi_length[i];
-  if (rod.natural_twist.size() > 0) node.twisting.natural_twist = rod.natural_twist[i - 1];
   return node;
 }
 

@@ -20,12 +20,6 @@ void require_size(const char* key, Eigen::Index size, Eigen::Index expected) {
 
 constexpr double kLengthOfCut = 10.0;  // more than least_loop [h]
 
-void archive_laws(Archive& archive, std::shared_ptr<const RodLaws>& laws) {
-  RodLaws own = archive.loads() ? RodLaws() : *laws;
-  archive(own);
-  if (archive.loads()) laws = std::make_shared<const RodLaws>(own);
-}
-
 }  // namespace
 
 RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length, const std::vector<int>& cuts) {
@@ -93,35 +87,6 @@ double RodProperties::place(Eigen::Index edge, double fraction) const {
   return place(rest_length.head(edge).sum() + fraction * rest_length[edge]);
 }
 
-void RodMaterial::state(Archive& archive) {
-  archive(radius, density, stretching_stiffness, bending_stiffness, twisting_stiffness);
-}
-
-void RodProperties::state(Archive& archive) {
-  archive.section("PRO5");  // "PRO4" had no cuts, "PRO3" a twisting law, "PRO2" all of the material
-  archive(material);
-  for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass, &natural_twist}) archive.list(*each);
-  archive.list(cuts);
-  const Eigen::Index inner = nodes() - 2, twisted = natural_twist.size();
-  const bool fits = inner >= 1 && edges() == inner + 1 && mass.size() == nodes() && (twisted == 0 || twisted == inner);
-  archive.require(fits, "nodes", std::to_string(nodes()));
-  archive.require(std::all_of(cuts.begin(), cuts.end(), [&](int cut) { return cut >= 0 && cut < edges(); }), "cuts",
-                  "edges of no rod");
-  const auto positive = [](const Eigen::VectorXd& values) { return values.allFinite() && values.minCoeff() > 0.0; };
-  const bool solid = positive(rest_length) && positive(voronoi_length) && positive(mass) && std::isfinite(length()) &&
-                     material.radius > 0.0 && std::isfinite(material.radius);
-  archive.require(solid, "rod", "one without a length, a radius or a mass");
-  archive_laws(archive, laws);
-  const bool soft = archive.optional_section("SOFT", material.is_soft());
-  material.section = soft ? CrossSection::kSoft : CrossSection::kRound;
-  if (!archive.optional_section("OTHR", other_material.has_value())) return other_material.reset();
-  if (archive.loads()) other_material.emplace();
-  archive(*other_material);
-  archive_laws(archive, other_laws);
-  const bool another = !cuts.empty() && other_material->radius > 0.0 && std::isfinite(other_material->radius);
-  archive.require(another && of_one_kind(*laws, *other_laws), "other material", "of no rope of this rod");
-}
-
 void remember_bends(const RodProperties& rod, RodState* state) {
   const Eigen::Index inner = rod.nodes() - 2;
   state->natural_curvature.setZero(2, inner);
@@ -136,13 +101,12 @@ void require_fits(const RodProperties& rod, const RodState& state) {
   else if (bends_on_frames(rod.laws->bending))
     throw InvalidInput("rod", "one without a memory of bends", "made with natural curvatures, be they zero");
   require_size("state.bending_own", state.bending_own.size(), own_numbers(rod.laws->bending) * inner);
-  if (rod.natural_twist.size() > 0) require_size("rod.natural_twist", rod.natural_twist.size(), inner);
   if (state.twist.size() > 0) {
     require_size("state.twist", state.twist.size(), rod.edges());
     require_size("state.reference_director", state.reference_director.cols(), rod.edges());
     require_size("state.reference_twist", state.reference_twist.size(), inner);
-  } else if (state.curved_at_rest() || rod.natural_twist.size() > 0) {
-    throw InvalidInput("state.twist", "empty", "given for a rod with natural curvature or twist");
+  } else if (state.curved_at_rest()) {
+    throw InvalidInput("state.twist", "empty", "given for a rod with natural curvature");
   }
 }
 

@@ -52,7 +52,7 @@ StencilMatrix twist_curvatures(const TwistCorner& at) {
 double stiffness(const TwistingInput& input) { return input.k_t / input.voronoi_length; }
 
 /// dE/dm [N m]
-double moment(const TwistingInput& input, double twist) { return stiffness(input) * (twist - input.natural_twist); }
+double moment(const TwistingInput& input, double twist) { return stiffness(input) * twist; }
 
 }  // namespace
 

@@ -1,14 +1,17 @@
 #include "knot_utm/ros/curve_bag.hpp"
 
 #include <ros/exception.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
-#include "bag_topics.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
@@ -17,12 +20,53 @@
 namespace knot_utm {
 namespace {
 
-/// Calls `take` with every message of a topic.
+/// The error for a file that rosbag cannot open.
+InvalidInput no_bag(const std::string& file, const std::string& why) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return InvalidInput::cannot_read(file);
+  return InvalidInput::sentence("bag", file, "the file is no bag that can be read: " + shown(why)).in_file(file);
+}
+
+/// The name in the bag of one of the package's topics, in whatever namespace. Empty where the bag does not have it.
+std::string topic_named(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
+  const std::string end = "/" + name;
+  std::string found;
+  rosbag::View all(bag);
+  for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
+    const std::string& topic = connection->topic;
+    const bool ends = topic.size() >= end.size() && topic.compare(topic.size() - end.size(), end.size(), end) == 0;
+    if (!ends || topic == found) continue;
+    if (!found.empty())
+      throw InvalidInput::sentence(
+          "topic " + name, topic,
+          "the bag has two topics " + name + ", " + shown(found) + " and " + shown(topic) + ", but must have one")
+          .in_file(file);
+    found = topic;
+  }
+  return found;
+}
+
+std::string required_topic(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
+  std::string topic = topic_named(bag, file, name);
+  if (topic.empty())
+    throw InvalidInput::sentence("topic " + name, "none",
+                                 "the bag has no topic " + name + ", so it is not that of a test")
+        .in_file(file);
+  return topic;
+}
+
+/// Calls `take` with every message of a topic. Throws InvalidInput where one is of another type, or of another version
+/// of this type.
 template <typename Message, typename Take>
 void for_each(const rosbag::Bag& bag, const std::string& file, const std::string& topic, Take take) {
   if (topic.empty()) return;
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
-    take(*message_of<Message>(instance, file));
+    const boost::shared_ptr<Message> message = instance.instantiate<Message>();
+    if (!message)
+      throw InvalidInput(
+          file, "the type of topic " + topic, instance.getDataType() + " " + instance.getMD5Sum(),
+          std::string(ros::message_traits::datatype<Message>()) + " " + ros::message_traits::md5sum<Message>());
+    take(*message);
   }
 }
 

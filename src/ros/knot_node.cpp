@@ -7,12 +7,12 @@
 
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/tied_loop.hpp"
+#include "knot_utm/ros/ask_master.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
-#include "knot_utm/ros/master_parameters.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/urdf.hpp"
-#include "knot_utm/study/specimens.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
 
 namespace knot_utm {
@@ -30,7 +30,6 @@ TestingMachine make_bench(const Method& method) {
 
 KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
     : node_(node),
-      order_(order_of(method, "", {})),
       method_(method),
       machine_(make_bench(method)),
       motion_(rollers_hold(method.specimen, method.machine)),
@@ -53,11 +52,9 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
   begin_specimen();
 }
 
-void KnotNode::put_in(const TestOrder& order) {
-  const Method method = method_of_specimen(method_of(order), order.place.number);
+void KnotNode::put_in(const Method& method) {
   machine_ = make_bench(method);
   method_ = method;
-  order_ = order;
   diagnostics_.setHardwareID(method_.material.name);
   begin_specimen();
 }
@@ -71,8 +68,8 @@ void KnotNode::begin_specimen() {
                                  hung_weight(method_.specimen, method_.material),
                                  marks_of(method_.specimen, method_.program));
   show_.begin(method_, machine_.lower_grip(), machine_.state().position, machine_.rod().cuts);
-  set_on_master(node_.resolveName(names::kRobotDescription),
-                machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip()));
+  const std::string urdf = machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip());
+  ask_master("setParam", {XmlRpc::XmlRpcValue(node_.resolveName(names::kRobotDescription)), XmlRpc::XmlRpcValue(urdf)});
 
   SpecimenInfo info;
   info.header.stamp = stamp_;
@@ -92,8 +89,8 @@ void KnotNode::on_command(const Crosshead::ConstPtr& command) {
   if (message.run != run_) {
     if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
     try {
-      const TestOrder order = given_order(node_);
-      if (next_ != 0 || !order.same_specimen(order_)) put_in(order);
+      const Method method = method_of(given_order(node_));
+      if (next_ != 0 || method_yaml(method) != method_yaml(method_)) put_in(method);
     } catch (const InvalidInput& invalid) {
       return refuse(message, invalid.what());
     }
@@ -172,19 +169,14 @@ void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
 }
 
 bool KnotNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  put_in(order_);
+  put_in(method_);
   response.success = 1;
   response.message = "a new specimen";
   return true;
 }
 
 Moment KnotNode::moment() const {
-  return {stamp_,
-          machine_.state().position,
-          machine_.tension(),
-          machine_.upper_grip(),
-          sample_,
-          motion_pattern_name(motion_.pattern())};
+  return {stamp_, machine_.state().position, machine_.tension(), machine_.upper_grip(), sample_};
 }
 
 void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

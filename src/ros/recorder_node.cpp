@@ -7,10 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "knot_utm/ros/ask_master.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/knot_node.hpp"
-#include "knot_utm/ros/master_parameters.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/run_bag.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_folder.hpp"
@@ -38,8 +39,7 @@ EndedBy ended_by_from_name(const std::string& name) { return ended_by_named(name
 RecorderNode::Run::Run(ClaimedFolder claimed_, const Method& method_)
     : claimed(std::move(claimed_)), folder(claimed.path()), method(method_) {}
 
-RecorderNode::RecorderNode(const ros::NodeHandle& node, const std::string& out) : node_(node), diagnostics_(node) {
-  order_.out = out;
+RecorderNode::RecorderNode(const ros::NodeHandle& node) : node_(node), diagnostics_(node) {
   const ros::SubscriberStatusCallback come = [this](const ros::SingleSubscriberPublisher& s) { on_come(s); };
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, come, gone, ros::VoidConstPtr(), true);
@@ -94,92 +94,15 @@ void RecorderNode::begin_run(const Crosshead& first) {
     finish(EndedBy::kOperator, "another test was started", "");
   }
   run_.reset();
-  const std::uint32_t run = first.run;
-  run_number_ = run;
-  order_ = given_order(node_);
-  test_id_ = id_of_test(run);
-  std::string recorded;
-  node_.getParam(names::kRecordedTest, recorded);
-  completed_before_ = !test_id_.empty() && recorded == test_id_;
-  completed_folder_ = completed_before_ ? told_folder(names::kFolderOfTest, test_id_) : "";
-  begin_batch(id_of_test(run + 1 - static_cast<std::uint32_t>(order_.place.number)));
-  if (!order_.place.alone()) take_up_specimen();
-  if (completed_before_) return;
-  const Method method = batch_ ? batch_->method_of(order_.place.number) : method_of(order_);
-  const std::string before = told_folder(names::kFolderOfTest, test_id_);
-  if (!before.empty() && fs::exists(samples_file(before))) return go_on(before);
-  const std::string asked = batch_ ? batch_->folder_of(order_.place.number) : order_.out;
-  if (batch_ && before.empty() && holds_run(asked))
-    throw std::runtime_error(asked + " holds another run, which is not written over");
-  // A folder that was named before is that of a recorder that died before it had recorded anything.
-  ClaimedFolder claimed = before.empty() ? claim(asked, method) : ClaimedFolder(before);
-  // Before anything is written, so that whoever follows finds it.
-  if (!test_id_.empty()) tell_master(names::kFolderOfTest, test_id_ + " " + claimed.path());
+  run_number_ = first.run;
+  const TestOrder order = given_order(node_);
+  const Method method = method_of(order);
+  require_no_record_in(order.out, method);
+  ClaimedFolder claimed = ClaimedFolder::first_free(order.out);
+  if (claimed.path() != order.out) ROS_WARN("%s", moved_notice(order.out, claimed.path()).c_str());
   begin_run_folder(claimed.path(), method);
   run_ = std::make_unique<Run>(std::move(claimed), method);
   run_->samples.emplace(run_->folder);
-}
-
-/// What a recorder that died has left to do of a specimen whose result is complete.
-void RecorderNode::take_up_specimen() {
-  completed_folder_ = specimen_folder(batch_folder_, order_.place.number);
-  if (!batch_) {
-    completed_before_ = true;  // the whole batch is
-  } else if (completed_before_ || has_complete_result(completed_folder_)) {
-    completed_before_ = conclude_specimen();  // it may have died before its tables were written
-  }
-}
-
-void RecorderNode::begin_batch(const std::string& id) {
-  if (!order_.place.alone() && batch_ && batch_id_ == id) return;
-  batch_.reset();
-  batch_id_ = id;
-  batch_folder_.clear();
-  if (order_.place.alone()) return;
-  const Method method = method_of(order_);
-  const std::string before = told_folder(names::kFolderOfBatch, id);
-  if (!before.empty()) {
-    batch_folder_ = before;
-    if (!is_complete_batch(before)) batch_.emplace(method, ClaimedFolder(before));
-    return;
-  }
-  ClaimedFolder claimed = claim(order_.out, method);
-  batch_folder_ = claimed.path();
-  begin_run_folder(batch_folder_, method);
-  batch_.emplace(method, std::move(claimed));
-  if (!id.empty()) tell_master(names::kFolderOfBatch, id + " " + batch_folder_);
-}
-
-std::string RecorderNode::id_of_test(std::uint32_t run) const {
-  std::string machine;
-  return node_.getParam(names::kTestId, machine) ? machine + "/" + std::to_string(run) : "";
-}
-
-ClaimedFolder RecorderNode::claim(const std::string& asked, const Method& method) {
-  require_no_record_in(asked, method);
-  ClaimedFolder claimed = ClaimedFolder::first_free(asked);
-  if (claimed.path() != asked) ROS_WARN("%s", moved_notice(asked, claimed.path()).c_str());
-  return claimed;
-}
-
-std::string RecorderNode::told_folder(const char* parameter, const std::string& id) const {
-  std::string told;
-  node_.getParam(parameter, told);
-  const std::string begin = id + " ";
-  return !id.empty() && told.rfind(begin, 0) == 0 ? told.substr(begin.size()) : "";
-}
-
-void RecorderNode::go_on(const std::string& folder) {
-  ClaimedFolder claimed(folder);
-  run_ = std::make_unique<Run>(std::move(claimed), load_method((fs::path(folder) / "method.yaml").string()));
-  SamplesReader reader(folder);
-  Record record;
-  while (reader.next(record)) keep(record);
-  run_->samples.emplace(folder, reader);
-  run_->dropped = run_->next - run_->recorded;
-  run_->begin -= std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(record.wall_time));
-  ROS_WARN("the recorder goes on with %s after %llu commands", folder.c_str(),
-           static_cast<unsigned long long>(run_->recorded));
 }
 
 void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
@@ -188,7 +111,7 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
     const Crosshead& command = record->command;
     if (command.run < run_number_) return;
     if (command.run > run_number_) begin_run(command);
-    if (is_complete()) return;
+    if (!run_ || run_->complete) return;
     Run& run = *run_;
     if (!record->shape.points.empty() && command.sequence >= run.shape_sequence) {
       run.shape = points_from_message(record->shape);
@@ -212,18 +135,10 @@ void RecorderNode::write(const KnotRecord& record) {
   Record kept = from_message(record);
   kept.wall_time = seconds_since(run_->begin);
   run_->samples->append(kept);
-  keep(kept);
   run_->stamp = record.command.header.stamp;
-}
-
-void RecorderNode::keep(const Record& record) {
-  run_->full_rows += record.steps.size();
-  if (cell_reading(record)) ++run_->rows;
-  if (record.shape.cols() > 0) {
-    run_->shape = record.shape;
-    run_->shape_sequence = record.command.sequence;
-  }
-  run_->failed = record.answer.status == BenchStatus::kFailed;
+  run_->full_rows += kept.steps.size();
+  if (cell_reading(kept)) ++run_->rows;
+  run_->failed = kept.answer.status == BenchStatus::kFailed;
   ++run_->recorded;
   run_->next = record.command.sequence + 1;
   run_->progress = waited_;
@@ -277,29 +192,19 @@ void RecorderNode::miss_the_end() {
 }
 
 void RecorderNode::finish_as_told(const std::string& warning) {
-  if (batch_ && test_.reason == kPhysicsDied) return interrupt(test_.reason);
   finish(ended_by_from_name(test_.ended_by), test_.reason, warning);
 }
 
 void RecorderNode::finish_early() {
   if (test_.state == TestStatus::ENDED && test_.run == run_number_) {
-    const bool all = run_->next > test_.sequence;
-    if (!all && batch_) return interrupt("the last records of the test never arrived");
-    if (!all) miss_the_end();
-    finish_as_told("");
-  } else if (!master_answers()) {
-    // Its launch then ends the nodes in any order: that of the machine may be gone before this one.
-    cut_off("the ROS master died before the test had ended");
-  } else if (machine_died_) {
-    cut_off("utm_node died before the test had ended");
-  } else {
-    cut_off("ROS was shut down before the test had ended");
+    if (run_->next <= test_.sequence) miss_the_end();
+    return finish_as_told("");
   }
-}
-
-void RecorderNode::cut_off(const std::string& why) {
-  if (batch_) return interrupt(why);
-  finish(EndedBy::kInterrupted, why, "");
+  // Of a master that died its launch ends the nodes in any order: that of the machine may be gone before this one.
+  const char* who = !ask_master("getPid") ? "the ROS master died"
+                    : machine_died_       ? "utm_node died"
+                                          : "ROS was shut down";
+  finish(EndedBy::kInterrupted, std::string(who) + " before the test had ended", "");
 }
 
 void RecorderNode::write_results(const TestEnd& end, const std::string& warning) {
@@ -327,47 +232,14 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
   Run& run = *run_;
   try {
     write_results({ended_by, reason}, warning);
-    // Whoever begins anew from here on has nothing left to do.
-    if (ros::ok() && !test_id_.empty()) tell_master(names::kRecordedTest, test_id_);
   } catch (const std::exception& error) {
     return fail(error.what());
   }
   if (run.dropped > 0)
     ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
   ROS_INFO("%zu readings were written to %s", run.rows, run.folder.c_str());
-  if (batch_ && !conclude_specimen()) return;
-  if (!batch_) point_latest_to(run.folder);
+  point_latest_to(run.folder);
   run.complete = true;
-}
-
-void RecorderNode::interrupt(const std::string& why) {
-  try {
-    // As an interrupted test without ROS: `tensile_test --resume` tests the specimen once more.
-    write_results({EndedBy::kNotYet, kInterrupted}, why);
-    run_->complete = true;
-    ROS_WARN("%s: %s is left to be tested again", why.c_str(), order_.place.text().c_str());
-  } catch (const std::exception& error) {
-    fail(error.what());
-  }
-}
-
-bool RecorderNode::conclude_specimen() {
-  try {
-    if (batch_->conclude(order_.place.number)) {
-      point_latest_to(batch_->folder());
-      ROS_INFO("the statistics of all %d specimens were written to %s", order_.place.count,
-               statistics_file(batch_->folder()).c_str());
-    }
-    return true;
-  } catch (const std::exception& error) {
-    error_ = error.what();  // what was measured is in the folder of the specimen
-    ROS_ERROR("%s", error_.c_str());
-    return false;
-  }
-}
-
-void RecorderNode::tell_master(const char* parameter, const std::string& text) const {
-  set_on_master(node_.resolveName(parameter), text);
 }
 
 void RecorderNode::fail(const std::string& why) {
@@ -400,7 +272,6 @@ void RecorderNode::publish_status() {
   RecorderStatus status;
   status.run = run_number_;
   status.error = error_;
-  status.directory = order_.out;
   status.complete = static_cast<std::uint8_t>(is_complete());
   if (run_) {
     status.header.stamp = run_->stamp;
@@ -412,8 +283,6 @@ void RecorderNode::publish_status() {
     status.bag_messages = run_->bag_messages;
     status.directory = run_->folder;
   }
-  if (!run_ && completed_before_) status.directory = completed_folder_;
-  status.batch = batch_folder_;
   published_ = status;
   published_at_ = Clock::now();
   status_.publish(status);

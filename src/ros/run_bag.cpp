@@ -5,12 +5,10 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
-#include <utility>
 
 #include "knot_utm/machine/tied_loop.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -19,7 +17,6 @@ namespace {
 constexpr std::uint32_t kRun = 1;
 
 constexpr char kTf[] = "tf";
-constexpr double kPanelMiddle = 0.75, kPanelHalfHeight = 0.9;  // of the distance of the grips at the beginning
 
 }  // namespace
 
@@ -31,9 +28,6 @@ RunBag::RunBag(const std::string& file, const Method& method, const Centreline& 
       grips_(method.specimen, method.machine, drawn, method.material),
       frames_(grips_.lower(), method.specimen.end_to_end),
       picture_(method.specimen, method.machine, method.material),
-      panel_((method.material.name.empty() ? "" : method.material.name + ", ") + knot_of(method.specimen).about().name,
-             grips_.lower() + kPanelMiddle * method.specimen.end_to_end * Vec3::UnitZ(),
-             kPanelHalfHeight * method.specimen.end_to_end),
       motion_(rollers_hold(method.specimen, method.machine), 0.0, marks_of(method.specimen, method.program)) {}
 
 void RunBag::add(const Record& record) {
@@ -67,7 +61,6 @@ void RunBag::add_reading(const Sample& reading, const ros::Time& answered) {
   const ros::Time stamp = parted ? test_stamp(0.0, reading.time) : answered;
   if (parted) bag_.write(names::kKnotState, stamp, to_message(reading, kRun, stamp));
   bag_.write(names::kLoadCell, stamp, to_wrench(reading, stamp));
-  panel_.add(reading, motion_.pattern() == MotionPattern::kSliding && !motion_.lock_extension());
 }
 
 void RunBag::begin(const ros::Time& stamp, const Points& shape) {
@@ -100,14 +93,8 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
     frames.transforms.insert(frames.transforms.end(), some.begin(), some.end());
   bag_.write(kTf, stamp, frames);
   const std::vector<ContactForce> none_recorded;
-  const std::string pattern = motion_.lock_extension() ? "locked" : motion_pattern_name(motion_.pattern());
-  const SceneView view{record.shape, record.tension, none_recorded, grips_.lower(), upper_grip, sample, pattern};
-  visualization_msgs::MarkerArray markers = picture_.draw_small(view, stamp);
-  for (visualization_msgs::Marker& marker : panel_.draw(sample, pattern, picture_.scale())) {
-    marker.header.stamp = stamp;
-    markers.markers.push_back(std::move(marker));
-  }
-  bag_.write(names::kMarkers, stamp, markers);
+  const SceneView view{record.shape, record.tension, none_recorded, grips_.lower(), upper_grip, sample};
+  bag_.write(names::kMarkers, stamp, picture_.draw_small(view, stamp));
 }
 
 }  // namespace knot_utm

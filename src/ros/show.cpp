@@ -76,9 +76,8 @@ void Show::show_latest() {
   if (viewers == 0 || !(is_old_ || somebody_is_new)) return;
   is_old_ = false;
   const std::vector<ContactForce> contacts = forces_();
-  const SceneView view{moment.points, moment.tension,       contacts, lower_grip_, moment.upper_grip,
-                       moment.sample, moment.motion_pattern};
-  markers_.publish(picture_->draw(view, moment.stamp));
+  markers_.publish(picture_->draw(
+      {moment.points, moment.tension, contacts, lower_grip_, moment.upper_grip, moment.sample}, moment.stamp));
 }
 
 /// The moving frames once for each stamp, because tf2 warns of repeated ones.

@@ -4,21 +4,20 @@
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/JointState.h>
 #include <std_msgs/String.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
+#include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/order_of_test.hpp"
+#include "knot_utm/run/claimed_folder.hpp"
+#include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/progress_line.hpp"
 #include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/study/batch.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "wall_time.hpp"
 
@@ -31,7 +30,7 @@ using std::chrono::steady_clock;
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
 constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
-constexpr double kLongestStart = 60.0;      // wall time after which a physics that nobody saw has died [s]
+constexpr double kGapBetweenTests = 1.0;    // on /clock [s]
 constexpr std::uint32_t kMachineQueue = 1000;
 
 steady_clock::duration to_duration(double seconds) {
@@ -49,7 +48,7 @@ const char* without_timer(const ros::NodeHandle& node) {
 
 UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options)
     : node_(node),
-      launched_(launched),
+      launched_(launched.words),
       options_(options),
       progress_(std::make_unique<ProgressLine>(stderr)),
       factor_(std::numeric_limits<double>::quiet_NaN()),
@@ -75,10 +74,7 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
   step_ = node_.advertiseService(names::kStep, &UtmNode::on_step, this);
   diagnostics_.add("machine", this, &UtmNode::diagnose);
   pace_.setCallback([this](MachineConfig& wanted, std::uint32_t) { set_pace(wanted); });
-  // No other machine of this computer's life has both.
-  node_.setParam(names::kTestId,
-                 std::to_string(getpid()) + "-" + std::to_string(steady_clock::now().time_since_epoch().count()));
-  publish_method(launched_.method);
+  publish_method(launched.method);
   publish_status();
 }
 
@@ -88,57 +84,85 @@ int UtmNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait_time()));
     if (options_.autostart && run_ == 0 && has_specimen_) {
-      const std::string why_not = start_if_possible({});
+      const std::string why_not = start({});
       if (!why_not.empty()) throw std::runtime_error(why_not);
     }
     if (may_advance()) advance();
     if (seconds_since(sent_) > options_.resend_period) resend();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock(true);
     if (seconds_since(status_published_) > kStatusPeriod && (active() || !all_is_recorded())) publish_status();
-    if (seconds_since(looked_) > kStatusPeriod) look_after_physics();
     if (seconds_since(diagnosed_) > kDiagnosticsPeriod) {
       diagnosed_ = steady_clock::now();
       diagnostics_.force_update();
     }
-    if (state_ == State::kEnded && all_is_recorded()) see_to_the_next();
-    const bool over = !active() && (run_ == 0 || all_is_recorded());
-    if (over && (physics_gone_ || (options_.exit_at_end && state_ == State::kEnded))) {
+    if (state_ != State::kEnded || !all_is_recorded()) continue;
+    finish_goal();
+    if (physics_died_ || options_.exit_at_end) {
       end_launch_of_test();
       break;
     }
   }
-  // ROS may be shut down by now.
-  if (!batch_directory_.empty() && !is_complete_batch(batch_directory_))
-    std::printf("not all specimens of the batch in %s were tested; test the others by: %s\n", batch_directory_.c_str(),
-                command_to_resume(batch_directory_).c_str());
-  std::fflush(stdout);
   return failed() ? 1 : 0;
 }
 
 void UtmNode::end_launch_of_test() {
   leaves_ = true;
-  write_verdict(options_.verdict, failed() ? 1 : 0, folder());
+  write_verdict(options_.verdict, failed() ? 1 : 0, folder_);
   ros::WallDuration(kGoodbye).sleep();
-  if (physics_died_ || physics_gone_) return end_launch();
+  if (physics_died_) return end_launch();
   end_launch_when_rviz_is_closed();
 }
 
-/// That of the recorder; before it has said one, the one that it will make.
-std::string UtmNode::folder() const {
-  if (!batch_directory_.empty()) return batch_directory_;
-  return directory_.empty() ? batch_.folder : directory_;
+bool UtmNode::failed() const { return recorder_failed_ || physics_died_ || (program_ && program_->failed()); }
+
+std::string UtmNode::start(const StartTest::Request& request) {
+  // What is told in the same breath as this request: the last goal gets the result of its own test.
+  if (state_ == State::kEnded && all_is_recorded()) finish_goal();
+  if (leaves_) return "the launch is about to end";
+  if (active()) return "a test is running";
+  if (!has_specimen_) return "there is no specimen yet";
+  if (run_ > 0 && !all_is_recorded()) return "the last test is still being recorded";
+  try {
+    const MethodSetup setup = set_up(asked_for(launched_, request));
+    const Method& method = setup.method;
+    // The same on both sides: the physics makes its steps by the same method.
+    const double longest_step = tolerances(method.physics, method.specimen, method.material).longest_step;
+    ProgramRunner program = make_program(method, longest_step);
+    if (options_.record) require_no_record_in(setup.out, method);
+    const std::string folder = options_.record ? free_folder(setup.out) : "";
+    if (!give_order(node_, order_of(method, setup.out))) return "the ROS master does not answer";
+    for (const std::string& line : setup.told) ROS_INFO("%s", line.c_str());
+    folder_ = folder;
+    method_ = method;
+    program_.emplace(std::move(program));
+  } catch (const InvalidInput& invalid) {
+    return invalid.what();
+  }
+  begin();
+  return "";
 }
 
-/// roslaunch does not end where the physics dies: the recorder is to hear first why the test has ended.
-void UtmNode::look_after_physics() {
-  looked_ = steady_clock::now();
-  const std::set<std::string> nodes = nodes_of_launch();
-  if (nodes.count(names::kKnotNode) > 0) {
-    physics_seen_ = true;
-  } else if (physics_seen_ || (!nodes.empty() && !has_specimen_ && seconds_since(began_) > kLongestStart)) {
-    physics_gone_ = true;
-    physics_lost();
-  }
+void UtmNode::begin() {
+  publish_method(method_);
+  if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
+  ++run_;
+  recorded_ = 0;
+  unrecorded_.clear();
+  recorder_complete_ = false;
+  recorder_failed_ = false;
+  physics_died_ = false;
+  single_steps_ = 0;
+  sample_ = Sample();
+  motion_pattern_.clear();
+  max_penetration_ = 0.0;
+  state_ = State::kRunning;
+  due_ = steady_clock::now();
+  run_began_ = due_;
+  factor_measured_ = due_;
+  factor_time_ = 0.0;
+  write_verdict(options_.verdict, std::nullopt, folder_);
+  send(program_->last());
+  publish_status();
 }
 
 double UtmNode::wait_time() const {
@@ -156,19 +180,15 @@ void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
 }
 
 void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
-  if (subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) physics_lost();
+  if (active() && subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) physics_died();
 }
 
-void UtmNode::physics_lost() {
-  if (active() || (state_ == State::kEnded && another_follows())) physics_died_ = true;
-  if (active()) physics_failed(kPhysicsDied);
-}
-
-void UtmNode::physics_failed(const std::string& why) {
+void UtmNode::physics_died() {
+  physics_died_ = true;
   sample_.sequence = command_.sequence;
   sample_.status = BenchStatus::kFailed;
-  sample_.message = why;
-  program_->fail(why);
+  sample_.message = kPhysicsDied;
+  program_->fail(kPhysicsDied);
   // The last command that there will ever be an answer to.
   if (waiting_ && command_.sequence > 0) --command_.sequence;
   waiting_ = false;
@@ -195,13 +215,12 @@ void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
   recorded_ = std::max(recorded_, status.next_sequence);
   while (!unrecorded_.empty() && unrecorded_.front().sequence < recorded_) unrecorded_.pop_front();
   recorder_complete_ = status.complete != 0;
-  directory_ = status.directory;
-  batch_directory_ = status.batch;
+  folder_ = status.directory;
   if (!status.error.empty()) {
     recorder_failed_ = true;
     if (active()) {
       ROS_ERROR("the recorder failed: %s", status.error.c_str());
-      stop();
+      program_->stop();
     }
   }
 }
@@ -260,7 +279,7 @@ void UtmNode::end() {
     ROS_INFO("the test ended by %s: %s", ended_by_name(program_->ended_by()), program_->reason().c_str());
   }
   if (program_->ended_by() == EndedBy::kUntangled)
-    ROS_WARN("the knot came undone: %s", what_keeps_a_knot(batch_.methods[batch_.specimen]).c_str());
+    ROS_WARN("the knot came undone: %s", what_keeps_a_knot(method_).c_str());
   publish_clock(true);
   publish_status();
 }

@@ -48,8 +48,6 @@ void UtmNode::publish_status() {
 void UtmNode::report_to_goal(const TestStatus& status) {
   if (!goal_) return;
   RunTestFeedback feedback;
-  feedback.specimen = static_cast<std::uint32_t>(batch_.specimen + 1);
-  feedback.specimens = static_cast<std::uint32_t>(batch_.methods.size());
   feedback.phase = status.phase;
   feedback.time = sample_.time;
   feedback.extension = sample_.extension;
@@ -63,51 +61,27 @@ void UtmNode::report_to_goal(const TestStatus& status) {
   goal_->publishFeedback(feedback);
 }
 
-TestOutcome UtmNode::outcome() const {
-  const auto recorded = [this](const char* key) {
-    return parse_number(result_of(directory_, key).value_or("")).value_or(Sample::kNone);
-  };
-  const EndedBy ended_by = program_->ended_by();
-  TestOutcome out;
-  out.run = run_;
-  out.specimen = static_cast<std::uint32_t>(batch_.specimen + 1);
-  out.ended_by = ended_by_name(ended_by);
-  out.reason = recorder_failed_ ? "the recorder failed" : program_->reason();
-  out.motion_pattern = motion_pattern_;
-  out.time = sample_.time;
-  out.extension = sample_.extension;
-  out.peak_force = recorded("peak_force");
-  out.true_peak_force = recorded("true_peak_force");
-  out.balance_offset = recorded("balance_offset");
-  out.max_penetration = max_penetration_;
-  out.directory = directory_;
-  return out;
-}
-
 void UtmNode::finish_goal() {
   if (!goal_) return;
-  const TestOutcome& last = batch_.outcomes.back();
+  const auto recorded = [this](const char* key) {
+    return parse_number(result_of(folder_, key).value_or("")).value_or(Sample::kNone);
+  };
   RunTestResult result;
-  result.run = last.run;
-  result.ended_by = last.ended_by;
-  result.reason = last.reason;
-  result.motion_pattern = last.motion_pattern;
-  result.time = last.time;
-  result.extension = last.extension;
-  result.peak_force = last.peak_force;
-  result.true_peak_force = last.true_peak_force;
-  result.balance_offset = last.balance_offset;
-  result.max_penetration = last.max_penetration;
-  result.directory = batch_directory_.empty() ? last.directory : batch_directory_;
-  result.tests = batch_.outcomes;
-  std::string text = "ended by " + last.ended_by + (last.reason.empty() ? "" : ": " + last.reason);
-  if (batch_.methods.size() > 1)
-    text = "tested " + std::to_string(tested()) + " of " + std::to_string(batch_.methods.size()) +
-           " specimens; the last test " + text;
-  const bool by_operator = batch_.stopped || program_->ended_by() == EndedBy::kOperator;
+  result.run = run_;
+  result.ended_by = ended_by_name(program_->ended_by());
+  result.reason = recorder_failed_ ? "the recorder failed" : program_->reason();
+  result.motion_pattern = motion_pattern_;
+  result.time = sample_.time;
+  result.extension = sample_.extension;
+  result.peak_force = recorded("peak_force");
+  result.true_peak_force = recorded("true_peak_force");
+  result.balance_offset = recorded("balance_offset");
+  result.max_penetration = max_penetration_;
+  result.directory = folder_;
+  const std::string text = "ended by " + result.ended_by + (result.reason.empty() ? "" : ": " + result.reason);
   if (failed()) {
     goal_->setAborted(result, text);
-  } else if (by_operator) {
+  } else if (program_->ended_by() == EndedBy::kOperator) {
     goal_->setCanceled(result, text);
   } else {
     goal_->setSucceeded(result, text);
@@ -133,7 +107,6 @@ void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::OK, states[static_cast<int>(state_)]);
   }
   status.add("test", run_);
-  if (batch_.methods.size() > 1) status.addf("specimen", "%zu of %zu", batch_.specimen + 1, batch_.methods.size());
   status.add("phase", phase_name(program_ ? program_->phase() : Phase::kIdle));
   status.add("time [s]", sample_.time);
   status.add("real-time factor", factor_);

@@ -22,32 +22,33 @@ bool accept(std_srvs::Trigger::Response& response, const std::string& what) {
 }  // namespace
 
 bool UtmNode::on_start(StartTest::Request& request, StartTest::Response& response) {
-  const std::string why_not = start_if_possible(request);
+  const std::string why_not = start(request);
   response.accepted = static_cast<std::uint8_t>(why_not.empty());
   response.message = why_not.empty() ? "test " + std::to_string(run_) + " is running" : why_not;
-  if (why_not.empty()) response.folder = batch_.folder;
+  if (why_not.empty()) response.folder = folder_;
   return true;
 }
 
 void UtmNode::on_goal(Actions::GoalHandle goal) {
   StartTest::Request request;
-  request.specimens = goal.getGoal()->count;
-  const std::string why_not = start_if_possible(request);
+  request.method = goal.getGoal()->method;
+  request.material = goal.getGoal()->material;
+  request.preload = goal.getGoal()->preload;
+  request.overrides = goal.getGoal()->overrides;
+  const std::string why_not = start(request);
   if (!why_not.empty()) return goal.setRejected(RunTestResult(), why_not);
   goal_ = goal;
   goal_->setAccepted("the test is running");
 }
 
 void UtmNode::on_cancel(const Actions::GoalHandle& goal) {
-  if (goal_ && *goal_ == goal) stop();
+  if (active() && goal_ && *goal_ == goal) program_->stop();
 }
 
 bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  const bool between_two = state_ == State::kEnded && another_follows();
-  if (!active() && !between_two) return refuse(response, "no test is running");
-  stop();
-  if (between_two) return accept(response, "the batch ends");
-  return accept(response, batch_.methods.size() > 1 ? "the test ends, and its batch with it" : "the test ends");
+  if (!active()) return refuse(response, "no test is running");
+  program_->stop();
+  return accept(response, "the test ends");
 }
 
 bool UtmNode::on_balance(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {

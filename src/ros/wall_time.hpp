@@ -4,7 +4,7 @@
 
 namespace knot_utm {
 
-// These times say how the two nodes that publish /clock, the machine and the replay, keep time [s of the wall clock].
+// How the machine publishes /clock [s of the wall clock].
 inline constexpr double kClockPeriod = 0.002;    // shortest time between two messages
 inline constexpr double kIdleClockPeriod = 0.1;  // longest time between them
 inline constexpr double kGoodbye = 0.3;          // for the last messages to leave before the node ends

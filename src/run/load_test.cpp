@@ -7,7 +7,6 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/raw/raw_zero.hpp"
 #include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/verdict/verdict.hpp"
@@ -31,20 +30,14 @@ void check_speed(const FollowStep& step, const std::string& key) {
   }
 }
 
-/// Reads the motion of the crosshead that a step follows, from the record of another test (curve.csv or raw data).
+/// Reads the motion of the crosshead that a step follows, from the record of another test.
 /// `follow`: the key of the step.
 void read_record(const std::string& follow, FollowStep& step, const Tell& tell) {
   const std::string key = follow + ".record";
-  const RawSpelling spelling{follow + ".", ": ", false};
-  const RawOptions options = raw_options(step.words, spelling);
-  const std::string given = step.record;
-  step.record = curve_file_of(given, options);
+  step.record = curve_file_of(step.record);
   std::error_code error;
   if (!std::filesystem::is_regular_file(step.record, error)) throw InvalidInput::cannot_read(step.record, key);
-  const std::vector<CurveRow> course = read_course(step.record, options, tell);
-  const std::string unused = without_effect(step.words, spelling, step.record != given);
-  if (tell && !unused.empty() && has_its_zero(course))
-    tell(step.record + ": the curve is one of knot_utm, for which " + unused);
+  const std::vector<CurveRow> course = read_course(step.record, tell);
   for (const CurveRow& row : course) {
     const RecordedPlace place{row.time - course.front().time, travel_of(row) - travel_of(course.front())};
     if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);

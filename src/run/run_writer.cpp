@@ -11,21 +11,16 @@
 #include "knot_utm/machine/tied_loop.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/pieces.hpp"
-#include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/run/shape_series.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/topology/knot_hole.hpp"
-#include "knot_utm/topology/loop_turn.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
 
 namespace knot_utm {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A loop that turned further around its rollers is told. The limit is half of the default roller's diameter, by choice
 /// [h].
@@ -49,50 +44,20 @@ double mass_over_that_of_the_first(const Material& material, const Centreline& d
   return (first + heavier * (all - first)) / all;
 }
 
-/// What becomes of the records of a run.
-class RunWriter {
- public:
-  RunWriter(const std::string& folder, const Method& method)
-      : RunWriter(folder, method,
-                  specimen_centreline(method.specimen, method.material, method.machine, method.physics)) {}
+std::string in(const std::string& folder, const char* name) { return (std::filesystem::path(folder) / name).string(); }
 
-  /// Adds one record. If the simulation failed, only the time steps that it still made are added.
-  void add(const Record& record);
-  RunFacts facts() const;
-  Results results(EndedBy ended_by) const {
-    return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value(), hung_, known_.knot_distance,
-                   program_steps_);
-  }
-  /// Writes result.yaml, and the files of shapes.
-  void finish(const Results& results, RunFacts facts, const Points& final_shape);
+}  // namespace
 
-  std::size_t rows() const { return curve_.rows(); }
-  std::size_t full_rows() const { return full_curve_.rows(); }
-
- private:
-  RunWriter(const std::string& folder, const Method& method, const Centreline& drawn);
-
-  fs::path folder_;
-  std::vector<int> cuts_;  // edges between one rope and the next
-  RunFacts known_;
-  std::vector<Sample> samples_;              // all accepted time steps; the last one of a command is its answer
-  std::vector<int> program_steps_;           // the step of the program of each of them
-  std::vector<Sample> readings_;             // readings of the load cell: the rows of curve.csv
-  double weight_per_length_ = 0.0;           // weight of the rod per length [N/m]
-  double length_ = 0.0;                      // length of all ropes in the last known shape [m]
-  LoopTurn turn_;                            // turning of a loop on rollers since it was mounted
-  std::optional<double> radius_on_rollers_;  // radius of the rod [m]; empty: the specimen is not a loop on rollers
-  double hung_ = 0.0;                        // weight on it [N]
-  bool far_side_held_ = false;
-  CurveWriter curve_, full_curve_;
-  ShapeSeries shapes_;
-};
+RunWriter::RunWriter(const std::string& folder, const Method& method, const MakeFurther& further)
+    : RunWriter(folder, method, specimen_centreline(method.specimen, method.material, method.machine, method.physics)) {
+  if (further) further_ = further(folder, method);
+}
 
 RunWriter::RunWriter(const std::string& folder, const Method& method, const Centreline& drawn)
     : folder_(folder),
       cuts_(drawn.cuts),
-      curve_((folder_ / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
-      full_curve_((folder_ / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)),
+      curve_(in(folder, "curve.csv"), std::isfinite(method.machine.stiffness)),
+      full_curve_(in(folder, "curve_full.csv"), std::isfinite(method.machine.stiffness)),
       shapes_(drawn.cuts) {
   known_.errors = relative_errors(method.specimen, method.material, method.machine, method.physics);
   known_.material = method.material;
@@ -110,10 +75,6 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
   known_.knot_distance = marks_of(method.specimen, method.program);
   known_.end_to_end = method.specimen.end_to_end;
-  if (method.machine.roller_rotation == RollerRotation::kTurned)
-    known_.warnings.push_back(
-        "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "
-        "forces");
   if (method.specimen.to_be_tied && tied_by_preload(method.specimen))
     known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.free_ends = drawn.free.size();
@@ -124,8 +85,6 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   if (method.material.other) weight_per_length_ *= mass_over_that_of_the_first(method.material, drawn);
   if (rollers_hold(method.specimen, method.machine)) radius_on_rollers_ = method.material.radius;
   far_side_held_ = method.machine.far_side == FarSide::kHeld;
-  if (method.analysis.margin)
-    known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
   known_.inertia = inertia_factor(method.material, method.physics, slack_of(method.specimen, drawn));
   for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
@@ -136,6 +95,14 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
 }
 
 void RunWriter::add(const Record& record) {
+  add_to_files(record);
+  if (further_.add) further_.add(record);
+  ++records_;
+  sent_ = record.command.sequence + 1;
+  wall_time_ = record.wall_time;
+}
+
+void RunWriter::add_to_files(const Record& record) {
   const Sample& sample = record.answer;
   for (const Sample& step : record.steps) {
     // A bench that has failed answers with the last good step again.
@@ -167,7 +134,6 @@ RunFacts RunWriter::facts() const {
   RunFacts facts = known_;
   facts.peak_memory = peak_memory();
   facts.weight = weight_per_length_ * length_;
-  if (radius_on_rollers_) facts.slid_along = turn_.along();
   if (radius_on_rollers_ && turn_.largest() > kLargestLoopTurn * *radius_on_rollers_)
     facts.warnings.push_back(
         "the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
@@ -178,49 +144,46 @@ RunFacts RunWriter::facts() const {
   return facts;
 }
 
-void RunWriter::finish(const Results& results, RunFacts facts, const Points& final_shape) {
-  if (final_shape.cols() > 0) write_centreline((folder_ / "final_shape.csv").string(), final_shape, cuts_);
+MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, const ResultsOptions& options) {
+  if (further_.close) further_.close();
+  MadeResults made;
+  made.results = analyse(samples_, readings_, end.ended_by, radius_on_rollers_.has_value(), hung_, known_.knot_distance,
+                         program_steps_);
+  made.facts = facts();
+  made.facts.reason = end.reason;
+  made.facts.wall_time = wall_time_;
+  if (!options.ran_here) made.facts.peak_memory = 0;
+  std::vector<std::string>& warnings = made.facts.warnings;
+  warnings.insert(warnings.end(), options.warnings.begin(), options.warnings.end());
+  if (const std::uint64_t missing = sent_ - records_ + options.missing_at_end; missing > 0)
+    warnings.push_back(std::to_string(missing) + " commands of the test were not recorded");
+  made.rows = curve_.rows();
+  made.full_rows = full_curve_.rows();
+  write_ends(made.results, made.facts, final_shape);
+  return made;
+}
+
+void RunWriter::write_ends(const Results& results, RunFacts facts, const Points& final_shape) {
+  if (final_shape.cols() > 0) write_centreline(in(folder_, "final_shape.csv"), final_shape, cuts_);
   if (!shapes_.empty()) {
     if (samples_.back().status == BenchStatus::kBroken) shapes_.add_parted(samples_.back().time, final_shape);
-    write_whole((folder_ / "shapes.csv").string(), shapes_.csv());
+    write_whole(in(folder_, "shapes.csv"), shapes_.csv());
   }
   facts.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
   if (facts.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
     facts.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
-  write_whole((folder_ / "result.yaml").string(), result_yaml(results, facts));
+  write_whole(in(folder_, "result.yaml"), result_yaml(results, facts));
 }
-
-}  // namespace
 
 MadeResults make_results(const std::string& folder, const Method& method, const ResultsOptions& options) {
   SamplesReader samples(folder);
-  RunWriter writer(folder, method);
-  const FurtherWriter further = options.further ? options.further(folder, method) : FurtherWriter();
+  RunWriter writer(folder, method, options.further);
   Record record;
-  while (samples.next(record)) {
-    writer.add(record);
-    if (further.add) further.add(record);
-  }
-  if (further.close) further.close();
-  MadeResults made;
-  const TestEnd end = samples.end().value_or(options.without_end);
-  made.results = writer.results(end.ended_by);
-  made.facts = writer.facts();
-  made.facts.reason = end.reason;
-  made.facts.wall_time = record.wall_time;
-  if (!options.ran_here) made.facts.peak_memory = 0;
-  std::vector<std::string>& warnings = made.facts.warnings;
-  warnings.insert(warnings.end(), options.warnings.begin(), options.warnings.end());
-  const std::uint64_t sent = samples.records() > 0 ? record.command.sequence + 1 : 0;
-  if (const std::uint64_t missing = sent - samples.records() + options.missing_at_end; missing > 0)
-    warnings.push_back(std::to_string(missing) + " commands of the test were not recorded");
+  while (samples.next(record)) writer.add(record);
+  ResultsOptions more = options;
   if (samples.torn_bytes() > 0)
-    warnings.emplace_back("the last command in samples.csv was cut off as it was written, and is left out");
-  if (options.margin) made.facts.margin = options.margin(made.results);
-  made.rows = writer.rows();
-  made.full_rows = writer.full_rows();
-  writer.finish(made.results, made.facts, samples.final_shape());
-  return made;
+    more.warnings.emplace_back("the last command in samples.csv was cut off as it was written, and is left out");
+  return writer.finish(samples.end().value_or(options.without_end), samples.final_shape(), more);
 }
 
 }  // namespace knot_utm

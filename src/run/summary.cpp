@@ -81,11 +81,6 @@ std::string text_without_error(double value, const std::string& unit, double err
   return with_unit(digits_of(value * shown.scale, error * shown.scale).value, shown);
 }
 
-/// Whether a loss is so small beside the energy of the pull that it says nothing: that of an elastic rod.
-bool is_rounding(const std::string& key, double value, const std::optional<double>& energy) {
-  return key == "hysteresis" && energy && std::abs(value) < kRounding * *energy;
-}
-
 /// A line that begins with the name of a reading.
 std::string line_of(const std::string& label, const std::string& words) {
   constexpr std::size_t kColumn = 22;
@@ -139,16 +134,6 @@ class ResultFile {
     return of.IsDefined() && of.IsMap() ? parse_number(word_in(of[which])) : std::nullopt;
   }
 
-  /// The same number of every entry of a list.
-  std::vector<double> numbers(const std::string& list, const char* key) const {
-    std::vector<double> out;
-    const YAML::Node all = root_[list];
-    if (!all.IsDefined() || !all.IsSequence()) return out;
-    for (const YAML::Node& one : all)
-      if (const auto value = one.IsMap() ? parse_number(word_in(one[key])) : std::nullopt) out.push_back(*value);
-    return out;
-  }
-
  private:
   static std::string word_in(const YAML::Node& node) { return node && node.IsScalar() ? node.Scalar() : ""; }
   YAML::Node root_;
@@ -189,7 +174,6 @@ std::string run_lines(const ResultFile& result) {
     const bool missed = std::string(row.key) == "plateau_force" && (pattern != "none" || result.number("jump_force"));
     const std::string none = missed ? result.word("no_plateau_because") : "";
     if (!value && (none.empty() || none == "null")) continue;
-    if (value && is_rounding(row.key, *value, result.number("energy_to_peak"))) continue;
     if (rows++ == kMostRows) break;
     const double error = result.number(row.error).value_or(0.0);
     out += line_of(row.label, value ? reading_text(*value, unit_of(row.key), error) + beside(row.key, result, error)
@@ -204,26 +188,7 @@ std::string run_lines(const ResultFile& result) {
   return out;
 }
 
-/// How many of the specimens that count meet the specification; empty where there is none.
-std::string batch_verdict(const ResultFile& batch, const std::string& folder) {
-  const std::vector<double> rejected = batch.numbers("rejected", "specimen");
-  std::size_t met = 0, not_met = 0;
-  for (const std::string& own : specimen_folders(folder)) {
-    const double number = *parse_number(own.substr(own.find_last_of('_') + 1));
-    if (std::find(rejected.begin(), rejected.end(), number) != rejected.end()) continue;
-    std::error_code error;
-    const fs::path file = fs::path(own) / "result.yaml";
-    if (number > batch.number("specimens").value_or(0.0) || !fs::is_regular_file(file, error)) continue;
-    const std::string passed = ResultFile(file.string()).word("specification_passed");
-    met += passed == "true";
-    not_met += passed == "false";
-  }
-  if (met + not_met == 0) return "";
-  return line_of("specification",
-                 "met by " + std::to_string(met) + " of " + std::to_string(met + not_met) + " specimens");
-}
-
-std::string batch_lines(const ResultFile& result, const std::string& folder) {
+std::string batch_lines(const ResultFile& result) {
   const double all = result.number("specimens").value_or(0.0);
   const auto rejected = static_cast<double>(result.count("rejected"));
   std::string out = with_decimals(all - rejected, 0) + " of " + with_decimals(all, 0) + " specimens count\n";
@@ -231,15 +196,12 @@ std::string batch_lines(const ResultFile& result, const std::string& folder) {
   for (const SummaryRow& row : kRows) {
     const std::optional<double> mean = result.statistic(row.key, "mean"), sd = result.statistic(row.key, "sd");
     if (!mean) continue;
-    // Readings of both signs may have a mean of nothing.
-    const double largest = std::max(std::abs(*mean), sd.value_or(0.0));
-    if (is_rounding(row.key, largest, result.statistic("energy_to_peak", "mean"))) continue;
     if (rows++ == kMostRows) break;
     const double n = result.statistic(row.key, "n").value_or(0.0);
     out += line_of(row.label, reading_text(*mean, unit_of(row.key), sd.value_or(0.0)) + " (mean" +
                                   (sd ? " ± standard deviation" : "") + " of " + with_decimals(n, 0) + ")");
   }
-  return out + batch_verdict(result, folder);
+  return out;
 }
 
 /// A reading of both curves. Empty: neither has it.
@@ -274,7 +236,7 @@ std::string reading_text(double value, const std::string& unit, double error) {
 std::string run_summary(const std::string& folder) {
   const fs::path batch = fs::path(folder) / "statistics.yaml";
   std::error_code error;
-  if (fs::is_regular_file(batch, error)) return batch_lines(ResultFile(batch.string()), folder);
+  if (fs::is_regular_file(batch, error)) return batch_lines(ResultFile(batch.string()));
   return run_lines(ResultFile((fs::path(folder) / "result.yaml").string()));
 }
 

@@ -18,7 +18,7 @@
 namespace knot_utm {
 
 /// Pressure and friction of one kind of contacts, either between strands or on rollers: a force term (force_term.hpp)
-/// of a step with D unknowns per node. `Contacts` (SmoothContact, EdgeContact or RollerContact) decides what a contact
+/// of a step with D unknowns per node. `Contacts` (SmoothContact or RollerContact) decides what a contact
 /// is, where it acts and by which laws. With the symbols of ContactPoint, the forces on the nodes are
 ///
 ///   f_k = c_k g        on nodes a0..a0+2 and, between strands, b0..b0+2       [N]
@@ -83,11 +83,10 @@ class ContactTerm {
     for (ContactPoint& contact : contacts_.contacts()) {
       if (!contact.active()) continue;
       const LinearPressure& p = pressures_[n++];
-      if constexpr (Contacts::kSoftens)
-        if (contacts_.soft()) {
-          contact.prediction = p.pressure + factor * p.slope * overlap_change(contact, change);
-          continue;
-        }
+      if (contacts_.soft()) {
+        contact.prediction = p.pressure + factor * p.slope * overlap_change(contact, change);
+        continue;
+      }
       Lanes moved = {};
       for (int k = 0; k < 3; ++k) {
         moved += contact.c[k] * change[at(contact.a0 + k)];

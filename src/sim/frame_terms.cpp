@@ -169,8 +169,7 @@ void FrameTerms::begin(const StepStart& step) {
   straighten_cuts(cuts_, start_pairs_);
   for (int i = 1; i < edges; ++i) {
     reference_twist_[at(i)] = start.reference_twist[i - 1];
-    start_twist_[at(i)] =
-        start.reference_twist[i - 1] - (rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0);
+    start_twist_[at(i)] = start.reference_twist[i - 1];
   }
   std::fill(held_.begin(), held_.end(), 0);
   held_.back() = 1;
@@ -281,8 +280,7 @@ void FrameTerms::set_turn(std::size_t j, double turned) {
 }
 
 TwistingInput FrameTerms::twisting_input(int i) const {
-  return {stiffness_[at(i)] * rod_.voronoi_length[i], rod_.voronoi_length[i],
-          rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0};
+  return {stiffness_[at(i)] * rod_.voronoi_length[i], rod_.voronoi_length[i]};
 }
 
 double FrameTerms::twist(int i) const { return angle_[at(i)] - angle_[at(i - 1)] + reference_twist_[at(i)]; }

@@ -9,7 +9,6 @@
 #include "contact_term.hpp"
 #include "grip_term.hpp"
 #include "held_unknowns.hpp"
-#include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
@@ -36,11 +35,11 @@ struct NoFrames {
 /// All force terms of the equation, its linear system, and storage for its unknowns. D = 3: the unknowns of node i are
 /// x_i. D = 4: they are x_i and the spin of edge i (FrameTerms). The last node has no edge after it, so its spin is
 /// held.
-template <int D, typename StrandContact>
+template <int D>
 struct Equation {
   using Frames = std::conditional_t<D == 4, FrameTerms, NoFrames>;
   static_assert(kIsForceTerm<D, MotionTerm> && kIsForceTerm<D, CentrelineTerms> && kIsForceTerm<D, Frames> &&
-                kIsForceTerm<D, ContactTerm<D, StrandContact>> && kIsForceTerm<D, ContactTerm<D, RollerContact>> &&
+                kIsForceTerm<D, ContactTerm<D, SmoothContact>> && kIsForceTerm<D, ContactTerm<D, RollerContact>> &&
                 kIsForceTerm<D, GripTerm>);
 
   Equation(const RodProperties& rod_, const RodState& state, const StepSettings& settings_)
@@ -49,7 +48,8 @@ struct Equation {
         motion(rod, settings),
         centreline(rod, !state.curved_at_rest()),
         frames(rod, settings),
-        strands(strand_contact(rod, settings)),
+        strands(SmoothContact(rod, settings.pressure_law, settings.friction, settings.candidate_margin,
+                              settings.weighting_time)),
         rollers(RollerContact(rod, rod.material.is_soft() ? settings.pressure_law.on_rigid() : settings.pressure_law,
                               settings.roller_friction, settings.motion_limit)),
         held(static_cast<std::size_t>(rod.nodes())),
@@ -58,8 +58,7 @@ struct Equation {
         force(static_cast<std::size_t>(rod.nodes())),
         change(force.size()) {
     if (settings.others) {
-      if constexpr (std::is_same_v<StrandContact, SmoothContact>)
-        strands.contacts().tell_apart(settings.others->between, settings.others->own);
+      strands.contacts().tell_apart(settings.others->between, settings.others->own);
       rollers.contacts().tell_apart(settings.others->on_rollers);
     }
     if constexpr (D == 4)
@@ -74,11 +73,10 @@ struct Equation {
           strands.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
         if (soft || settings.roller_friction.on() || (settings.others && settings.others->on_rollers.friction.on()))
           rollers.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
-        if constexpr (std::is_same_v<StrandContact, SmoothContact>)
-          if (soft) {
-            strands.contacts().soften(rod.rest_length);
-            rollers.contacts().soften(rod.rest_length);
-          }
+        if (soft) {
+          strands.contacts().soften(rod.rest_length);
+          rollers.contacts().soften(rod.rest_length);
+        }
       }
   }
 
@@ -95,7 +93,7 @@ struct Equation {
   MotionTerm motion;
   CentrelineTerms centreline;
   Frames frames;
-  ContactTerm<D, StrandContact> strands;
+  ContactTerm<D, SmoothContact> strands;
   ContactTerm<D, RollerContact> rollers;
   GripTerm grips;
   HeldUnknowns held;
@@ -109,14 +107,6 @@ struct Equation {
   static bool strands_of_others_rub(const StepSettings::OtherLaws& others) {
     return others.between.friction.on() || others.own.friction.on();
   }
-
-  static StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
-    if constexpr (std::is_same_v<StrandContact, SmoothContact>)
-      return SmoothContact(rod, settings.pressure_law, settings.friction, settings.candidate_margin,
-                           settings.weighting_time);
-    else
-      return StrandContact(rod, settings.pressure_law, settings.friction, settings.candidate_margin);
-  }
 };
 
 /// The equation of one time step while it is being solved: find x, and with D = 4 the spins of the edges, such that for
@@ -126,13 +116,13 @@ struct Equation {
 ///
 /// The constructor sets the unknowns to their prediction: all nodes continue with their velocities, and held nodes are
 /// at their prescribed positions. Newton's method (newton.hpp) then calls `residual`, `solve` and `move`.
-template <int D, typename StrandContact>
+template <int D>
 class Increment {
  public:
   /// `predicts`: whether the stiffness uses the tensions and pressures that the last linear solve predicted, and at
   /// first those at the beginning of the step. The solution is then reached in few iterations or, if the step is too
   /// long, is soon seen to be out of reach. Otherwise the stiffness uses the tensions of the trial positions.
-  Increment(Equation<D, StrandContact>& equation, const StepStart& start, bool predicts)
+  Increment(Equation<D>& equation, const StepStart& start, bool predicts)
       : eq_(equation), start_(start), predicts_(predicts) {
     eq_.centreline.begin(start, predicts);
     eq_.strands.begin(start);
@@ -238,7 +228,7 @@ class Increment {
     return out;
   }
 
-  Equation<D, StrandContact>& eq_;
+  Equation<D>& eq_;
   const StepStart start_;
   bool predicts_;
   WorstResidual worst_;

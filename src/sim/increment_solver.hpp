@@ -8,11 +8,11 @@ namespace knot_utm {
 /// Solves the increment of a step in one of the ways of `SolveStrategy` (time_step.hpp).
 ///
 /// Each of them makes its own `Increment`, so that all of them begin at the prediction.
-template <int D, typename StrandContact>
+template <int D>
 class IncrementSolver {
  public:
-  using TheEquation = Equation<D, StrandContact>;
-  using TheIncrement = Increment<D, StrandContact>;
+  using TheEquation = Equation<D>;
+  using TheIncrement = Increment<D>;
 
   IncrementSolver(TheEquation& equation, const StepStart& start) : equation_(equation), start_(start) {}
 

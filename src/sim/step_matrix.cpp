@@ -210,29 +210,13 @@ void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, 
 }
 
 template <int D>
-void StepMatrix<D>::add(const ContactPoint& contact, const EdgeContactModel& model, std::size_t n) {
-  const ContactBlocks& blocks = contact_blocks(n);
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l) {
-      const std::pair<int, int>& across = blocks[at(3 * k + l)];
-      knot_utm::add(band(contact.a0, k, l), model.stiffness(k, l), 1.0);
-      knot_utm::add(band(contact.b0, k, l), model.stiffness(3 + k, 3 + l), 1.0);
-      knot_utm::add(block(across.first), model.stiffness(k, 3 + l), 1.0);
-      knot_utm::add(block(across.second), model.stiffness(3 + l, k), 1.0);
-    }
-}
-
-template <int D>
 void StepMatrix<D>::add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                         const SectionTurns& turns, std::size_t n) {
   if constexpr (D == 4) {
     add_lengthening(contact.a0, surface.s_a, model.on_a[3], turns);
-    if (contact.on_roller()) return add_columns<Feet::kNone>(contact, surface, model, turns, n);
+    if (contact.on_roller()) return add_columns<false>(contact, surface, model, turns, n);
     add_lengthening(contact.b0, surface.s_b, model.on_b[3], turns);
-    if (model.two_feet)
-      add_columns<Feet::kTwo>(contact, surface, model, turns, n);
-    else
-      add_columns<Feet::kOne>(contact, surface, model, turns, n);
+    add_columns<true>(contact, surface, model, turns, n);
   }
 }
 
@@ -250,21 +234,19 @@ void StepMatrix<D>::add_lengthening(int first, const double* weights, double tor
 }
 
 template <int D>
-template <typename StepMatrix<D>::Feet kFeet>
+template <bool kStrands>
 void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                                 const SectionTurns& turns, std::size_t n) {
   constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
-  constexpr bool kStrands = kFeet != Feet::kNone, kTwo = kFeet == Feet::kTwo;
   const double spins_a[3] = {surface.s_a[0], surface.s_a[1], 0.0}, spins_b[3] = {surface.s_b[0], surface.s_b[1], 0.0};
   double c[6];
   std::copy_n(contact.c, 6, c);
-  Lanes rows_a[3], rows_b[3];      // weights of on_a and on_b in a node's row
-  Lanes slides_a[3], slides_b[3];  // what the motion of a foot does to it
+  Lanes rows_a[3], rows_b[3];  // weights of on_a and on_b in a node's row
+  Lanes slides_b[3];           // what the motion of the foot does to it
   for (int k = 0; k < 3; ++k) {
-    const double d = surface.d_a[k], beta = contact.beta[3 + k], bends = kTwo ? 0.0 : kSecondDifference[k];
+    const double d = surface.d_a[k], beta = contact.beta[3 + k], bends = kSecondDifference[k];
     rows_a[k] = Lanes{d, d, d, spins_a[k]};
     rows_b[k] = Lanes{beta, beta, beta, spins_b[k]};
-    slides_a[k] = d * model.force;
     slides_b[k] = beta * model.force - Lanes{bends, bends, bends, k < 2 ? surface.s_slope_b[k] : 0.0} * model.on_b;
   }
   const auto add_node = [&](int l, const std::array<SurfaceColumn, 4>& columns) {
@@ -273,13 +255,12 @@ void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint&
       for (int i = 0; i < 4; ++i) {
         const SurfaceColumn& column = columns[at(i)];
         on_a.column[i] += c[k] * column.force + rows_a[k] * column.on_a;
-        if constexpr (kTwo) on_a.column[i] -= column.foot_a * slides_a[k];
       }
       if constexpr (!kStrands) continue;
       Block<D>& on_b = l < 3 ? block(contact_blocks(n)[at(3 * l + k)].second) : band(contact.b0, k, l - 3);
       for (int i = 0; i < 4; ++i) {
         const SurfaceColumn& column = columns[at(i)];
-        on_b.column[i] += c[3 + k] * column.force + rows_b[k] * column.on_b + column.foot_b * slides_b[k];
+        on_b.column[i] += c[3 + k] * column.force + rows_b[k] * column.on_b + column.foot * slides_b[k];
       }
     }
   };

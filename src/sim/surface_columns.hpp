@@ -23,16 +23,14 @@ struct SurfaceColumn : SurfaceModel::Response {
     force = times * force;
     on_a = times * on_a;
     on_b = times * on_b;
-    foot_a *= times;
-    foot_b *= times;
+    foot *= times;
   }
 
   void add(double times, const SurfaceModel::Response& r) {
     force += times * r.force;
     on_a += times * r.on_a;
     on_b += times * r.on_b;
-    foot_a += times * r.foot_a;
-    foot_b += times * r.foot_b;
+    foot += times * r.foot;
   }
 };
 

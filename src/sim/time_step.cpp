@@ -16,13 +16,13 @@ namespace {
 
 /// One step from its beginning to its end: the equation is solved (increment.hpp, increment_solver.hpp), what it would
 /// do to the rod is examined, and only then does the state move on.
-template <int D, typename StrandContact>
+template <int D>
 class ImplicitStep final : public TimeStep {
  public:
   ImplicitStep(const RodProperties& rod, const RodState& state, const StepSettings& settings)
       : TimeStep(rod, state, settings),
         equation_(rod_, state_, settings_),
-        tunnelling_(rod.nodes(), std::is_same_v<StrandContact, SmoothContact>),
+        tunnelling_(rod.nodes(), true),
         readings_(rod_, state_, equation_.frames.kinetic_energy(state_.twist_rate), equation_.strands.points(),
                   equation_.rollers.contacts()),
         increment_(3, rod.nodes()) {
@@ -33,7 +33,7 @@ class ImplicitStep final : public TimeStep {
     const StepStart start{state_, boundary, dt};
     StepSummary summary;
     WorstResidual worst;
-    summary.newton = IncrementSolver<D, StrandContact>(equation_, start).solve(strategy, worst);
+    summary.newton = IncrementSolver<D>(equation_, start).solve(strategy, worst);
     increment_.noalias() = equation_.x - state_.position;
     const SolvedStep step{start, equation_.x, increment_, equation_.force, equation_.held.nodes()};
     if (!summary.newton.converged()) {
@@ -48,11 +48,6 @@ class ImplicitStep final : public TimeStep {
     else
       summary.diagnosis = diagnose_fastest_node(step, summary.newton.tolerance);
     return summary;
-  }
-
-  void part(int edge) override {
-    parted_edge_ = edge;
-    cut(edge);
   }
 
   const StepReadings& readings() const override { return readings_; }
@@ -111,7 +106,7 @@ class ImplicitStep final : public TimeStep {
 
   ContactLists contacts() const { return {equation_.strands.points(), equation_.rollers.points()}; }
 
-  Equation<D, StrandContact> equation_;
+  Equation<D> equation_;
   TunnellingSearch tunnelling_;
   StepReadings readings_;
   Points increment_;  // of the step that is accepted or diagnosed [m]
@@ -119,11 +114,7 @@ class ImplicitStep final : public TimeStep {
 
 }  // namespace
 
-Eigen::VectorXd TimeStep::tension() const {
-  Eigen::VectorXd out = edge_tension(rod_, state_);
-  if (parted_edge_ >= 0) out[parted_edge_] = 0.0;
-  return out;
-}
+Eigen::VectorXd TimeStep::tension() const { return edge_tension(rod_, state_); }
 
 void TimeStep::lay(const Eigen::VectorXd& rest_length, const Points& position) {
   const Points before = state_.position;
@@ -154,16 +145,10 @@ void TimeStep::state(Archive& archive) {
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {
   require_fits(rod, state);
-  const bool edges = settings.contact_law == ContactLaw::kEdge;
-  if (edges && rod.other_material) throw InvalidInput("contact.law", "edge", "smooth for ropes of different material");
   if (rod.other_material.has_value() != settings.others.has_value())
     throw InvalidInput("rod", "other materials than its laws of contact", "one with laws for each material");
-  if (state.twist.size() == 0) {
-    if (edges) return std::make_unique<ImplicitStep<3, EdgeContact>>(rod, state, settings);
-    return std::make_unique<ImplicitStep<3, SmoothContact>>(rod, state, settings);
-  }
-  if (edges) return std::make_unique<ImplicitStep<4, EdgeContact>>(rod, state, settings);
-  return std::make_unique<ImplicitStep<4, SmoothContact>>(rod, state, settings);
+  if (state.twist.size() == 0) return std::make_unique<ImplicitStep<3>>(rod, state, settings);
+  return std::make_unique<ImplicitStep<4>>(rod, state, settings);
 }
 
 }  // namespace knot_utm

@@ -58,9 +58,9 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
   constexpr double kMayOverlap = 0.07;  // by choice: overlap of a shape that may begin [h]
   constexpr double kCutCorners = 0.02;  // by choice: that of ropes as they are drawn, with coarse edges, too [h]
   const double exclusion = 1.5 * M_PI * radius;
-  const NearestPlaces nearest = nearest_places(points, exclusion, centreline.closed, centreline.cuts, radii);
+  const NearestPlaces nearest = nearest_places(points, exclusion, centreline.cuts, radii);
   const double touching = 2.0 * radius - nearest.thinner;
-  const bool as_drawn = centreline.closed || !centreline.cuts.empty();
+  const bool as_drawn = !centreline.cuts.empty();
   if (nearest.distance < touching - (centreline.cuts.empty() ? 0.0 : kCutCorners * radius) &&
       (as_drawn || nearest_places(sampled_centreline(points), exclusion).distance < (2.0 - kMayOverlap) * radius))
     refuse("strands overlap at " +
@@ -98,7 +98,7 @@ Centreline straight(double length, double radius, double edge_length) {
   return centreline;
 }
 
-Centreline from_points(const Points& points, bool closed, double radius, double edge_length, const std::string& name,
+Centreline from_points(const Points& points, double radius, double edge_length, const std::string& name,
                        double refinement) {
   check_radius(radius);
   check_edge_length(edge_length, radius);
@@ -106,25 +106,19 @@ Centreline from_points(const Points& points, bool closed, double radius, double 
     throw InvalidInput::sentence("specimen.file", name, "specimen.file " + shown(name) + why);
   };
   if (!points.allFinite()) refuse(" has a point that is not finite");
-  if (points.cols() < (closed ? 3 : 2))
-    refuse(" has " + std::to_string(points.cols()) + " points, but must have " +
-           (closed ? "three or more" : "two or more"));
-  const bool add_first = closed && points.leftCols(1) != points.rightCols(1);
-  Points way(3, points.cols() + (add_first ? 1 : 0));
-  way.leftCols(points.cols()) = points;
-  if (add_first) way.rightCols(1) = points.leftCols(1);
-  for (Eigen::Index i = 1; i < way.cols(); ++i)
-    if (way.col(i) == way.col(i - 1))
+  if (points.cols() < 2) refuse(" has " + std::to_string(points.cols()) + " points, but must have two or more");
+  for (Eigen::Index i = 1; i < points.cols(); ++i)
+    if (points.col(i) == points.col(i - 1))
       refuse(": points " + std::to_string(i) + " and " + std::to_string(i + 1) +
              " are the same; leave one of them out");
-  const double length = (way.rightCols(way.cols() - 1) - way.leftCols(way.cols() - 1)).colwise().norm().sum();
+  const double length =
+      (points.rightCols(points.cols() - 1) - points.leftCols(points.cols() - 1)).colwise().norm().sum();
   const std::string rod = " is a rod of " + text(length) + " m, but must be at ";
   if (!(length >= 4.0 * edge_length)) refuse(rod + "least four edges long, " + text(4.0 * edge_length) + " m");
   const double most = kMostEdges * edge_length / refinement;
   if (!(length <= most)) refuse(rod + "most " + text(kMostEdges) + " edges long, " + text(most) + " m");
   Centreline centreline;
-  centreline.closed = closed;
-  centreline.points = graded(way, radius, edge_length, refinement);
+  centreline.points = graded(points, radius, edge_length, refinement);
   check_no_overlap(centreline, radius, "specimen.file", name);
   return centreline;
 }

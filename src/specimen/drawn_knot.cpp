@@ -19,7 +19,7 @@ KnotDescription describe_drawn_knot() {
   KnotDescription out;
   out.name = "a file of config/knots/";
   out.title = "Knot from a file";
-  out.keys = {"end_to_end", "tail", "preload", "refinement", "natural_curvature", "natural_towards"};
+  out.keys = {"end_to_end", "tail", "preload", "refinement", "natural_curvature"};
   out.any_shape = true;
   out.tied_by_ends = true;
   out.drawn_coil = kDrawnCoil;

@@ -17,7 +17,7 @@ KnotDescription describe_drawn_rod() {
   KnotDescription out;
   out.name = "file";
   out.title = "Rod of a shape from a file";
-  out.keys = {"file", "closed", "refinement", "natural_curvature", "natural_towards", "pre_twist"};
+  out.keys = {"file", "refinement", "natural_curvature"};
   out.any_shape = true;
   return out;
 }
@@ -44,10 +44,8 @@ class DrawnRod final : public Knot {
 
   Centreline centreline(const SpecimenOptions& specimen, const Material& material,
                         const Mounting& mounting) const override {
-    check_ends(specimen);
     const Points points = read_centreline(specimen.file);
-    Centreline out =
-        from_points(points, false, material.radius, specimen.edge_length, specimen.file, mounting.refinement);
+    Centreline out = from_points(points, material.radius, specimen.edge_length, specimen.file, mounting.refinement);
     if (!(out.points.rightCols(1)(2) > out.points.leftCols(1)(2))) {
       throw InvalidInput::sentence(
           "specimen.file", specimen.file,

@@ -253,18 +253,6 @@ double least_end_to_end(const KnotDrawing& drawing, double radius) {
   return (drawing.top() - drawing.bottom() + lower + upper) * radius;
 }
 
-double slack_between_grips(const KnotDrawing& drawing) {
-  double most = 0.0;
-  for (const KnotDrawing::Strand& strand : drawing.strands) {
-    const KnotDrawing::End first = drawing.held(strand.ends[0]), last = drawing.held(strand.ends[1]);
-    if (first == KnotDrawing::End::kFree || last == KnotDrawing::End::kFree || first == last) continue;
-    double way = 0.0;
-    for (std::size_t i = 1; i < strand.points.size(); ++i) way += (strand.points[i] - strand.points[i - 1]).norm();
-    most = std::max(most, way - (strand.points.back() - strand.points.front()).norm());
-  }
-  return most;
-}
-
 double height_of_origin(const KnotDrawing& drawing, const DrawnSize& size) {
   if (drawing.lower.empty()) return -drawing.bottom() * size.radius;
   if (drawing.upper.empty()) return size.end_to_end - drawing.top() * size.radius;

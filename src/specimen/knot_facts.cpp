@@ -17,9 +17,9 @@ namespace knot_utm {
 namespace {
 
 /// Crossings of strands; those with a cut, or with the line that would close the rod, are none.
-int visible_crossings(const Centreline& knot, const PictureView& view) {
-  Mat3 rotation;
-  rotation << view.right.transpose(), PictureView::up().transpose(), view.near.transpose();
+int visible_crossings(const Centreline& knot) {
+  Mat3 rotation;  // from the front
+  rotation << Vec3::UnitX().transpose(), Vec3::UnitZ().transpose(), -Vec3::UnitY().transpose();
   const Eigen::Index closing = knot.points.cols() - 1;
   const auto is_rope = [&](Eigen::Index segment) {
     return segment != closing && std::find(knot.cuts.begin(), knot.cuts.end(), segment) == knot.cuts.end();
@@ -55,7 +55,6 @@ std::string invariants(const KnotPolynomial& polynomial) {
 
 std::string type_of_rope(const Centreline& knot) {
   const Points& x = knot.points;
-  if (knot.closed) return invariants(alexander_polynomial(x.leftCols(x.cols() - 1))) + ", of the closed rod";
   const Vec3 axis = x.rightCols(1) - x.leftCols(1);
   return invariants(alexander_polynomial(closed_far_away(x, axis))) + ", closed far away";
 }
@@ -103,16 +102,12 @@ void find_sharpest_bend(const Centreline& knot, KnotFacts& out) {
 
 }  // namespace
 
-PictureView front_view() { return {"from the front: x, z", Vec3::UnitX(), -Vec3::UnitY()}; }
-
-PictureView side_view() { return {"from the side: y, z", Vec3::UnitY(), Vec3::UnitX()}; }
-
 KnotFacts facts_of(const Centreline& knot, double radius) {
   KnotFacts out;
   out.strands = static_cast<int>(knot.cuts.size()) + 1;
-  out.crossings = visible_crossings(knot, front_view());
+  out.crossings = visible_crossings(knot);
   out.type = type_of(knot, radius);
-  const NearestPlaces nearest = nearest_places(knot.points, 1.5 * M_PI * radius, knot.closed, knot.cuts);
+  const NearestPlaces nearest = nearest_places(knot.points, 1.5 * M_PI * radius, knot.cuts);
   out.least_distance = nearest.distance;
   out.nearest = nearest.middle;
   find_sharpest_bend(knot, out);

@@ -4,9 +4,8 @@
 
 namespace knot_utm {
 
-KnotWatch::KnotWatch(const std::vector<int>& standing_nodes, bool closed, double radius, const Points& start,
-                     int windings)
-    : closed_(closed), radius_(radius) {
+KnotWatch::KnotWatch(const std::vector<int>& standing_nodes, double radius, const Points& start, int windings)
+    : radius_(radius) {
   if (standing_nodes.size() == 2) loop_.emplace(standing_nodes[0], standing_nodes[1], radius, windings);
   start_ = read(start);
 }
@@ -38,12 +37,8 @@ LoopTopology::Reading KnotWatch::read(const Points& points) {
   ++readings_;
   if (loop_) return readings_ == 1 ? loop_->read(points, Vec3::UnitZ()) : loop_->read_as(start_, points, Vec3::UnitZ());
   LoopTopology::Reading reading;
-  if (closed_) {
-    reading.polynomial = alexander_polynomial(points.leftCols(points.cols() - 1));
-  } else {
-    const Vec3 axis = points.rightCols(1) - points.leftCols(1);
-    reading.polynomial = alexander_polynomial(closed_far_away(points, axis));
-  }
+  const Vec3 axis = points.rightCols(1) - points.leftCols(1);
+  reading.polynomial = alexander_polynomial(closed_far_away(points, axis));
   return reading;
 }
 

@@ -80,10 +80,6 @@ std::string knots_that_can_be_tied() {
   return listed_knots([](const Knot& knot) { return knot.about().can_be_tied(); });
 }
 
-void check_ends(const SpecimenOptions& specimen) {
-  if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false, since the grips hold the rod's two ends");
-}
-
 double tying_load(const SpecimenOptions& specimen, const Material& material) {
   return specimen.preload.value_or(default_preload(material));
 }

@@ -229,7 +229,6 @@ class OverhandKnot final : public Knot {
     shape.refinement = mounting.refinement;
     return overhand(shape);
   }
-  std::string what_keeps_it() const override { return "a larger specimen.end_to_end"; }
 };
 
 }  // namespace

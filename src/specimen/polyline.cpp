@@ -143,7 +143,7 @@ std::optional<std::pair<double, double>> part_near_itself(const Points& points, 
   return out;
 }
 
-NearestPlaces nearest_places(const Points& points, double exclusion, bool closed, const std::vector<int>& cuts,
+NearestPlaces nearest_places(const Points& points, double exclusion, const std::vector<int>& cuts,
                              const std::vector<double>& radii) {
   const Eigen::Index edges = points.cols() - 1;
   const Points edge = points.rightCols(edges) - points.leftCols(edges);
@@ -151,7 +151,6 @@ NearestPlaces nearest_places(const Points& points, double exclusion, bool closed
   const Eigen::VectorXd length = edge.colwise().norm();
   const std::vector<double> along = arclengths(points, cuts);
   const Eigen::Map<const Eigen::VectorXd> begin(along.data(), edges + 1);
-  const double total = begin[edges];
   const double thickest = radii.empty() ? 1.0 : *std::max_element(radii.begin(), radii.end());
   Eigen::VectorXd radius = Eigen::VectorXd::Constant(edges, thickest);  // of each edge
   Eigen::VectorXi piece(edges);                                         // that of each edge; -1: it is cut
@@ -169,7 +168,6 @@ NearestPlaces nearest_places(const Points& points, double exclusion, bool closed
     for (Eigen::Index j = i + 1; j < edges; ++j) {
       if (piece[j] < 0) continue;
       if (piece[i] == piece[j] && begin[j] - begin[i + 1] < along_least) continue;
-      if (closed && total - begin[j + 1] + begin[i] < exclusion) continue;
       const double thinner = 2.0 * thickest - radius[i] - radius[j], nearer = best.distance + best.thinner - thinner;
       const double reach = std::max(nearer + 0.5 * (length[i] + length[j]), 0.0);
       if ((middle.col(i) - middle.col(j)).squaredNorm() >= reach * reach) continue;

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
@@ -10,10 +12,9 @@
 #include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/run/run_writer.hpp"
 #include "knot_utm/run/samples.hpp"
 #include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/study/beginning.hpp"
-#include "knot_utm/study/find_margin.hpp"
 #include "knot_utm/study/tied_specimen.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
@@ -54,63 +55,52 @@ struct Test {
   std::string folder;
   TestingMachine& bench;
   ProgramRunner& program;
-  const std::optional<Beginning>& beginning;  ///< what comes before is that one's
-  std::optional<TiedSpecimen>& ties;          ///< what it ties, where that is to be kept
+  const std::vector<Record>& before;  ///< of the specimen that an earlier test has tied
+  std::optional<TiedSpecimen>& ties;  ///< what it ties, where that is to be kept
 };
 
-/// The files of the run in a folder, with the margin where the method asks for it and the knots slide.
-MadeResults make_with_margin(const std::string& folder, const Method& method, const HeadlessOptions& options,
-                             bool ran_here) {
-  ResultsOptions more;
-  if (options.readings == Readings::kAll) more.further = options.further;
-  more.ran_here = ran_here;
-  more.without_end.reason = "the test was cut off";
-  if (method.analysis.margin)
-    more.margin = [&](const Results& results) {
-      Margin none;
-      none.reason = "the knots did not slide";
-      if (results.motion_pattern != MotionPattern::kSliding) return none;
-      return find_margin(method, options.interrupted);
-    };
-  MadeResults made = make_results(folder, method, more);
+void tell_warnings(const MadeResults& made, const HeadlessOptions& options) {
   for (const std::string& warning : printed_warnings(made.results, made.facts)) options.tell(warning);
-  return made;
-}
-
-void pull(const Test& test, SamplesWriter& samples, EarlyEnd& early, const WallClock& clock) {
-  Record record;
-  const bool shapes = test.options.writes_shapes();
-  run_test(
-      test.bench, test.program,
-      [&](const Command& command, const Sample& sample) {
-        take(command, sample, test.bench, shapes, clock.seconds(), record);
-        samples.append(record);
-        if (test.ties) test.ties->add(record);
-        early.add(record);
-        early.end(test.program);
-        if (test.options.progress) test.options.progress(sample, test.program, clock.seconds());
-      },
-      [&] {
-        if (test.ties) test.ties->keep(test.bench, test.program);
-        return test.options.interrupted();
-      });
 }
 
 HeadlessOutcome run_to_end(const Test& test) {
+  const HeadlessOptions& options = test.options;
   SamplesWriter samples(test.folder);
-  EarlyEnd early(test.method, test.options.readings);
-  const auto also = [&](const Record& record) { early.add(record); };
-  const WallClock clock(test.beginning ? test.beginning->replay(samples, also) : 0.0);
+  RunWriter files(test.folder, test.method, options.readings == Readings::kAll ? options.further : nullptr);
+  EarlyEnd early(test.method, options.readings);
+  const auto keep = [&](const Record& record) {
+    samples.append(record);
+    files.add(record);
+    early.add(record);
+  };
+  for (const Record& record : test.before) keep(record);
+  const WallClock clock(test.before.empty() ? 0.0 : test.before.back().wall_time);
   early.end(test.program);  // what comes before may have the whole plateau
-  pull(test, samples, early, clock);
+  Record record;
+  run_test(
+      test.bench, test.program,
+      [&](const Command& command, const Sample& sample) {
+        take(command, sample, test.bench, options.writes_shapes(), clock.seconds(), record);
+        keep(record);
+        if (test.ties) test.ties->add(record);
+        early.end(test.program);
+        if (options.progress) options.progress(sample, test.program, clock.seconds());
+      },
+      [&] {
+        if (test.ties) test.ties->keep(test.bench, test.program, test.folder);
+        return options.interrupted();
+      });
   HeadlessOutcome out;
   out.folder = test.folder;
   if (test.program.ended()) out.ended = test.program.ended_by();
   if (!out.ended) test.program.stop();
   out.reason = test.program.reason();
   out.failed = test.program.failed();
-  samples.end({test.program.ended_by(), out.ended ? out.reason : kInterrupted}, test.bench.state().position);
-  out.results = make_with_margin(test.folder, test.method, test.options, true).results;
+  const TestEnd end{test.program.ended_by(), out.ended ? out.reason : kInterrupted};
+  samples.end(end, test.bench.state().position);
+  const MadeResults made = files.finish(end, test.bench.state().position);
+  tell_warnings(made, options);
+  out.results = made.results;
   out.wall_time = clock.seconds();
   return out;
 }
@@ -129,7 +119,7 @@ namespace {
 /// The specimen that the test ties, where a cache may have it.
 std::optional<TiedSpecimen> tied_by(const Method& method, const HeadlessOptions& options) {
   if (!options.cache) return std::nullopt;
-  return TiedSpecimen::of(method, options.writes_shapes(), *options.cache);
+  return TiedSpecimen::of(method, options.writes_shapes(), options.folder);
 }
 
 }  // namespace
@@ -140,18 +130,20 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   ProgramRunner program = make_program(method, bench.longest_step());
   require_readings(method, options.readings);
   require_no_record_in(options.folder, method);  // before anything is written
-  std::optional<Beginning> beginning;
   std::optional<TiedSpecimen> ties = tied_by(method, options);
-  if (ties) beginning = ties->take_up(method, bench, program);
-  if (beginning) ties.reset();
+  std::vector<Record> before;
+  if (std::optional<std::vector<Record>> restored = ties ? ties->restore(method, bench, program) : std::nullopt) {
+    before = std::move(*restored);
+    ties.reset();
+  }
   const ClaimedFolder claimed = options.claim();
   begin_run_folder(claimed.path(), method, words_of(options.readings));
   // The shape that the last run left in this folder is there no longer, but for its copy.
   if (knot_of(method.specimen).has("file") && !std::filesystem::exists(method.specimen.file))
     method.specimen.file = (std::filesystem::path(claimed.path()) / "specimen.csv").string();
-  const Test test{method, options, claimed.path(), bench, program, beginning, ties};
+  const Test test{method, options, claimed.path(), bench, program, before, ties};
   for (const std::string& warning : foreseen_warnings(method)) options.tell(warning);
-  if (beginning && options.remark)
+  if (!before.empty() && options.remark)
     options.remark("the tied specimen was taken from the cache (--no-cache ties it anew)");
   try {
     return run_to_end(test);
@@ -169,7 +161,12 @@ HeadlessOutcome results_from_samples(const HeadlessOptions& options) {
                                  "there is no samples.csv in " + shown(folder) + " from which results can be made");
   const ClaimedFolder claimed(folder);
   const Method method = load_method((std::filesystem::path(folder) / "method.yaml").string());
-  const MadeResults made = make_with_margin(folder, method, options, false);
+  ResultsOptions more;
+  if (options.readings == Readings::kAll) more.further = options.further;
+  more.ran_here = false;
+  more.without_end.reason = "the test was cut off";
+  const MadeResults made = make_results(folder, method, more);
+  tell_warnings(made, options);
   HeadlessOutcome out;
   out.folder = folder;
   out.results = made.results;

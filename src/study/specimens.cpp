@@ -67,8 +67,4 @@ std::vector<DrawnSpecimen> draw_specimens(const Method& method) {
   return out;
 }
 
-Method method_of_specimen(const Method& method, int number) {
-  return method.specimens.count > 1 ? draw_specimen(method, number).method : method;
-}
-
 }  // namespace knot_utm

@@ -2,16 +2,21 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "knot_utm/analysis/comparison.hpp"
+#include "knot_utm/analysis/raw_zero.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/raw/comparison.hpp"
-#include "knot_utm/raw/raw_zero.hpp"
 #include "knot_utm/run/cannot_write.hpp"
 #include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/curve_file.hpp"
@@ -20,14 +25,19 @@
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif
-#include "add_raw_options.hpp"
 #include "make_report.hpp"
+#include "run_python.hpp"
 #include "tool.hpp"
 
 namespace knot_utm {
 namespace {
 
 constexpr const char* kTool = "compare";
+
+/// How a file that is no curve.csv is to be read, in the words of import_instron.
+struct ReadingWords {
+  std::string columns, units, specimen, invert;
+};
 
 struct Arguments {
   std::string a, b;
@@ -36,31 +46,95 @@ struct Arguments {
   bool yaml = false;  // prints all of it
   std::optional<double> tolerance;
   std::optional<std::string> report;  // a folder
-  RecordWords raw;                    // how raw data are read
-  std::string command;                // the whole line
+  ReadingWords words;
+  std::string command;  // the whole line
 };
 
 void tell(const std::string& line) { std::fprintf(stderr, "%s: %s\n", kTool, line.c_str()); }
 
-CurveOfFile read_bag([[maybe_unused]] const RawOptions& options, const std::string& file,
-                     [[maybe_unused]] const Tell& told) {
+/// The specimen of A or of B. 0: none is given.
+int specimen_of(const std::string& text, bool of_b) {
+  if (text.empty()) return 0;
+  const std::size_t comma = text.find(',');
+  const std::optional<double> number =
+      parse_number(comma == std::string::npos || !of_b ? text.substr(0, comma) : text.substr(comma + 1));
+  constexpr int kMost = 100000;
+  if (!number || !(*number >= 1 && *number <= kMost) || *number != std::floor(*number))
+    throw InvalidInput("--specimen", text, "a number from 1 on, or one for each file: 1,2");
+  return static_cast<int>(*number);
+}
+
+/// "--units and --specimen change nothing" of two curves of ours. Empty where none is given. `one_of_many`: a specimen
+/// was chosen from a batch or a bag, which that word does change.
+std::string without_effect(const ReadingWords& words, bool one_of_many) {
+  std::vector<std::string> given;
+  if (!words.columns.empty()) given.emplace_back("--columns");
+  if (!words.units.empty()) given.emplace_back("--units");
+  if (!words.invert.empty()) given.emplace_back("--invert");
+  if (!words.specimen.empty() && !one_of_many) given.emplace_back("--specimen");
+  return given.empty() ? "" : listed(given, " and ") + (given.size() == 1 ? " changes nothing" : " change nothing");
+}
+
+/// As import_instron does, for a bag of measured readings.
+void turn_signs(CurveOfFile& curve, const std::string& invert, const Tell& told) {
+  for (const auto& [name, value] : {std::pair{"extension", &CurveRow::extension}, std::pair{"load", &CurveRow::load}}) {
+    const bool down = falls(curve.rows, value);
+    if (invert == name || invert == "both" || (invert == "falling" && down)) {
+      for (CurveRow& row : curve.rows) row.*value = -(row.*value);
+      told(curve.file + ": the sign of the " + name + " is turned");
+    } else if (down && invert.empty()) {
+      told(curve.file + ": the " + name + " falls: --invert turns its sign");
+    }
+  }
+}
+
+CurveOfFile read_bag([[maybe_unused]] const std::string& file, [[maybe_unused]] int specimen) {
 #ifdef KNOT_UTM_HAS_ROS
-  CurveOfFile out{file, read_curve_bag(file, options.specimen)};
-  if (!has_its_zero(out.rows)) turn_signs(out.rows, options, file, told);
-  return out;
+  return {file, read_curve_bag(file, specimen)};
 #else
   throw InvalidInput::sentence("file", file, "cannot read a bag: this program was built without ROS").in_file(file);
 #endif
+}
+
+/// What a testing machine exported, by way of the curve.csv that import_instron makes of it.
+CurveOfFile imported(const std::string& file, const ReadingWords& words, int specimen, const Tell& told) {
+  struct Folder {
+    std::string path = (std::filesystem::temp_directory_path() / "knot_utm_XXXXXX").string();
+    ~Folder() {
+      std::error_code error;
+      std::filesystem::remove_all(path, error);
+    }
+  } folder;
+  if (mkdtemp(folder.path.data()) == nullptr) throw CannotWrite(folder.path);
+  const std::string curve = folder.path + "/curve.csv", said = folder.path + "/said";
+  std::vector<std::string> with;
+  if (!words.columns.empty()) with.push_back("--columns=" + words.columns);
+  if (!words.units.empty()) with.push_back("--units=" + words.units);
+  if (!words.invert.empty()) with.push_back("--invert=" + words.invert);
+  if (specimen > 0) with.push_back("--specimen=" + std::to_string(specimen));
+  with.insert(with.end(), {"--", file, curve});
+  const int code = run_python("knot_utm.importing.import_instron", with, said);
+  std::ifstream in(said);
+  std::string last;
+  for (std::string line; std::getline(in, line); last = line)
+    if (code == kDone && line.rfind(file + ": ", 0) == 0) told(line);
+  if (code == kDone) return {file, read_curve(curve)};
+  const std::string name = "import_instron: ";
+  const std::string why = last.rfind(name, 0) == 0 ? last.substr(name.size()) : file + ": cannot be imported: " + last;
+  if (code == kWrongInput) throw InvalidInput::sentence("file", file, why);
+  throw std::runtime_error(why);
 }
 
 bool is_bag(const std::string& file) { return std::filesystem::path(file).extension() == ".bag"; }
 
 bool may_hold_several(const std::string& given) { return std::filesystem::is_directory(given) || is_bag(given); }
 
-CurveOfFile read(const std::string& file, RawOptions options, const Tell& told) {
-  options.needs_time = false;
-  if (is_bag(file)) return read_bag(options, file, told);
-  return {file, read_curve_file(file, options, told)};
+CurveOfFile read(const std::string& file, const ReadingWords& words, int specimen, const Tell& told) {
+  if (!is_bag(file))
+    return is_curve_file(file) ? CurveOfFile{file, read_curve(file)} : imported(file, words, specimen, told);
+  CurveOfFile out = read_bag(file, specimen);
+  if (!has_its_zero(out.rows)) turn_signs(out, words.invert, told);
+  return out;
 }
 
 int run(Arguments arguments) {
@@ -70,14 +144,17 @@ int run(Arguments arguments) {
     throw InvalidInput::sentence(
         "--begins-at", format_number(*arguments.zero.begins_at),
         "--begins-at says where raw data have their zero, so that --no-balance cannot stand beside it");
-  const RawOptions of_a = raw_options(arguments.raw, {}, 0, 2), of_b = raw_options(arguments.raw, {}, 1, 2);
-  const std::string unused =
-      without_effect(arguments.raw, {}, may_hold_several(arguments.a) || may_hold_several(arguments.b));
+  const ReadingWords& words = arguments.words;
+  if (!words.invert.empty() && words.invert != "falling" && words.invert != "extension" && words.invert != "load" &&
+      words.invert != "both")
+    throw InvalidInput("--invert", words.invert, "falling, extension, load or both");
+  const int of_a = specimen_of(words.specimen, false), of_b = specimen_of(words.specimen, true);
+  const std::string unused = without_effect(words, may_hold_several(arguments.a) || may_hold_several(arguments.b));
   arguments.a = curve_file_of(arguments.a, of_a);
   arguments.b = curve_file_of(arguments.b, of_b);
   std::vector<std::string> told;  // nothing of it where there is nothing to compare
   const Tell note = [&](const std::string& line) { told.push_back(line); };
-  CurveOfFile first = read(arguments.a, of_a, note), second = read(arguments.b, of_b, note);
+  CurveOfFile first = read(arguments.a, words, of_a, note), second = read(arguments.b, words, of_b, note);
   if (!unused.empty() && has_its_zero(first.rows) && has_its_zero(second.rows))
     note("both curves are of knot_utm, for which " + unused);
   const auto [a, b, comparison] = compare_curves(std::move(first), std::move(second), arguments.zero, note);
@@ -126,8 +203,16 @@ int main(int argc, char** argv) {
                  "replace the comparison that the folder holds; else the next free folder is taken, -2, -3, ...");
     app.add_flag("--yaml", arguments.yaml,
                  "print all readings as YAML instead, as comparison.yaml of --report has them");
-    knot_utm::add_raw_options(app, arguments.raw,
-                              "which specimen of raw data, a bag or a batch with several, from 1; N,M for A and B");
+    app.add_option("--columns", arguments.words.columns,
+                   "columns of raw data by name or number: time=NAME,extension=NAME,load=NAME, or one or two of these");
+    app.add_option("--units", arguments.words.units,
+                   "units of raw data: time=s,extension=in,load=lbf, or one or two of these");
+    app.add_option("--specimen", arguments.words.specimen,
+                   "which specimen of raw data, a bag or a batch with several, from 1; N,M for A and B");
+    app.add_flag(
+        "--invert{falling}", arguments.words.invert,
+        "turn the sign of what falls in the pull, or, as --invert=load, --invert=extension or --invert=both, of "
+        "these");
     arguments.command = knot_utm::command_line(argc, argv);
     if (const auto code = knot_utm::parse(app, knot_utm::kTool, argc, argv)) return *code;
     return knot_utm::run(arguments);

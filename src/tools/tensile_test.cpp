@@ -14,7 +14,7 @@
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/record/phase.hpp"
-#include "knot_utm/run/cache_folder.hpp"
+#include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/load_test.hpp"
@@ -26,6 +26,7 @@
 #include "knot_utm/study/specimens.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
+#include "knot_utm/verdict/trust_limits.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
 #endif
@@ -52,16 +53,21 @@ void set_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Prints what is known of a knot before it is pulled, and writes its picture, KNOT.svg, into a folder. Throws
-/// InvalidInput where there is no such knot, where it cannot be drawn, or where the picture exists and `overwrite` does
-/// not allow to replace it. `option`: what names the knot, for messages.
-void draw_knot(const std::string& knot, const char* option, const std::string& folder, bool overwrite) {
+/// Prints what is known of a knot before it is pulled, and has Python write its picture, KNOT.png, into a folder.
+/// Throws InvalidInput where there is no such knot, where it cannot be drawn, or where the picture exists and
+/// `overwrite` does not allow to replace it. `option`: what names the knot, for messages.
+int draw_knot(const std::string& knot, const char* option, const std::string& folder, bool overwrite) {
   const KnotSheet sheet = knot_sheet(knot, option);
-  const std::string file = (std::filesystem::path(folder) / (sheet.name + ".svg")).string();
-  require_new_file(option, file, {knot}, overwrite, "<svg");
+  const std::string file = (std::filesystem::path(folder) / (sheet.name + ".png")).string();
+  require_new_file(option, file, {knot}, overwrite, "\x89PNG");
   if (!folder.empty()) make_run_folder(folder);
-  write_whole(file, sheet.picture);
+  const std::string shape = file + ".json";
+  write_whole(shape, sheet.shape);
+  const bool drawn = run_python("knot_utm.knot_picture", {shape, file}) == 0;
+  std::filesystem::remove(shape);
+  if (!drawn) return kFailed;
   std::printf("%spicture: %s\n", sheet.facts.c_str(), file.c_str());
+  return kDone;
 }
 
 struct Arguments {
@@ -80,11 +86,10 @@ struct Arguments {
   bool report = false;
   bool shapes = false;
   bool no_cache = false;
-  std::optional<CacheFolder> cache;  // of tied specimens; empty: none
-  bool check = false;                // no test
-  bool list_keys = false;            // no test
-  std::string program;               // as it was called
-  std::string command;               // the whole line
+  bool check = false;      // no test
+  bool list_keys = false;  // no test
+  std::string program;     // as it was called
+  std::string command;     // the whole line
 };
 
 /// What makes the writer of the bag; nothing without ROS.
@@ -143,7 +148,7 @@ Options options_in(const std::string& folder, const Arguments& arguments, Progre
   options.folder = folder;
   options.overwrite = arguments.overwrite;
   options.shapes = arguments.shapes;
-  options.cache = arguments.cache;
+  options.cache = !arguments.no_cache;
   options.readings = readings_of(arguments);
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {
@@ -224,8 +229,9 @@ int check(const Method& method, Readings readings) {
 }
 
 int list_keys(const Method& method) {
-  std::puts("key,unit");
-  for (const KeyUnit& one : key_units(method)) std::printf("%s,%s\n", one.key.c_str(), one.unit.c_str());
+  std::puts("key,unit,experimental");
+  for (const KeyUnit& one : key_units(method))
+    std::printf("%s,%s,%s\n", one.key.c_str(), one.unit.c_str(), is_experimental(one.key) ? "yes" : "");
   return kDone;
 }
 
@@ -248,10 +254,7 @@ void require_batch(const Arguments& arguments, const Method& method) {
 }
 
 int run(const Arguments& arguments) {
-  if (!arguments.draw.empty()) {
-    draw_knot(arguments.draw, "--draw", arguments.out, arguments.overwrite);
-    return kDone;
-  }
+  if (!arguments.draw.empty()) return draw_knot(arguments.draw, "--draw", arguments.out, arguments.overwrite);
   if (!arguments.show.empty()) {
     std::fputs(run_summary(arguments.show).c_str(), stdout);
     return kDone;
@@ -307,11 +310,10 @@ std::string phases_csv() {
   return text;
 }
 
-/// Where the method stands, where the results go and where tied specimens are kept, once all words are read.
+/// Where the method stands and where the results go, once all words are read.
 void settle(Arguments& arguments) {
   if (arguments.specimens > 0) arguments.overrides.push_back("specimens.count=" + std::to_string(arguments.specimens));
   if (!arguments.show.empty() || !arguments.from_samples.empty() || !arguments.draw.empty()) return;
-  if (!arguments.no_cache) arguments.cache = CacheFolder::of_user();
   if (arguments.resume.empty()) {
     arguments.method = find_method(arguments.method);
     return;
@@ -326,7 +328,7 @@ void settle(Arguments& arguments) {
 const CLI::Option* add_draw(CLI::App& app, Arguments& arguments, const std::vector<CLI::Option*>& others) {
   CLI::Option* draw = app.add_option(
       "--draw", arguments.draw,
-      "only show this knot, one that comes with the package or a file: its facts, and a picture, KNOT.svg, in --out or "
+      "only show this knot, one that comes with the package or a file: its facts, and a picture, KNOT.png, in --out or "
       "the present folder");
   for (CLI::Option* one : others) draw->excludes(one);
   return draw;
@@ -355,7 +357,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
                  "how many specimens are tested side by side; unless given, one for each processor")
       ->check(CLI::Range(1, kMostSpecimens));
   app.add_flag("--no-cache", arguments.no_cache,
-               "tie the specimen even where an earlier test has tied the same one, and keep none for later tests");
+               "tie the specimen even where an earlier test in the same folder has tied the same one, and keep none")
+      ->envname("KNOT_UTM_NO_CACHE");
   CLI::Option* readings = app.add_option(
       "--readings", arguments.readings,
       "plateau: end the test of a tied loop as soon as its sliding force is known, and write no test.bag");
@@ -382,6 +385,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   from_samples->excludes(show)->excludes(out);
   add_list(app);
   add_listing(app, "--list-results", result_keys_csv, "say which keys result.yaml has, with unit, kind and meaning");
+  add_listing(app, "--list-limits", trust_limits_csv, "say up to which limits a result is trusted");
+  add_listing(app, "--list-fields", sample_fields_csv, "say which fields a sample has, with type, unit and meaning");
   add_listing(app, "--list-method-keys", method_keys_csv, "say which keys methods may have, with label and unit");
   add_listing(app, "--list-knots", knots_csv, "say which knots there are, and their keys");
   add_listing(app, "--list-phases", phases_csv, "say which phases a test has: which prepare it, form a knot, and pull");

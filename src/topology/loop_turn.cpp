@@ -19,12 +19,7 @@ void LoopTurn::add(const Points& shape) {
     if (i == highest || i == lowest) sum += length;
   }
   const double middle = 0.5 * (sum - length);
-  const double y = shape.row(1).segment(shape.cols() / 4, shape.cols() / 2).mean();
-  if (!first_) {
-    first_ = middle;
-    first_y_ = y;
-  }
-  along_ = std::max(along_, std::abs(y - first_y_));
+  if (!first_) first_ = middle;
   largest_ = std::max(largest_, std::abs(middle - *first_));
 }
 

@@ -82,11 +82,6 @@ std::string why_no_peak(const ResultSource& source) {
   return of_the_pull(source, source.results.curve.peak_force ? "" : "the load never rose above its balanced zero");
 }
 
-std::string why_no_margin(const ResultSource& source) {
-  const std::string& reason = source.facts.margin.reason;
-  return reason.empty() ? "the method does not ask for analysis.margin" : reason;
-}
-
 std::string why_no_plateau(const ResultSource& source) {
   return source.results.curve.no_plateau.empty() ? "" : "see no_plateau_because";
 }

@@ -15,7 +15,6 @@ inline constexpr const char* kFewForDrops = "the load was read fewer than 20 tim
 std::string why_not_pulled(const ResultSource& source);     ///< empty: something was pulled
 std::string why_no_whole_pull(const ResultSource& source);  ///< empty: something was pulled, to the end of the pull
 std::string why_no_peak(const ResultSource& source);
-std::string why_no_margin(const ResultSource& source);
 std::string why_no_plateau(const ResultSource& source);
 std::string why_no_plateau_error(const ResultSource& source);
 std::string why_no_place_of_drop(const ResultSource& source);

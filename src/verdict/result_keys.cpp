@@ -33,7 +33,6 @@ const Relaxation* part(const Source& of, const Relaxation*) {
   return of.results.relaxation ? &*of.results.relaxation : nullptr;
 }
 const RunFacts* part(const Source& of, const RunFacts*) { return &of.facts; }
-const Margin* part(const Source& of, const Margin*) { return &of.facts.margin; }
 const ReadingErrors* part(const Source& of, const ReadingErrors*) { return &of.errors; }
 
 template <class Struct, class Value>
@@ -229,10 +228,6 @@ constexpr ResultKey kKeys[] = {
      read<&R::plateau_slope>, why_no_plateau},
     {"breakaway_force", "N", kCurve, "Breakaway force, the largest before the plateau", read<&C::breakaway_force>,
      why_no_plateau},
-    {"margin_friction", "-", kCurve, "Share of the friction coefficient that may be missing before the knots open",
-     read<&Margin::friction>, why_no_margin},
-    {"margin_preload", "-", kCurve, "Share of the pre-load that may be missing before the knots open",
-     read<&Margin::preload>, why_no_margin},
     {"force_ratio", "-", kCurve, "Mean true force over the second half of a pull that slides, over the tail load",
      force_ratio, why_no_force_ratio},
     {"no_plateau_because", "-", kCurve, "Why there is no plateau", no_plateau_because, "there is a plateau"},

@@ -11,13 +11,7 @@
 namespace knot_utm {
 namespace {
 
-/// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
-/// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a fraction.
-constexpr double kUnbalanced = 0.01;
-
-constexpr double kForcesDiffer = 0.01;  // of the largest force, as scripts/bench asks for
-constexpr double kFast = 0.01;          // share of F that is told
-constexpr double kHardlyAny = 1e-6;     // accelerated mass, by choice: a smaller one helps no more [own mass]
+constexpr double kHardlyAny = 1e-6;  // accelerated mass, by choice: a smaller one helps no more [own mass]
 
 /// A node that is so many times as fast as the pull snaps. While shipped knots slide, nodes are 11 to 42 times as fast
 /// as the pull; where a strand or a frame lets go, 200 to 500 times.
@@ -67,11 +61,11 @@ class Warnings {
   void of_the_physics() {
     if (results_.knot_type == KnotType::kCrossed)
       say("the rod ran through itself at " + short_number(results_.untangled_at.value_or(Sample::kNone)) + " s");
-    const double deepest = deepest_contact(facts_.material);
-    if (results_.max_penetration > deepest)
+    const double most = deepest_contact(facts_.material);
+    if (results_.max_penetration > most)
       say("strands are pressed into each other by up to " + short_number(results_.max_penetration) +
-          " radii, where a contact is right up to " + short_number(deepest));
-    if (results_.energy_balance_error > kUnbalanced)
+          " radii, where a contact is right up to " + short_number(most));
+    if (results_.energy_balance_error > kEnergiesDiffer.limit)
       say("the energies and the work differ by " + short_number(*results_.energy_balance_error) +
           " of the largest of them: choose a smaller physics.residual");
   }
@@ -95,9 +89,6 @@ class Warnings {
     if (slid_to_the_end(results_) && results_.true_plateau_force && !ended_in_plateau())
       say("the pull ended while the knots still slid. The plateau force is the mean of what was pulled; a longer pull "
           "may give a larger one");
-    if (results_.roller_touched_at)
-      say("a roller bore on a knot or its tail from an extension of " + short_number(*results_.roller_touched_at) +
-          " m on");
     constexpr double kMuchBalanced = 0.1;
     const double balanced = results_.balance_offset.value_or(0.0), plateau = results_.true_plateau_force.value_or(0.0);
     if (plateau > 0.0 && std::abs(balanced) > kMuchBalanced * plateau)
@@ -105,58 +96,33 @@ class Warnings {
           short_number(plateau) + " N: see true_plateau_force");
   }
 
-  /// An overhand whose pull left it a loose loop. At rest the thickest pin that fits into it tells. Else its force
-  /// does: a loop of the radius R under the tension T has 2 T R^2 = k_b, and is wider with friction and fibres that
-  /// rub.
+  /// An overhand whose pull left it a loose loop, as its force tells where nothing measured its hole: a loop of the
+  /// radius R under the tension T has 2 T R^2 = k_b, and is wider with friction and fibres that rub.
   void of_a_loose_knot() {
-    constexpr double kLoose = 1.5;   // by choice: hole of a loose knot over the diameter of the rod
     constexpr double kClosed = 2.0;  // radius of a loop that lies on the strands in it [h]
     const double force = results_.true_peak_force.value_or(0.0), h = facts_.material.radius;
     const bool whole = results_.knot_type == KnotType::kKept && results_.break_place == BreakPlace::kNone;
-    if (!facts_.one_knot_in_a_strand || !whole || !(force > 0.0)) return;
-    const std::string begin = "the knot was still loose as the test ended: the largest force, " + short_number(force) +
-                              " N, leaves ",
-                      end = "; a longer pull brings it tight";
-    if (facts_.knot_hole) {
-      const double hole = *facts_.knot_hole / (2.0 * h);
-      if (hole > kLoose) say(begin + "it a hole of " + short_number(hole) + " times the diameter of the rod" + end);
-      return;
-    }
+    if (!facts_.one_knot_in_a_strand || facts_.knot_hole || !whole || !(force > 0.0)) return;
     const double radius = std::sqrt(facts_.material.bending_stiffness / (2.0 * force)) / h;
     if (radius > kClosed)
-      say(begin + "its loop a radius of at least " + short_number(radius) + " radii of the rod" + end);
-  }
-
-  /// The weight of strands and tails may change the sliding force, or the largest force where nothing slides.
-  void of_gravity() {
-    constexpr double kHeavy = 0.01;  // weight over the sliding force, or the largest one
-    const bool slides = results_.true_plateau_force.has_value();
-    const double force = results_.true_plateau_force.value_or(results_.true_peak_force.value_or(0.0));
-    if (facts_.weight > 0.0 && facts_.weight > kHeavy * force && force > 0.0)
-      say("the rod weighs " + short_number(facts_.weight) + " N, " + short_number(100.0 * facts_.weight / force) +
-          " % of the " + (slides ? "sliding" : "largest") +
-          " force: physics.gravity bends strands and tails and may change that force by several times this share; a "
-          "run without it tells");
+      say("the knot was still loose as the test ended: the largest force, " + short_number(force) +
+          " N, leaves its loop a radius of at least " + short_number(radius) +
+          " radii of the rod; a longer pull brings it tight");
   }
 
   /// Where speed affects the forces of a test, which is meant to be quasi-static.
   void of_speed() {
     const double by_drag = results_.rate.drag.value_or(0.0), by_inertia = results_.rate.inertia.value_or(0.0);
-    const double mass = facts_.inertia, by_own = by_inertia / std::min(1.0, mass);
+    const double mass = facts_.inertia;
     if (by_drag > 1.0)
       say("drag takes " + two_digits(by_drag) +
           " times the work of the pull: the specimen moves by something else than the pull");
-    else if (by_drag > kFast)
+    else if (by_drag > kMuchDrag.limit)
       say("drag makes up " + in_per_cent(by_drag) +
           " of the force until the knots lock: choose a smaller physics.drag or pull more slowly");
-    if (by_inertia > kFast)
+    if (by_inertia > kMuchInertia.limit)
       say("inertia changes the force by " + in_per_cent(by_inertia) + " until the knots lock: " +
           (mass > kHardlyAny ? "choose a physics.inertia much smaller than " + two_digits(mass) : "pull more slowly"));
-    else if (by_own > kFast)
-      say("the simulation accelerates only " + two_digits(mass) +
-          " of the rod's own mass (physics.inertia); all of it would change the force by " +
-          (by_own > 1.0 ? "more than itself" : "about " + in_per_cent(by_own)) +
-          " until the knots lock, so a real test would have to be pulled more slowly");
   }
 
   /// One straight strand of the length L between clamps, under the tension T, writhes at the torque M of
@@ -220,27 +186,13 @@ class Warnings {
     say_of("the grips are ", results_.gauge_length, facts_.end_to_end, "specimen.end_to_end");
   }
 
-  /// A loop that slid along its rollers, which have no friction, or too little.
-  void of_the_rollers() {
-    // By choice, far more than a loop that is held by its rollers' friction moves along them [h].
-    constexpr double kSlidAlong = 3.0;
-    if (facts_.slid_along > kSlidAlong * facts_.material.radius)
-      say("the loop slid along the axes of its rollers by " + short_number(facts_.slid_along) +
-          " m: nothing but machine.roller_friction holds it there");
-  }
-
-  /// A test that the machine ended too early. A solver that gave up and a knot that came undone say so themselves.
-  void of_an_early_end() {
-    if (!results_.true_peak_force && !results_.never_in_tension && results_.ended_by == EndedBy::kTravel)
-      say("the test ended before anything was pulled: " + facts_.reason);
-  }
-
   /// What moves while it is pulled, where it moves enough to be felt.
   void of_what_moves() {
     const std::string moved = why_not_at_rest(results_, facts_);
     say(moved);
     if (!moved.empty() || !results_.force_balance_error || !results_.true_peak_force) return;
-    if (*results_.force_balance_error > kForcesDiffer + kDifferByWeight * facts_.weight / *results_.true_peak_force)
+    if (*results_.force_balance_error >
+        kForcesDiffer.limit + kDifferByWeight * facts_.weight / *results_.true_peak_force)
       say("the forces on the two grips differ by up to " + short_number(100.0 * *results_.force_balance_error) +
           " % of the largest one, more than at rest: pull more slowly");
   }
@@ -261,11 +213,19 @@ class Warnings {
 
 }  // namespace
 
+std::string trust_limits_csv() {
+  std::string all = "name,key,limit,unit,sentence\n";
+  for (const TrustLimit& of :
+       {kDeepContact, kDeepSoftContact, kEnergiesDiffer, kForcesDiffer, kPlateauUnsure, kMuchDrag, kMuchInertia})
+    all += std::string(of.name) + ',' + of.key + ',' + format_number(of.limit) + ',' + of.unit + ",\"" + of.sentence +
+           "\"\n";
+  return all;
+}
+
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
-  constexpr double kUnsure = 0.2;  // more than of a shipped loop at `normal`
   if (!errors.plateau_force) return {};
   const double share = *errors.plateau_force / std::abs(*results.true_plateau_force);
-  if (!(share > kUnsure)) return {};
+  if (!(share > kPlateauUnsure.limit)) return {};
   return "the plateau force may be off by " + format_number(std::round(100.0 * share)) +
          " %; a finer physics.accuracy, a higher specimen.refinement or several specimens tell more";
 }
@@ -275,18 +235,14 @@ std::vector<std::string> printed_warnings(const Results& results, const RunFacts
   found.of_the_physics();
   found.of_events();
   found.of_a_loose_knot();
-  found.of_gravity();
   found.of_twist();
   found.of_thrust();
   found.of_speed();
   found.of_snaps();
   found.say(facts.warnings);
   found.of_missed_marks();
-  found.of_the_rollers();
-  found.of_an_early_end();
   found.of_what_moves();
   found.say(accuracy_warning(results, known_errors(results, facts)));
-  if (!facts.margin.reason.empty()) found.say("no margin: " + facts.margin.reason);
   return found.all;
 }
 

@@ -51,26 +51,6 @@ TEST(CurveReadings, TellsHowTheStiffnessChangesOverThePartThatItIsReadFrom) {
   EXPECT_DOUBLE_EQ(*readings.locked_stiffness, readings.locked->stiffness);
 }
 
-TEST(CurveReadings, AStretchingRodHasAStiffnessAlone) {
-  const CurveReadings readings = curve_readings(pull([](double s) { return 160.0 * s; }));
-  EXPECT_FALSE(readings.plateau_force);
-  EXPECT_FALSE(readings.lock_extension_by_load);
-  EXPECT_NEAR(*readings.locked_stiffness, 160.0, 1e-9);
-}
-
-TEST(CurveReadings, AKnotThatSlidesToTheEndHasNoLockAndNoStiffness) {
-  const CurveReadings readings = curve_readings(pull(sliding, 0.07, 700));
-  EXPECT_NEAR(*readings.plateau_force, 6.0, 1e-12);
-  EXPECT_FALSE(readings.lock_extension_by_load);
-  EXPECT_FALSE(readings.locked_stiffness);
-}
-
-TEST(CurveReadings, ABreakawayIsNoLock) {
-  const auto force = [](double s) { return sliding(s) + 30.0 * std::exp(-s / 2e-3); };
-  EXPECT_NEAR(*curve_readings(pull(force)).lock_extension_by_load, 0.08 + 6.0 / 2e5, 1e-6);
-  EXPECT_FALSE(curve_readings(pull(force, 0.07, 700)).lock_extension_by_load);
-}
-
 TEST(CurveReadings, BesideTheMeanStandWhatItIsTheMeanOf) {
   const CurveReadings readings = curve_readings(pull([](double s) { return sliding(s) + 50.0 * s; }));
   const double lock = *readings.lock_extension_by_load;
@@ -160,33 +140,6 @@ TEST(CurveReadings, AKnotThatTakesInRodAtOnceJumpedOpen) {
       << "green VPS that slips as it is stretched to 1.25 of its length";
 }
 
-/// The knot's rod is counted to the tail's end, which comes nearer and goes away again.
-TEST(CurveReadings, ATailThatWhipsPastIsNoJump) {
-  const auto whips = [](double until) {
-    Pull out = with_knots(pull(sliding), 0.0);
-    HiddenRod hidden;
-    for (PullPoint& point : out) {
-      if (point.extension > 0.03) point.force *= 0.5;
-      const bool near = point.extension > 0.03 && point.extension < until;
-      hidden.push_back({0.08, 0.08 + (near ? 0.0225 : 0.0)});
-    }
-    return curve_readings(out, hidden);
-  };
-  EXPECT_FALSE(whips(0.032).jump_force);
-  EXPECT_TRUE(whips(1.0).jump_force) << "it stays";
-}
-
-/// Its load rises from nothing to its breakaway and then only falls, which looks like a lock.
-TEST(CurveReadings, AKnotThatJumpsBehindItsPeakDidSo) {
-  Pull falling = pull([](double s) { return s < 0.01 ? 600.0 * s : std::max(0.1, 6.0 - 150.0 * (s - 0.01)); });
-  HiddenRod hidden;
-  for (PullPoint& point : falling) {
-    point.knot_distance = 0.2 - 2.0 * point.extension - (point.extension > 0.03 ? 0.03 : 0.0);
-    hidden.push_back({0.08, point.extension > 0.03 ? 0.11 : 0.08});
-  }
-  EXPECT_TRUE(curve_readings(falling, hidden).jump_force);
-}
-
 TEST(CurveReadings, AreJudgedByTheForceThatTheRodBears) {
   const Pull borne = with_knots(pull(sliding), 0.0);
   const CurveReadings a = curve_readings(borne);
@@ -242,13 +195,6 @@ TEST(CurveReadings, ALoopBetweenHeldNodesHasNoPlateauHoweverItsKnotsMove) {
   EXPECT_EQ(curve_readings(pull(sliding), false).no_plateau, "") << "a strand without two knots has no such side";
 }
 
-/// A knot lets out just a twentieth of e_0 at once, beside what sliding between held nodes takes from e.
-TEST(CurveReadings, AKnotThatJumpsOpenDoesMoreThanSliding) {
-  const Pull jumps = with_knots(pull(sliding), 0.01005, -1.0);
-  EXPECT_TRUE(curve_readings(jumps, false).jump_force);
-  EXPECT_FALSE(curve_readings(jumps, true).jump_force);
-}
-
 TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {
   const auto bent = [](double s) { return sliding(s) + 50.0 * std::max(0.0, s - 0.04); };
   Pull few;
@@ -259,11 +205,6 @@ TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {
   EXPECT_NEAR(*a.plateau_force_sd, *b.plateau_force_sd, 1e-6);
   const CurveReadings line = curve_readings({{0.0, 0.0, Sample::kNone, 0.0}, {1.0, 0.1, Sample::kNone, 10.0}});
   EXPECT_FALSE(line.plateau_force || line.lock_extension_by_load);
-}
-
-TEST(CurveReadings, WhereTheSearchForALockCreepsThereIsNone) {
-  // Twice the mean of s^1.1711 over its plateau is reached where that ends: the search hardly goes back.
-  EXPECT_FALSE(curve_readings(pull([](double s) { return std::pow(s, 1.1712); }, 1.0, 20000)).lock_extension_by_load);
 }
 
 /// Also where falls are equal, and where points are further apart than a fall may be.
@@ -291,19 +232,6 @@ TEST(CurveReadings, TheLargestDropIsThatOfAllPairs) {
     EXPECT_EQ(found->from, expected->from) << trial;
     EXPECT_EQ(found->to, expected->to) << trial;
   }
-}
-
-/// A record of a million readings has its drop at once; by pairs it took hours.
-TEST(CurveReadings, ARecordMayHaveAMillionReadings) {
-  Pull pull(1'000'000);
-  for (std::size_t i = 0; i < pull.size(); ++i) {
-    pull[i].extension = 1e-8 * static_cast<double>(i);
-    pull[i].force = static_cast<double>(i) - (i >= 700'000 && i < 700'100 ? 5000.0 : 0.0);
-  }
-  const std::optional<Drop> drop = largest_drop(pull, pull.back().extension);
-  ASSERT_TRUE(drop);
-  EXPECT_EQ(drop->from, 699'999U);
-  EXPECT_EQ(drop->to, 700'000U);
 }
 
 TEST(CurveReadings, OfNothingThereAreNone) {

@@ -65,17 +65,5 @@ TEST(ClosedCycles, SlackThatTheFirstOfThemTakesUpHidesNone) {
   for (const Cycle& cycle : cycles) EXPECT_NEAR(cycle.hysteresis, 2.0 * 1e-3, 1.01 * 2.0 * 1e-3 / 200.0);
 }
 
-TEST(ClosedCycles, NoiseIsNoTurn) {
-  Path shaking = path({0.0, 0.1, 0.0}, rubbing_spring);
-  for (std::size_t i = 0; i < shaking.size(); ++i) shaking[i].extension += i % 2 == 0 ? 1e-3 : -1e-3;
-  EXPECT_EQ(closed_cycles(shaking).size(), 1u);
-}
-
-TEST(ClosedCycles, OfNothingThereAreNone) {
-  EXPECT_TRUE(closed_cycles({}).empty());
-  EXPECT_TRUE(closed_cycles({{0.0, 1.0}}).empty());
-  EXPECT_TRUE(closed_cycles({{0.0, 1.0}, {0.0, 2.0}, {0.0, 1.0}}).empty());
-}
-
 }  // namespace
 }  // namespace knot_utm

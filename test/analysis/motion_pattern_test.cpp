@@ -113,20 +113,6 @@ TEST(MotionPattern, UntanglingWhereAKnotJumpsOpenHoweverLongIsPulled) {
   EXPECT_EQ(on_rollers(jumps(1.2, 0.06), EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);
 }
 
-/// An arch that is drawn straight, or a frictionless overhand: its load may be next to nothing for long.
-TEST(MotionPattern, ALoadThatIsGoneIsNoUntanglingWhileTheTopologyIsTheSame) {
-  std::vector<Sample> samples = Curve().samples();
-  for (Sample& sample : samples) {
-    sample.knot_distance = Sample::kNone;
-    sample.excess_length = PerKnot();
-    if (sample.extension > 0.02) sample.force_upper = sample.force_lower = sample.load = 1e-4;
-  }
-  const Results results = on_rollers(samples, EndedBy::kExtension);
-  EXPECT_EQ(results.motion_pattern, MotionPattern::kNone);
-  EXPECT_FALSE(results.untangled_at);
-  EXPECT_EQ(results.failure_mode, "");
-}
-
 TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLostAndTheLoadIsGone) {
   std::vector<Sample> samples = Curve().samples();
   std::optional<double> lost_at;
@@ -173,27 +159,6 @@ TEST(MotionPattern, AKnotTypeThatChangesUnderLoadIsNoUntangling) {
   EXPECT_EQ(on_rollers(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kUntangling);
 }
 
-TEST(MotionPattern, AKnotTypeThatComesBackWasMisread) {
-  std::vector<Sample> samples = Curve().samples();
-  for (std::size_t i = 30; i < 40; ++i) samples[i].knot_type = KnotType::kChanged;
-  for (std::size_t i = 60; i < samples.size(); ++i) samples[i].force_upper = 0.0;
-  EXPECT_FALSE(on_rollers(samples, EndedBy::kExtension).untangled_at);
-}
-
-/// Of a loop held by two of its nodes the strand beside the knots becomes taut, and bears the load.
-TEST(MotionPattern, KnotsThatGiveWayALittleBeforeAnotherStrandBearsTheLoadDoNotSlide) {
-  std::vector<Sample> samples = Curve().samples();
-  for (Sample& sample : samples) {
-    const double s = sample.extension;
-    sample.knot_distance = 0.15 - 1.7 * std::clamp(s - 0.03, 0.0, 0.02) - 0.5 * std::max(0.0, s - 0.05);
-    sample.load = sample.force_upper = s < 0.05 ? 0.1 * std::exp(100.0 * s) : 10.0 + 2e5 * (s - 0.05);
-  }
-  const Results results = on_rollers(samples, EndedBy::kExtension);
-  EXPECT_EQ(results.motion_pattern, MotionPattern::kStretching);
-  EXPECT_FALSE(results.curve.plateau_force);
-  EXPECT_NE(results.curve.no_plateau, "");
-}
-
 /// A loop that stretches loads its knots until they give way, at a force that stays, and lock.
 TEST(MotionPattern, KnotsThatHeldFirstSlideWhereTheLoadThenStaysLevel) {
   std::vector<Sample> samples = Curve().samples();
@@ -238,15 +203,6 @@ TEST(MotionPattern, RigidSlidingBetweenHeldNodesIsHalfAsFastAsOnRollers) {
   EXPECT_EQ(analyse(gives, gives, EndedBy::kExtension, false).motion_pattern, MotionPattern::kStretching);
 }
 
-TEST(MotionPattern, KnotsThatComeNearerThroughMuchOfThePullSlideWhateverTheLoadDoes) {
-  std::vector<Sample> samples = sliding_under_a_growing_load(-1.2, 1e4);
-  for (Sample& sample : samples) sample.knot_distance += 0.9 * std::min(sample.extension, 0.03);
-  while (samples.back().extension > 0.09) samples.pop_back();  // e falls by 0.045 m of these
-  EXPECT_EQ(on_rollers(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);
-  while (samples.back().extension > 0.04) samples.pop_back();
-  EXPECT_EQ(on_rollers(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kStretching);
-}
-
 TEST(MotionPattern, NoneWithoutAPullOrWithoutTwoKnots) {
   EXPECT_EQ(on_rollers({}, EndedBy::kOperator).motion_pattern, MotionPattern::kNone);
   std::vector<Sample> samples = Curve().samples();
@@ -258,23 +214,6 @@ TEST(MotionPattern, NoneWithoutAPullOrWithoutTwoKnots) {
   EXPECT_EQ(results.motion_pattern, MotionPattern::kNone);
   EXPECT_EQ(results.motion_pattern_confidence, 0.0);
   EXPECT_TRUE(results.curve.locked_stiffness);
-}
-
-TEST(MotionPattern, IsFollowedLive) {
-  const Curve curve;
-  MotionPatternTracker tracker(true);
-  EXPECT_EQ(tracker.pattern(), MotionPattern::kNone);
-  for (const Sample& sample : curve.samples()) {
-    tracker.add(sample);
-    if (sample.extension < curve.lock - 0.005) {
-      EXPECT_FALSE(tracker.lock_extension());
-    } else if (sample.extension > curve.lock + 0.01) {
-      EXPECT_TRUE(tracker.lock_extension()) << sample.extension;
-    }
-    if (sample.extension > 0.01) {
-      EXPECT_EQ(tracker.pattern(), MotionPattern::kSliding) << sample.extension;
-    }
-  }
 }
 
 }  // namespace

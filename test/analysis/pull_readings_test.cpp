@@ -67,16 +67,6 @@ TEST(PullReadings, TheEnergyGoesOnBehindThePeakTheStiffnessesDoNot) {
   EXPECT_NEAR(*tangent_stiffness(tent), 100.0, 1e-9);
 }
 
-TEST(PullReadings, TheSameLinesByMorePointsAreTheSame) {
-  const auto bent = [](double s) { return 50.0 * s + 1e3 * std::max(0.0, s - 0.05) + 1e4 * std::max(0.0, s - 0.08); };
-  Pull few;
-  for (const double s : {0.0, 0.05, 0.08, 0.1}) few.push_back({s, s, Sample::kNone, bent(s)});
-  EXPECT_NEAR(energy(few), energy(pull(bent)), 1e-12);
-  EXPECT_NEAR(*chord_stiffness(few), *chord_stiffness(pull(bent)), 1e-6);
-  EXPECT_NEAR(*tangent_stiffness(few), 50.0 + 1e3 + 1e4, 1e-6);
-  EXPECT_NEAR(*tangent_stiffness(pull(bent)), 50.0 + 1e3 + 1e4, 1e-6);
-}
-
 /// The same as that of each part by itself, whose sums begin with it.
 TEST(PullReadings, TheSteepestTenthIsThatOfAllParts) {
   const Pull wild = pull([](double s) { return 1e3 * s + 20.0 * std::sin(300.0 * s) + 2e5 * std::max(0.0, s - 0.07); });

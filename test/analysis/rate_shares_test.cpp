@@ -44,12 +44,6 @@ TEST(RateShares, MassThatGainsAndLosesSpeedIsInertia) {
   EXPECT_NEAR(*rate_shares(pulled(1e-4), {}, {}).inertia, 1e-4 / kWay / kForce, 1e-9);
 }
 
-TEST(RateShares, TheEnergyOfAJumpIsNoSteadyDrag) {
-  std::vector<Sample> samples = pulled(0.0);
-  for (std::size_t k = 60; k < samples.size(); ++k) samples[k].dissipation += 1e3;
-  EXPECT_NEAR(*rate_shares(samples, {}, {}).drag, kDrag / kForce, 1e-9);
-}
-
 TEST(RateShares, EndWhereTheKnotsLockAndWhereTheyComeUndoneOrTheRodParts) {
   std::vector<Sample> samples = pulled(0.0);
   for (std::size_t k = 40; k < samples.size(); ++k) {

@@ -25,21 +25,6 @@ Sample reading(Phase phase, double displacement, double force) {
   return out;
 }
 
-/// A compressed rod whose rest left 6 uN once had these as its largest load.
-TEST(Results, WhatARestLeavesIsNoTension) {
-  for (const double left : {5e-4, 2e-3}) {
-    std::vector<Sample> samples = Curve().samples();
-    double largest = 0.0;
-    for (Sample& sample : samples) {
-      sample.load = -sample.load;
-      sample.force_upper = -sample.force_upper;
-      largest = std::max(largest, -sample.force_upper);
-    }
-    samples[samples.size() / 2].force_upper = left * largest;
-    EXPECT_EQ(on_rollers(samples, EndedBy::kExtension).never_in_tension, left < 1e-3) << left;
-  }
-}
-
 TEST(Results, AKnotThatJumpsBeforeTheLockIsFastWhatSnapsBehindItIsNot) {
   Curve curve;
   curve.lock = 0.08;
@@ -109,26 +94,6 @@ TEST(Results, ATailHasSlippedAsFarAsItWasInTheKnot) {
   EXPECT_NEAR(on_rollers(samples, EndedBy::kExtension).tail_slip[0], 0.098, 1e-15);
 }
 
-TEST(Results, AJumpIsToldInBothForces) {
-  std::vector<Sample> samples = Curve().samples();
-  for (Sample& sample : samples) {
-    sample.balance_offset = 1.5;
-    if (sample.extension > 0.03) {
-      sample.excess_length[1] += 0.02;
-      sample.force_upper *= 0.2;
-    }
-    sample.force_lower = sample.force_upper;
-    sample.load = sample.force_upper - 1.5;
-  }
-  const Results results = on_rollers(samples, EndedBy::kExtension);
-  ASSERT_TRUE(results.curve.jump_force && results.true_jump_force);
-  EXPECT_NEAR(*results.curve.jump_force, 6.6 - 1.5, 0.3);
-  EXPECT_NEAR(*results.true_jump_force, *results.curve.jump_force + 1.5, 1e-12);
-  EXPECT_NEAR(*results.true_force_after_jump, *results.curve.force_after_jump + 1.5, 1e-12);
-  EXPECT_FALSE(results.curve.plateau_force);
-  EXPECT_NE(results.curve.no_plateau.find("jumped open"), std::string::npos);
-}
-
 /// The load of an overhand that inverts, its stored energy and the work of the grips, as config/overhand.yaml with
 /// three turns and mu = 0.1 has them: it rises, falls by half at once, and rises again.
 TEST(Results, AnOverhandThatInvertsSnaps) {
@@ -158,34 +123,6 @@ TEST(Results, AnOverhandThatInvertsSnaps) {
   }
   EXPECT_FALSE(pulled(0.0, 0.3).snap_extension) << "strands that stick and slip keep what the rod stores";
   EXPECT_FALSE(pulled(0.1, 0.3).snap_extension) << "what was stored before the pull is a drawn shape's";
-}
-
-/// A specimen that is loaded, unloaded or held, and loaded again: it has bedded in or relaxed meanwhile, and goes on
-/// further with a lower load and less energy than the first loading ended with.
-TEST(Results, ASofterSecondLoadingDoesNotSnap) {
-  for (const bool held : {false, true}) {
-    std::vector<Sample> samples;
-    double work = 0.0;
-    const auto move = [&](Phase phase, double from, double to, double stiffness) {
-      constexpr int kSteps = 100;
-      for (int i = 1; i <= kSteps; ++i) {
-        Sample sample;
-        sample.phase = phase;
-        sample.time = 0.1 * static_cast<double>(samples.size());
-        sample.extension = sample.displacement = from + (to - from) * i / kSteps;
-        sample.force_upper = sample.force_lower = sample.load = stiffness * sample.extension;
-        work += sample.force_upper * (to - from) / kSteps;
-        sample.grip_work = work;
-        sample.bending_energy = 0.5 * stiffness * sample.extension * sample.extension;
-        samples.push_back(sample);
-      }
-    };
-    move(Phase::kCycle, 0.0, 0.1, 1000.0);
-    if (held) move(Phase::kHold, 0.1, 0.1, 800.0);
-    if (!held) move(Phase::kCycle, 0.1, 0.01, 800.0);
-    move(Phase::kCycle, held ? 0.1 : 0.01, 0.12, 800.0);
-    EXPECT_FALSE(on_rollers(samples, EndedBy::kExtension).snap_extension) << held;
-  }
 }
 
 /// Of a loop whose knots came nearer to each other by a tenth as it was mounted, and bore this much then [N].
@@ -226,19 +163,6 @@ TEST(Results, KnotsThatMovedAsTheLoopWasMountedAndThenBearMoreAreReadAsOthersAre
   Curve wide;  // open knots bear a little, without sliding
   wide.lock = 0.0;
   EXPECT_EQ(of_knots_that_moved(10.0, wide).motion_pattern, MotionPattern::kUntangling);
-}
-
-TEST(Results, ABreakEndsThePullAndIsNoUntangling) {
-  std::vector<Sample> samples = Curve().samples();
-  const std::size_t at = samples.size() - 10;
-  samples[at].status = BenchStatus::kBroken;
-  const double peak = samples[at].force_upper;
-  for (std::size_t i = at + 1; i < samples.size(); ++i) samples[i].force_upper = 0.0;
-  const Results results = on_rollers(samples, EndedBy::kBreak);
-  EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
-  EXPECT_EQ(results.break_extension, samples[at].extension);
-  EXPECT_EQ(results.true_peak_force, peak);
-  EXPECT_EQ(results.ended_by, EndedBy::kBreak);
 }
 
 /// A spring that is pulled in three coarse steps, breaks, and is balanced where it begins.
@@ -338,14 +262,6 @@ TEST(Results, RelaxationIsThatOfTheLastHoldUnderALoad) {
   EXPECT_NEAR(results.relaxation->lost(), 0.25, 1e-12);
 }
 
-TEST(Results, AHoldAtALoadIsNoRelaxation) {
-  std::vector<Sample> samples = {reading(Phase::kPull, 0.0, 0.0), reading(Phase::kPull, 0.01, 100.0),
-                                 reading(Phase::kHold, 0.01, 200.0), reading(Phase::kHold, 0.011, 300.0)};
-  EXPECT_FALSE(on_rollers(samples, EndedBy::kProgram).relaxation);
-  samples[3].displacement = samples[2].displacement;
-  EXPECT_NEAR(on_rollers(samples, EndedBy::kProgram).relaxation->lost(), -2.0, 1e-12);
-}
-
 /// The bends of a rod that has buckled store more than its compression does.
 TEST(Results, TheLargestThrustIsThatOfARodThatIsStillStraight) {
   std::vector<Sample> samples;
@@ -434,23 +350,6 @@ TEST(Results, EnergyPartsEndAtTheBreak) {
   EXPECT_NEAR(results.energy->work, *results.energy_to_break, 1e-6 * *results.energy_to_break);
   EXPECT_EQ(results.kinetic_energy, 0.0);  // not its change, which is negative
   EXPECT_EQ(results.energy->kinetic, -0.5);
-}
-
-TEST(Results, ForcesAtStartAreThoseThatDifferMostInTheFirstHundredth) {
-  std::vector<Sample> samples = Curve().samples();
-  for (Sample& sample : samples) sample.force_lower = sample.force_upper;
-  EXPECT_EQ(on_rollers(samples, EndedBy::kExtension).at_start->difference(), 0.0);
-  samples.back().force_lower = 0.0;  // at the lock, say
-  EXPECT_EQ(on_rollers(samples, EndedBy::kExtension).at_start->difference(), 0.0);
-  Sample& jerk = samples[1];
-  jerk.extension = samples.front().extension + 0.009 * (samples.back().extension - samples.front().extension);
-  jerk.force_upper = 0.410;
-  jerk.force_lower = 0.067;
-  const GripForces found = *on_rollers(samples, EndedBy::kExtension).at_start;
-  EXPECT_EQ(found.upper, 0.410);
-  EXPECT_EQ(found.lower, 0.067);
-  for (Sample& sample : samples) sample.phase = Phase::kHold;
-  EXPECT_FALSE(on_rollers(samples, EndedBy::kExtension).at_start);
 }
 
 TEST(Results, MomentBalanceIsThatOfThePull) {

@@ -11,12 +11,13 @@ sys.dont_write_bytecode = True
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
 sys.path.insert(0, os.path.join(ROOT, "bench"))
 
+import bends  # noqa: E402
 import front  # noqa: E402
+import measured  # noqa: E402
 import readings  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
 import specimens  # noqa: E402
-import tighten  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
 
 
@@ -38,22 +39,6 @@ class Gates(unittest.TestCase):
 
 
 class Runs(unittest.TestCase):
-    def test_slope_of_sliding_knots_is_the_one_in_the_result_and_of_all_others_that_of_the_whole_pull(self):
-        run = runs.Run("/nowhere", 2.0, 0, "")
-        self.assertIsNone(run.slope_of_knot_distance())
-        at = [0.001 * k for k in range(121)]
-        run.curve = {"phase": ["tie"] + ["pull"] * 121, "extension": [0.0] + at, "knot_distance": [0.5] + [0.15 + 0.3 * s for s in at]}
-        self.assertAlmostEqual(run.slope_of_knot_distance(), 0.3, places=9)
-        run.result = {"motion_pattern": "sliding", "plateau_slope": -1.95, "simulated_time": 60}
-        self.assertEqual((run.slope_of_knot_distance(), run.real_time_factor()), (-1.95, 30.0))
-
-    def test_mean_relative_difference_is_over_what_both_have(self):
-        reference = ([0.0, 1.0, 2.0], [1.0, 2.0, 3.0])
-        self.assertAlmostEqual(runs.mean_relative_difference(([0.0, 2.0], [1.1, 3.3]), reference), 0.1)
-        short, reference = ([0.0, 1.0], [2.0, 2.0]), ([0.5, 9.0], [1.0, 1.0])
-        self.assertAlmostEqual(runs.mean_relative_difference(short, reference), 1.0)
-        self.assertIsNone(runs.mean_relative_difference(short, ([2.0, 3.0], [1.0, 1.0])))
-
     def test_a_runs_memory_is_not_that_of_python(self):
         ballast = bytearray(400_000_000)
         ballast[::4096] = b"x" * len(ballast[::4096])
@@ -80,44 +65,18 @@ class Errors(unittest.TestCase):
             self.assertEqual(bool(readings.Judgement("plateau_force", draw, *both).holds), holds, (result, fine, code))
 
 
-class FakeRunner:
-    """Runs that read the same wherever they start, but for what `change` does to them: (name, result) -> exit code."""
-
-    def __init__(self, change):
-        self.change = change
-
-    def run(self, name, settings):
-        run = runs.Run("/nowhere", 2.0, 0, "")
-        run.result = {"simulated_time": 60.0, "locked_stiffness": 2e5, "true_peak_force": 7e3}
-        if settings["material"] in ("nylon", "polypropylene"):
-            run.result.update({"true_plateau_force": 6.0, "plateau_force_sd": 0.3, "lock_extension": 0.08})
-        run.exit_code = self.change(name, run.result) or 0
-        return run
-
-    def run_all(self, todo):
-        return [self.run(*one) for one in todo]
-
-
-class Means(unittest.TestCase):
-    """What scripts/bench, specimens and convergence make of the same runs in several variants."""
-
-    def failed(self, change=lambda name, result: 0, material="polypropylene"):
-        return specimens.report(FakeRunner(change), [material], 4).failed()
-
-    def test_a_start_that_fails_fails_the_row(self):
-        line, = tighten.over_starts(FakeRunner(lambda name, result: name == "polypropylene_normal/4"), ["polypropylene", "green_vps"], 5).failed()
-        self.assertIn("polypropylene: `normal`: runs that passed is 4", line)
-
-    def test_a_variant_that_moves_a_mean_fails_where_it_is_gated(self):
-        for material in ("polypropylene", "pink_vps"):
-            self.assertEqual(self.failed(material=material), [])
-        line, = self.failed(lambda name, result: result.update(lock_extension=0.0824 if "edges_x1_2/" in name else 0.08))
-        self.assertIn("edges x1/2: relative change of the mean lock extension is 0.03", line)
-
-    def test_a_ripple_and_a_specimen_that_failed_fail(self):
-        self.assertIn("ripple of the plateau", self.failed(lambda name, result: result.update(plateau_force_sd=0.7))[0])
-        failed = self.failed(lambda name, result: name.endswith("presliding_x1_2/1"))
-        self.assertTrue(failed and all("presliding x1/2" in line and "of every specimen" in line for line in failed))
+class Shipped(unittest.TestCase):
+    def test_is_what_the_bench_of_measurements_takes(self):
+        facts = runs.read_yaml(measured.FACTS)
+        held = [knot for name in ("greased", "ordinary", "slippery") for knot in facts[name]["slip"] + facts[name]["hold"]]
+        knots = [f"surgeon_{turns}" for turns in (1, 2, 3)] + facts["orders"]["order"] + facts["slipping"]["order"] + held + list(facts["strengths"]["knots"])
+        ropes = facts["orders"]["ropes"] + facts["ordinary"]["ropes"] + [facts[name]["rope"] for name in ("slipping", "greased", "slippery")]
+        names = [f"knots/{knot}" for knot in knots] + [f"materials/{rope}" for rope in ropes] + [
+            f"validation/{name}" for name in facts["inversions"]["photographs"]]
+        for name in names:
+            self.assertTrue(runs.read_yaml(f"config/{name}.yaml"), name)
+        with open(os.path.join(ROOT, "doc/method.md"), encoding="utf-8") as page:
+            self.assertIn(f"(auto: {bends.TYING_SPEED:g} radii/s;", page.read())
 
     def test_what_is_halved_is_what_is_shipped(self):
         with open(os.path.join(ROOT, "src/machine/measured.hpp"), encoding="utf-8") as source:

@@ -81,7 +81,7 @@ class Target(unittest.TestCase):
 
     def test_every_choice_is_drawn(self):
         for name, options in (("knot", set(KNOTS)), ("grips", {"rollers", "nodes", "clamps"}),
-                              ("friction.law", {"memory", "smoothed", "rate"}), ("contact.law", {"smooth", "edge"}),
+                              ("friction.law", {"memory", "smoothed", "rate"}),
                               ("twist", {"auto", "on", "off"}), ("accuracy", {"draft", "normal", "fine"}),
                               ("handedness", {"same", "opposite"}), ("turns", {1, 2, 3})):
             self.assertEqual({draw.values[name] for draw in DRAWS if name in draw.values}, options)

@@ -13,7 +13,6 @@
 
 #include "contact/strands.hpp"
 #include "knot_utm/contact/centreline_curve.hpp"
-#include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/specimen/material.hpp"
 
@@ -40,13 +39,12 @@ Points hairpin(double apart) {
 }
 
 /// Arclengths between the places that press on each other, ascending.
-template <typename Contact>
 std::vector<double> pressing_loops(const Points& x) {
   Material material;
   material.radius = 1.0;
   const Eigen::Index edges = x.cols() - 1;
-  Contact contact(make_rod(material, (x.rightCols(edges) - x.leftCols(edges)).colwise().norm()), kNormal, Friction(),
-                  kMargin);
+  SmoothContact contact(make_rod(material, (x.rightCols(edges) - x.leftCols(edges)).colwise().norm()), kNormal,
+                        Friction(), kMargin);
   contact.begin(x);
   contact.evaluate(x, x, 1.0);
   std::vector<double> out;
@@ -57,17 +55,13 @@ std::vector<double> pressing_loops(const Points& x) {
 }
 
 /// The nearest places that press lie on the legs' first edges.
-template <typename Contact>
-void expect_from_half_a_turn_on() {
-  EXPECT_TRUE(pressing_loops<Contact>(hairpin(2.05)).empty());
-  const std::vector<double> loops = pressing_loops<Contact>(hairpin(1.98));
+TEST(SmoothContact, BeginsHalfATurnAlongTheRod) {
+  EXPECT_TRUE(pressing_loops(hairpin(2.05)).empty());
+  const std::vector<double> loops = pressing_loops(hairpin(1.98));
   ASSERT_FALSE(loops.empty());
   EXPECT_GE(loops.front(), kPi);
   EXPECT_LE(loops.front(), kPi + 2.0 * kEdge);
 }
-
-TEST(SmoothContact, BeginsHalfATurnAlongTheRod) { expect_from_half_a_turn_on<SmoothContact>(); }
-TEST(EdgeContact, BeginsHalfATurnAlongTheRod) { expect_from_half_a_turn_on<EdgeContact>(); }
 
 /// A strand along z that ends, and one along x that lies across it and slides towards its end and over it.
 class SlidingOver {

@@ -135,15 +135,6 @@ TEST(DeepFoot, PressesHoweverDeepWhereItWasFollowedBefore) {
   EXPECT_EQ(strands.step_to(1.0), 1.0);
 }
 
-TEST(DeepFoot, IsTheSameAfterAStepThatWasNotAccepted) {
-  Beside strands;
-  EXPECT_EQ(strands.step_to(kFar), 0.0);
-  strands.close(0.9);
-  strands.begin();
-  EXPECT_EQ(strands.pressing(1.0), 0.0);
-  EXPECT_EQ(strands.step_to(0.2), 1.0) << "the step begins anew: it has not been deep inside";
-}
-
 TEST(DeepFoot, IsKeptWithTheState) {
   for (const double before : {1.0, -0.1}) {
     Beside strands;

@@ -135,23 +135,6 @@ TEST(FrictionLaws, FourContactsAreFourTimesOne) {
   });
 }
 
-TEST(FrictionLaws, AreSavedWithTheirParameters) {
-  for (Friction& friction : std::vector<Friction>(laws())) {
-    SCOPED_TRACE(friction.name());
-    Archive to("law");
-    friction.state(to);
-    Friction loaded;
-    Archive from("law", to.bytes(), "a file");
-    loaded.state(from);
-    EXPECT_STREQ(loaded.name(), friction.name());
-    EXPECT_EQ(loaded.on(), friction.on());
-    EXPECT_EQ(loaded.creep_speed(), friction.creep_speed());
-    Archive again("law");
-    loaded.state(again);
-    EXPECT_EQ(again.bytes(), to.bytes());
-  }
-}
-
 TEST(MemoryFriction, RemembersWhatItsSpringHolds) {
   const MemoryFriction friction{kMu, kPresliding};
   const Vec3 half = 0.5 * kPresliding * Vec3::UnitY(), far = 3.0 * kPresliding * Vec3::UnitY();

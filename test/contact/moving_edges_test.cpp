@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/contact/closest_points.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -261,6 +263,61 @@ TEST(MovingEdges, WhatIsNotANumberMeets) {
     EXPECT_TRUE(meeting(pair, lost));
     EXPECT_TRUE(meeting(lost, pair));
   }
+}
+
+// ---- closest points of two segments -----------------------------------------------------------------------------
+
+struct Segments {
+  Vec3 p, a, q, b;
+  double objective(double t, double u, double r) const {
+    return 0.5 * (p + t * a - q - u * b).squaredNorm() + 0.5 * r * ((t - 0.5) * (t - 0.5) + (u - 0.5) * (u - 0.5));
+  }
+};
+
+/// Smallest objective over a grid that closes in on its best point; convex, so the best point is not lost.
+double brute_force(const Segments& pair, double r) {
+  constexpr int kGrid = 20;
+  double low_t = 0.0, high_t = 1.0, low_u = 0.0, high_u = 1.0, best = 1e300;
+  for (int round = 0; round < 14; ++round) {
+    double best_t = 0.0, best_u = 0.0;
+    best = 1e300;
+    for (int i = 0; i <= kGrid; ++i)
+      for (int j = 0; j <= kGrid; ++j) {
+        const double t = low_t + (high_t - low_t) * i / kGrid, u = low_u + (high_u - low_u) * j / kGrid;
+        const double value = pair.objective(t, u, r);
+        if (value < best) best = value, best_t = t, best_u = u;
+      }
+    // A narrow oblique valley may run past the neighbouring grid points: keep half of the range.
+    const double dt = 0.25 * (high_t - low_t), du = 0.25 * (high_u - low_u);
+    low_t = std::max(0.0, best_t - dt), high_t = std::min(1.0, best_t + dt);
+    low_u = std::max(0.0, best_u - du), high_u = std::min(1.0, best_u + du);
+  }
+  return best;
+}
+
+TEST(ClosestPoints, AreThoseThatBruteForceFinds) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  auto vector = [&] { return Vec3(place(random), place(random), place(random)); };
+  int inside = 0, at_end = 0, at_both_ends = 0;
+  for (int i = 0; i < 400; ++i) {
+    Segments pair{vector(), vector(), vector(), vector()};
+    if (i % 4 == 0) pair.b = place(random) * pair.a;                // parallel
+    if (i % 4 == 1) pair.b = pair.a + 0.01 * vector();              // nearly so
+    if (i % 8 == 2) pair.q = pair.p + 0.5 * pair.a - 0.5 * pair.b;  // crossing
+    for (const double r : {0.0, 0.01}) {
+      const ClosestPoints at = closest_points(pair.p, pair.a, pair.q, pair.b, r);
+      EXPECT_GE(at.t, 0.0);
+      EXPECT_LE(at.t, 1.0);
+      EXPECT_GE(at.u, 0.0);
+      EXPECT_LE(at.u, 1.0);
+      EXPECT_LE(pair.objective(at.t, at.u, r), brute_force(pair, r) + 1e-12) << "pair " << i << ", r = " << r;
+      if (r > 0.0) ++(at.t_free && at.u_free ? inside : at.t_free || at.u_free ? at_end : at_both_ends);
+    }
+  }
+  EXPECT_GT(inside, 20);
+  EXPECT_GT(at_end, 20);
+  EXPECT_GT(at_both_ends, 20);
 }
 
 }  // namespace

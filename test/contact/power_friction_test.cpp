@@ -32,13 +32,6 @@ TEST(PowerFriction, GrowsWithAPowerOfThePressure) {
   }
 }
 
-TEST(PowerFriction, VanishesWhereStrandsJustTouchWithAFiniteSlope) {
-  const PowerFriction law{kMu, kPresliding, 0.5, kReference};
-  EXPECT_EQ(traction(law, 0.0), 0.0);
-  const FrictionTangent<Vec3> tangent = law.tangent(sliding(0.0), Linearisation::kTangent);
-  EXPECT_NEAR(tangent.by_pressure.norm(), kMu * std::sqrt(1001.0), 1e-9);
-}
-
 /// As Newton's method has it where strands were drawn apart (ContactModel): a straight line from zero on.
 TEST(PowerFriction, GoesOnInAStraightLineBelowZero) {
   const PowerFriction law{kMu, kPresliding, 0.8, kReference};
@@ -53,17 +46,6 @@ TEST(PowerFriction, GoesOnInAStraightLineBelowZero) {
   constexpr double kStep = 1e-7;
   const double slope = (traction(law, kStep) - traction(law, -kStep)) / (2.0 * kStep);
   EXPECT_NEAR(slope, at_zero.by_pressure.norm(), 1e-5 * slope);
-}
-
-TEST(PowerFriction, WithTheExponentOneIsMemory) {
-  const PowerFriction law{kMu, kPresliding, 1.0, kReference};
-  const MemoryFriction memory{kMu, kPresliding};
-  for (const double slip : {0.1, 0.9, 3.0}) {
-    FrictionInput<Vec3> in = sliding(7.0);
-    in.slip = slip * kPresliding * Vec3::UnitY();
-    EXPECT_EQ(law.traction(in).z, memory.traction(in).z);
-    EXPECT_EQ(law.traction(in).coefficient, memory.traction(in).coefficient);
-  }
 }
 
 /// With dT/dphi = mu p_r rho (T/(p_r rho))^n around a shaft of radius rho,

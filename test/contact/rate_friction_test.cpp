@@ -50,18 +50,6 @@ TEST(RateFriction, RelaxesOnceItStops) {
   EXPECT_NEAR(memory.slip.norm() / kPresliding, 1.0 - kRate * std::log(left), 1e-4 * beyond);
 }
 
-TEST(RateFriction, OfNoRateIsMemory) {
-  const RateFriction law{kMu, kPresliding, 0.0, kSpeed};
-  const MemoryFriction memory{kMu, kPresliding};
-  for (const double slip : {0.1 * kPresliding, 0.9 * kPresliding, 3.0 * kPresliding}) {
-    const FrictionInput<Vec3> in = input(slip);
-    EXPECT_EQ(law.traction(in).z, memory.traction(in).z);
-    EXPECT_EQ(law.traction(in).coefficient, kMu);
-    EXPECT_LT((law.remember(in, law.traction(in).z).slip - memory.remember(in, memory.traction(in).z).slip).norm(),
-              1e-15 * kPresliding);
-  }
-}
-
 /// A rod on an incline that bears less than mu_0 stays. Steeper, it creeps at v_0 (exp((tan alpha/mu_0 - 1)/a) - 1).
 TEST(RateFriction, CreepsOnAnIncline) {
   const double presliding = 1e-4 * braided_rope().radius;

@@ -78,25 +78,6 @@ TEST(TunnellingSearch, IsFoundWhereAllPairsOfEdgesHaveOne) {
   EXPECT_GT(kept, 500);
 }
 
-/// A ring of radius 10 in the plane z = 0, open at x = 10; its end lies on its beginning.
-Points ring(int edges) {
-  Points x(3, edges + 1);
-  for (int i = 0; i <= edges; ++i) {
-    const double angle = 2.0 * M_PI * i / edges;
-    x.col(i) << 10.0 * std::cos(angle), 10.0 * std::sin(angle), 0.0;
-  }
-  x.col(edges) = x.col(0);
-  return x;
-}
-
-TEST(TunnellingSearch, AClosedRodSharesANodeWithItself) {
-  const Points start = ring(40), end = 1.1 * start;
-  EXPECT_FALSE(passage(start, end));
-  Points open = end;
-  open.col(40) += Vec3(0.0, 0.0, 0.1);
-  EXPECT_TRUE(passage(start, open)) << "ends that touched and part are two nodes that were in one place";
-}
-
 TEST(TunnellingSearch, EndsThatSlipOverAStrandPassNothing) {
   // A hook: a strand along x, and the rod's tail across it at height one, which is drawn back along y over the strand.
   auto hook = [](double tail) {
@@ -173,37 +154,6 @@ TEST(TunnellingSearch, OverABareEndFirstAndThenOverTheInnerHalfCounts) {
   EXPECT_EQ(std::pair(found->edge_a, found->edge_b), std::pair(2, 6));
   EXPECT_NEAR(found->on_b, 0.3, 1e-3);
   EXPECT_FALSE(TunnellingSearch(8, true).find(at(0.0), at(0.5))) << "over the outer half alone";
-}
-
-TEST(TunnellingSearch, OverABareEndHidesNoOtherOne) {
-  // The strand's far part is pushed through the edge next to the tail's last one as well.
-  Points start = tail_across(0.95, 1.0), end = tail_across(0.95, -1.0);
-  start.col(5) << 4.3, 4.0, 1.0;
-  end.col(5) << 4.3, 4.0, -1.0;
-  EXPECT_FALSE(TunnellingSearch(8, true).find(start, end));
-  start.col(6).y() = end.col(6).y() = -0.5;
-  const auto found = TunnellingSearch(8, true).find(start, end);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->edge_b, 5);
-}
-
-TEST(TunnellingSearch, AClosedRodHasNoBareEnds) {
-  // A wide ring with one edge to either side of where its ends lie on each other. Opposite, an edge of it, a needle
-  // along y, is drawn through that half of the first or of the last edge which would be bare.
-  for (const double x : {0.5, -0.5}) {
-    Points start(3, 9);
-    start << Vec3(0.0, 0.0, 0.0), Vec3(2.0, 0.0, 0.0), Vec3(20.0, 0.0, 9.0), Vec3(20.0, 20.0, 9.0), Vec3(x, 1.0, 5.0),
-        Vec3(x, -1.0, 5.0), Vec3(-20.0, -20.0, 9.0), Vec3(-2.0, 0.0, 0.0), Vec3(0.0, 0.0, 0.0);
-    Points end = start;
-    end.col(4).z() = end.col(5).z() = -1.0;
-    const auto found = TunnellingSearch(9, true).find(start, end);
-    ASSERT_TRUE(found) << x;
-    EXPECT_EQ(std::pair(found->edge_a, found->edge_b), x > 0.0 ? std::pair(0, 4) : std::pair(4, 7));
-    Points open = start, open_end = end;
-    open.col(8).y() = open_end.col(8).y() = -0.1;
-    EXPECT_FALSE(TunnellingSearch(9, true).find(open, open_end)) << x;
-    EXPECT_TRUE(TunnellingSearch(9).find(open, open_end)) << x;
-  }
 }
 
 }  // namespace

@@ -53,10 +53,11 @@ int main() {
 
 
 def recipe():
-    """The section of friction laws: what is said before each block of code, its kind and its lines."""
+    """The section of friction laws: the file that is a copy of an example, and that example; the file that a diff changes, and the diff."""
     with open(os.path.join(ROOT, "CONTRIBUTING.md"), encoding="utf-8") as file:
         section = re.search(r"^## A friction law\n(.*?)(?=^## )", file.read(), re.M | re.S)[1]
-    return re.findall(r"^\d\. [^\n]*`(\S+)`:\n\n```(\w+)\n(.*?)^```", section, re.M | re.S)
+    return (re.search(r"^1\. [^\n]*`(\S+)`: a copy of \[\S+\]\((\S+)\)", section, re.M).groups(),
+            re.search(r"^2\. [^\n]*`(\S+)`:\n\n```diff\n(.*?)^```", section, re.M | re.S).groups())
 
 
 def in_full(text, line):
@@ -98,20 +99,16 @@ class FrictionLaw(unittest.TestCase):
             for room in ("numeric", "rod", "contact"):
                 shutil.copytree(f"{ROOT}/include/knot_utm/{room}", f"{folder}/include/knot_utm/{room}")
                 shutil.copytree(f"{ROOT}/src/{room}", f"{folder}/src/{room}")
-            edits = recipe()
-            self.assertEqual([kind for _, kind, _ in edits], ["cpp", "diff"])
-            for file, kind, text in edits:
-                path = os.path.join(folder, file)
-                self.assertEqual(os.path.exists(path), kind == "diff", file)
-                if kind == "diff":
-                    with open(path, encoding="utf-8") as old:
-                        text = changed(old.read(), text)
-                with open(path, "w", encoding="utf-8") as new:
-                    new.write(text)
+            (law, example), (registry, diff) = recipe()
+            self.assertIn("law_of_your_own", example)
+            self.assertFalse(os.path.exists(f"{folder}/{law}"))
+            shutil.copy(f"{ROOT}/{example}", f"{folder}/{law}")
+            with open(f"{ROOT}/{registry}", encoding="utf-8") as old, open(f"{folder}/{registry}", "w", encoding="utf-8") as new:
+                new.write(changed(old.read(), diff))
             with open(f"{folder}/main.cpp", "w", encoding="utf-8") as program:
                 program.write(PROGRAM)
             numeric = [f"src/numeric/{file}" for file in sorted(os.listdir(f"{folder}/src/numeric")) if file.endswith(".cpp")]
-            built = subprocess.run([COMPILER, *FLAGS, "main.cpp", "src/contact/friction.cpp", *numeric, "-lz", "-o", "main"], cwd=folder,
+            built = subprocess.run([COMPILER, *FLAGS, "main.cpp", *numeric, "-lz", "-o", "main"], cwd=folder,
                                    capture_output=True, text=True, check=False)
             self.assertEqual(built.returncode, 0, built.stderr)
             said = subprocess.run([f"{folder}/main"], capture_output=True, text=True, check=True).stdout.split()

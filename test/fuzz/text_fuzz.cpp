@@ -1,4 +1,4 @@
-// Parsers of texts: methods, files of materials and load cells, centrelines, curves, raw data, single words.
+// Parsers of texts: methods, files of materials and load cells, centrelines, curves, single words.
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -7,11 +7,8 @@
 #include "fuzz/target.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/raw/comparison.hpp"
-#include "knot_utm/raw/raw_data.hpp"
 #include "knot_utm/record/program.hpp"
 #include "knot_utm/run/csv.hpp"
-#include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/polyline.hpp"
@@ -76,7 +73,7 @@ void fuzz_centreline(const std::string& text) {
   // Each edge is held against each other one: what is long, but not too long, would take seconds here.
   const double length = arclengths(points).back();
   if (length > 500.0 * kEdge && length < 1e5 * kEdge) return;
-  const Centreline rod = from_points(points, false, kRadius, kEdge);
+  const Centreline rod = from_points(points, kRadius, kEdge);
   promise(rod.points.allFinite(), "a rod of finite nodes");
   promise(rod.points.leftCols(1) == points.leftCols(1) && rod.points.rightCols(1) == points.rightCols(1),
           "a rod that ends where its points do");
@@ -93,21 +90,6 @@ void fuzz_curve(const std::string& text) {
     promise(phase_named(phase_name(row.phase)) == row.phase, "a phase that has a name");
 }
 const FuzzTarget curve("curve", fuzz_curve);
-
-/// Raw data of a testing machine. What is understood can be written as a curve.csv, pulled, and compared with itself.
-void fuzz_raw_data(const std::string& text) {
-  const std::vector<CurveRow> rows = read_raw_data(text, "raw.csv");
-  promise(!rows.empty(), "a row at least");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    promise(std::isfinite(rows[i].time) && std::isfinite(rows[i].extension) && std::isfinite(rows[i].load), "numbers");
-    promise(i == 0 || rows[i].time >= rows[i - 1].time, "times that do not go back");
-  }
-  const Pull pull = pull_of(rows);
-  const Comparison same = compare(pull, pull);
-  promise(!same.difference || same.difference->rms == 0.0, "a curve is the same as itself");
-  promise(!comparison_yaml(same, "a", "b").empty(), "a comparison can be written");
-}
-const FuzzTarget raw_data("raw_data", fuzz_raw_data);
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 

@@ -77,8 +77,9 @@ TEST(RelativeErrors, OfTheLargestLoadAreKnownOfKnotsFromFiles) {
 }
 
 /// Nylon's edges are shorter, as it is tied hard, and its error is smaller with their square.
-TEST(RelativeErrors, OfTheMethodOfTheFirstReleaseNeedNoWarning) {
-  const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml", {"compatibility=1"});
+TEST(RelativeErrors, OfARopeThatBendsElasticallyNeedNoWarning) {
+  const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml",
+                                     {"material.bending_law=elastic", "material.friction_couple=0"});
   const RelativeErrors errors = relative_errors(shipped.specimen, shipped.material, shipped.machine, shipped.physics);
   EXPECT_NEAR(shipped.specimen.edge_length / shipped.material.radius, 1.008, 5e-4);
   const double edges = 1.008 * 2.25 / 3.0;
@@ -150,8 +151,7 @@ TEST(RelativeErrors, AreGivenForSectionsThatGiveAsTheStudyHadThem) {
 }
 
 TEST(RelativeErrors, AreNotGivenWhereNoStudySays) {
-  Loop edge, smoothed, untied, overhand, rolling, rough, rubber, straight;
-  edge.physics.contact_law = ContactLaw::kEdge;
+  Loop smoothed, untied, overhand, rolling, rough, rubber, straight;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
   overhand.specimen.knot = knot_named("overhand");
@@ -160,7 +160,7 @@ TEST(RelativeErrors, AreNotGivenWhereNoStudySays) {
   straight.specimen.knot = knot_named("straight");
   EXPECT_TRUE(straight.errors().locked_stiffness);
   rubber.material.stretching.law = straight.material.stretching.law = static_cast<StretchingLaw>(1);
-  for (const Loop& loop : {edge, smoothed, untied, overhand, rolling, rough, rubber, straight}) {
+  for (const Loop& loop : {smoothed, untied, overhand, rolling, rough, rubber, straight}) {
     EXPECT_FALSE(loop.errors().plateau_force);
     EXPECT_FALSE(loop.errors().lock_extension);
     EXPECT_FALSE(loop.errors().locked_stiffness);
@@ -180,9 +180,6 @@ TEST(Errors, OfABreakInABendAreThoseOfAKnotThatItsBendHelpsToPart) {
   EXPECT_LT(normal, 0.1);
   knot.specimen.edge_length *= 0.5;
   EXPECT_LT(knot.errors().break_in_bend.value(), 0.85 * normal);
-  knot.physics.contact_law = ContactLaw::kEdge;
-  EXPECT_FALSE(knot.errors().break_in_bend);
-  knot.physics.contact_law = ContactLaw::kSmooth;
   knot.specimen.knot = knot_named("straight");
   EXPECT_FALSE(knot.errors().break_in_bend) << "it has no knot";
 }

@@ -35,55 +35,6 @@ TEST(LedSteps, PreloadMeetsItsLoadAndBalancesStandingStill) {
   for (const Command& command : run(FakeBench(), unbalanced).commands) EXPECT_FALSE(command.balance);
 }
 
-/// The next step begins in the new zero.
-TEST(LedSteps, WhatFollowsAPreloadBeginsAtZero) {
-  auto hold = step<HoldStep>(0.0033, 2.0);
-  PullStep by_load;
-  hold.hold_load = true;
-  by_load.load_rate = 1.0;
-  by_load.until.load = 3.0;
-  CycleStep cycle;
-  cycle.extension = fields::LowHigh{0.0, 0.001};
-  cycle.cycles = 1;
-  ProgramRunner program({preload(2.0), hold, by_load, BalanceStep(), cycle}, 3.0, 0.1, {});
-  const Answered result = run(FakeBench(), program);
-  double begin = 0.0;
-  for (std::size_t n = 1; n < result.samples.size(); ++n) {
-    const Sample& sample = result.samples[n];
-    if (sample.phase == Phase::kHold) {
-      EXPECT_NEAR(sample.load, 0.0, 1e-12);
-      begin = sample.time;
-    }
-    if (sample.phase == Phase::kPull) {
-      EXPECT_LE(sample.load, sample.time - begin + 1e-9);
-    }
-    if (sample.phase == Phase::kCycle) {
-      EXPECT_GE(sample.extension, -1e-12);
-    }
-  }
-}
-
-TEST(LedSteps, ABalanceByTheOperatorMovesNoHeldLoadAndIsNoBreak) {
-  auto hold = step<HoldStep>(0.0033, 5.0);
-  hold.hold_load = true;
-  ProgramRunner::Limits limits;
-  limits.breaks.fraction_of_peak = 0.5;
-  ProgramRunner program({pull(0.01), hold}, 3.0, 0.1, limits);
-  FakeBench bench;
-  double held = 0.0;
-  bool balanced = false;
-  run_test(bench, program, [&](const Command& command, const Sample& sample) {
-    if (command.phase != Phase::kHold) {
-      held = sample.force_upper;
-      return;
-    }
-    EXPECT_NEAR(sample.force_upper, held, 1e-9);
-    if (!balanced) program.balance();
-    balanced = true;
-  });
-  EXPECT_EQ(program.ended_by(), EndedBy::kProgram) << program.reason();
-}
-
 TEST(LedSteps, ErrorsOfTheCellLeadNothing) {
   struct WrongCell : FakeBench {
     Sample respond(const Command& command) {
@@ -100,30 +51,6 @@ TEST(LedSteps, ErrorsOfTheCellLeadNothing) {
   double last = 0.0;
   run_test(bench, program, [&](const Command&, const Sample& sample) { last = sample.force_upper; });
   EXPECT_NEAR(last, 7.0, 1e-9);
-}
-
-TEST(LedSteps, ARateOfLoadGoesOnFromWhereTheCrossheadCouldNotKeepUp) {
-  struct SlackThenStiff : FakeBench {
-    Sample respond(const Command& command) {
-      FakeBench::respond(command);
-      Sample sample = substeps.back();
-      sample.force_upper = sample.load = 1000.0 * std::max(0.0, sample.displacement - 0.01);
-      return sample;
-    }
-  };
-  PullStep by_load;
-  by_load.load_rate = 1.0;
-  by_load.until.load = 5.0;
-  ProgramRunner program({by_load}, 3.0, 0.1, {});
-  SlackThenStiff bench;
-  double before = 0.0, steepest = 0.0;
-  run_test(bench, program, [&](const Command&, const Sample& sample) {
-    steepest = std::max(steepest, (sample.force_upper - before) / program.period());
-    before = sample.force_upper;
-  });
-  // The command in which the slack ends is led as if it went on: what the crosshead moves in one period.
-  EXPECT_LE(steepest, 1000.0 * 0.0033 + 1e-9);
-  EXPECT_NEAR(before, 5.0, 5e-3);
 }
 
 TEST(LedSteps, PullsAtARateOfLoad) {
@@ -228,18 +155,6 @@ TEST(LedSteps, ADropThatIsABreakEndsIt) {
   EXPECT_EQ(cycles.ended_by(), EndedBy::kProgram);
 }
 
-TEST(LedSteps, AReturnNeverMovesOutwards) {
-  ReturnStep home;
-  home.extension = 0.02;
-  ProgramRunner program({BalanceStep(), pull(0.01), home}, 3.0, 0.1, {});
-  const Answered result = run(FakeBench(), program);
-  EXPECT_NEAR(result.samples.back().displacement, 0.01, 0.0033 * program.period());
-  for (const Command& command : result.commands)
-    if (command.phase == Phase::kReturn) {
-      EXPECT_EQ(command.velocity, 0.0);
-    }
-}
-
 TEST(LedSteps, GripsThatMeetEndIt) {
   auto home = step<ReturnStep>(0.01);
   home.extension = -1.0;
@@ -249,17 +164,6 @@ TEST(LedSteps, GripsThatMeetEndIt) {
   EXPECT_NEAR(run(FakeBench(), program).samples.back().end_to_end, 0.1, 0.01 * program.period());
   EXPECT_EQ(program.ended_by(), EndedBy::kTravel);
   EXPECT_THAT(program.reason(), HasSubstr("the grips meet"));
-}
-
-TEST(LedSteps, UnloadingAsProgrammedIsNoBreak) {
-  auto hold = step<HoldStep>(0.01, 5.0);
-  hold.hold_load = true;
-  hold.held_load = 2.0;
-  ProgramRunner::Limits limits;
-  limits.breaks.fraction_of_peak = 0.5;
-  ProgramRunner program({pull(0.01), hold}, 3.0, 0.1, limits);
-  EXPECT_NEAR(run(FakeBench(), program).samples.back().load, 2.0, 1e-9);
-  EXPECT_EQ(program.ended_by(), EndedBy::kProgram) << program.reason();
 }
 
 /// A frame of which half of every way remains.

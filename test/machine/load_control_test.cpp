@@ -54,20 +54,6 @@ TEST(LoadControl, RunsAfterALoadThatDoesNotRise) {
   EXPECT_EQ(speed, kFastest);
 }
 
-/// Over a way that is none, the change of the load is rounding or what the solver left.
-TEST(LoadControl, LearnsNothingFromStandingStill) {
-  LoadControl control;
-  Sample now;
-  control.following(now, 1.0, kPeriod, kFastest);
-  now.displacement = 1e-4;
-  now.force_upper = 1.0;
-  control.following(now, 1.0, kPeriod, kFastest);
-  now.displacement += 1e-12;
-  now.force_upper = 0.9;
-  const double speed = control.following(now, 1.0, kPeriod, kFastest);
-  EXPECT_NEAR(speed, 0.1 / (0.5e4 * kPeriod), 1e-12);
-}
-
 constexpr double kRadius = 0.003, kTaut = 0.3, kSpeed = 0.0033;
 
 struct Loop {

@@ -51,37 +51,6 @@ TEST(ProgramRunner, RunsThePapersPhasesInOrder) {
   EXPECT_EQ(program.reason(), "");
 }
 
-TEST(ProgramRunner, CrossheadMovesOnlyInMountPreloadAndPull) {
-  auto preload = step<PreloadStep>(0.001);
-  preload.load = 20.0;
-  ProgramRunner program({TieStep(), step<ReleaseStep>(0.0033, 1.0), MountStep(), preload, BalanceStep(), pull(0.01),
-                         step<HoldStep>(0.0033, 2.0)},
-                        3.0, 0.1, {});
-  const Answered result = run(FakeBench(), program);
-  for (std::size_t n = 1; n < result.commands.size(); ++n) {
-    const Command& command = result.commands[n];
-    const double moved = command.displacement - result.commands[n - 1].displacement;
-    EXPECT_NEAR(moved, command.velocity * program.period(), 1e-15);
-    const bool moves =
-        command.phase == Phase::kMount || command.phase == Phase::kPreload || command.phase == Phase::kPull;
-    if (command.phase == Phase::kPreload) {  // which meets its load, and then balances
-      EXPECT_GE(command.velocity, 0.0);
-      EXPECT_LE(command.velocity, command.speed);
-    } else {
-      EXPECT_EQ(command.velocity, moves ? command.speed : 0.0);
-    }
-  }
-  EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
-}
-
-TEST(ProgramRunner, PullEndsAtTheFirstSampleAtOrBeyondItsExtension) {
-  ProgramRunner program({BalanceStep(), pull(0.01)}, 3.0, 1.0, {});
-  const Answered result = run(FakeBench(), program);
-  const std::size_t n = result.samples.size();
-  EXPECT_GE(result.samples[n - 1].extension, 0.01);
-  EXPECT_LT(result.samples[n - 2].extension, 0.01);
-}
-
 TEST(ProgramRunner, HoldLastsItsDurationInWholePeriods) {
   for (const auto& [duration, commands] : {std::pair{2.0, 24}, std::pair{2.01, 25}, std::pair{0.001, 1}}) {
     ProgramRunner program({step<HoldStep>(0.0033, duration)}, 3.0, 0.1, {});
@@ -192,15 +161,6 @@ TEST(ProgramRunner, AKnotThatComesUndoneBeforeItIsPulledEndsTheTest) {
     EXPECT_TRUE(program.failed());
     EXPECT_LT(result.samples.back().time, one.undone_from + 3.0 * program.period()) << "the third answer says so";
   }
-}
-
-TEST(ProgramRunner, WhatComesUndoneWhilePulledIsPulledOn) {
-  FakeBench bench;
-  bench.undone_from = 2.5;
-  ProgramRunner program({TieStep(), step<ReleaseStep>(0.0033, 1.0), MountStep(), pull(0.01)}, 3.0, 0.1, {});
-  run(bench, program);
-  EXPECT_EQ(program.ended_by(), EndedBy::kExtension);
-  EXPECT_FALSE(program.failed());
 }
 
 /// So that one may watch how the knot comes open.

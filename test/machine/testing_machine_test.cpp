@@ -77,30 +77,6 @@ TEST(TestingMachine, OnASoftFrameASlackKnotFollowsTheCrosshead) {
   }
 }
 
-/// What is read of two knots is read of a loop alone, and each list has a number for each knot.
-TEST(TestingMachine, ReadsAsManyKnotsAsTheSpecimenHas) {
-  for (const auto& [name, knots] : std::map<const char*, std::size_t>{
-           {"straight", 0}, {"capstan", 0}, {"overhand", 1}, {"fisherman", 2}, {"multiple_fisherman", 2}}) {
-    const double h = nylon().radius;
-    SpecimenOptions specimen = knot_of(knot_named(name)).defaults(h);
-    specimen.knot = knot_named(name);
-    MachineOptions machine;
-    const bool loop = knot_of(specimen).about().loop;
-    machine.grips = loop ? GripKind::kRollers : GripKind::kNodes;
-    machine.roller_diameter = knot_of(specimen).roller_diameter(h).value_or(machine.roller_diameter);
-    const SpecimenOptions known = specimen;
-    knot_of(specimen).suit(known, machine.roller_diameter, h, specimen);
-    PhysicsOptions physics;
-    physics.accuracy = Accuracy::kDraft;
-    const Sample sample = TestingMachine(specimen, nylon(), machine, physics).respond(Command{});
-    EXPECT_EQ(sample.tail_force.size(), knots) << name;
-    EXPECT_EQ(sample.excess_length.size(), knots) << name;
-    EXPECT_EQ(std::isfinite(sample.knot_distance), loop) << name;
-    EXPECT_EQ(std::isfinite(sample.knots_force), loop) << name;
-    for (const double excess : sample.excess_length) EXPECT_EQ(excess > 0.0, loop) << name;
-  }
-}
-
 /// Two springs in series, F = D/(1/K + L/k_s), of a frame that is softer than the rod, as stiff and stiffer.
 TEST(TestingMachine, OnACompliantFrameAStraightRodIsOneOfTwoSpringsInSeries) {
   const double rod = nylon().stretching_stiffness / 0.25;

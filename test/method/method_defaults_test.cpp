@@ -72,32 +72,6 @@ TEST(MethodDefaults, OfAThreadAndOfAHawserFollowFromTheRadius) {
   }
 }
 
-TEST(MethodDefaults, ADragThatIsSetStays) {
-  const Method set = load_method(kConfig + "tighten.yaml", {"physics.drag=0.1", "physics.inertia=1"});
-  EXPECT_EQ(*set.physics.drag, 0.1);
-  EXPECT_EQ(*set.physics.inertia, 1.0);
-  const Method again = parse_method(method_yaml(set), "method.yaml");
-  EXPECT_EQ(*again.physics.drag, 0.1);
-  const Method automatic = load_method(kConfig + "tighten.yaml", {"physics.drag=auto", "physics.inertia=auto"});
-  EXPECT_FALSE(automatic.physics.drag);
-  EXPECT_FALSE(automatic.physics.inertia);
-}
-
-TEST(MethodDefaults, NoShippedRodThatSwingsIsGivenMoreThanItsOwnMass) {
-  int rods = 0;
-  for (const auto& file : std::filesystem::directory_iterator(kConfig + "materials"))
-    for (const char* name : {"tighten", "overhand", "straight"}) {
-      const Method m = load_method(kConfig + name + ".yaml", {"material=" + file.path().stem().string()});
-      const double slack = slack_of(m.specimen, drawn(m)), factor = inertia_factor(m.material, m.physics, slack);
-      EXPECT_GT(factor, 0.0) << file.path() << " " << name;
-      if (slack > 0.0) {
-        EXPECT_LE(factor, 1.0) << file.path() << " " << name;
-      }
-      ++rods;
-    }
-  EXPECT_GE(rods, 33);
-}
-
 INSTANTIATE_TEST_SUITE_P(MethodDefaults, EveryRod, testing::Values(1e-5, 1.2e-4, 5e-4, 2e-3, 0.003175, 0.0125, 0.05));
 
 TEST(MethodDefaults, AreThePapersForItsRods) {
@@ -157,14 +131,6 @@ TEST(MethodDefaults, ALoadCellSuitsTheStrength) {
   EXPECT_EQ(capacity("", {"ends.load=45000"}), 50e3);
   EXPECT_EQ(capacity("", {"machine.load_cell.noise=0.1"}), 10e3);
   EXPECT_EQ(capacity(", load_cell: 20N"), 20.0);
-}
-
-TEST(MethodDefaults, ATyingPreloadLeavesTheRodWhole) {
-  const Method m =
-      load_method(kConfig + "tighten.yaml",
-                  {"material={radius: 0.001, density: 7800, stretching_stiffness: 6.0e5, bending_stiffness: 1.5e-3, "
-                   "twisting_stiffness: 1.0e-3, friction_coefficient: 0.3, breaking_force: 3000}"});
-  EXPECT_EQ(m.specimen.preload, 1500.0);
 }
 
 TEST(MethodDefaults, EveryShippedMaterialMakesASpecimenAndIsPulled) {

@@ -38,7 +38,6 @@ TEST(MethodKeys, AreThoseOfEveryKnotLawAndStep) {
     EXPECT_EQ(unit_of(std::string("program.") + step + ".speed"), "m/s") << step;
   EXPECT_EQ(unit_of("program.pull.until.load"), "N");
   EXPECT_EQ(unit_of("program.cycle.extension"), "m");
-  EXPECT_EQ(unit_of("machine.load_cell.drift"), "N/s");
 }
 
 }  // namespace

@@ -29,32 +29,22 @@ TEST(Method, TightenIsThePapersTest) {
   const Method m = load_method(kTighten);
   EXPECT_EQ(m.name, "tighten");
   EXPECT_EQ(m.specimen.knot, knot_named("fisherman"));
-  EXPECT_EQ(m.specimen.handedness, Handedness::kSame);
   EXPECT_EQ(m.specimen.knot_distance, 0.15);
   EXPECT_EQ(m.specimen.end_to_end, 0.25);
   EXPECT_EQ(m.specimen.preload, 150.0);
   EXPECT_EQ(m.specimen.edge_length, 0.0032);
   EXPECT_EQ(m.material.name, "nylon");
-  EXPECT_EQ(m.material.stretching_stiffness, 7.34e4);
   EXPECT_EQ(m.machine.grips, GripKind::kRollers);
-  EXPECT_EQ(m.machine.load_cell.name, "50kN");
   EXPECT_EQ(m.machine.load_cell.capacity, 50e3);
   EXPECT_TRUE(std::isinf(m.machine.stiffness));
   ASSERT_EQ(m.program.size(), 5u);
   EXPECT_EQ(m.program[0]->phase(), Phase::kTie);
-  EXPECT_EQ(m.program[1]->phase(), Phase::kRelease);
   EXPECT_EQ(m.program[1]->duration, 3.0);
-  EXPECT_EQ(m.program[2]->phase(), Phase::kMount);
-  EXPECT_EQ(m.program[3]->phase(), Phase::kBalance);
   EXPECT_EQ(m.program[4]->phase(), Phase::kPull);
   EXPECT_EQ(m.program[4]->speed, 0.0033);
   EXPECT_EQ(m.program[4].as<PullStep>()->until.extension, 0.12);
   EXPECT_TRUE(m.program[4].as<PullStep>()->until.broken);
-  EXPECT_FALSE(m.program[4].as<PullStep>()->until.load);
   EXPECT_STREQ(FrictionRegistry::entry(m.physics.friction.law).name, "memory");
-  EXPECT_EQ(m.physics.contact_law, ContactLaw::kSmooth);
-  EXPECT_EQ(m.physics.twist, TwistMode::kAuto);
-  EXPECT_EQ(m.physics.accuracy, Accuracy::kNormal);
 }
 
 struct PaperMaterial {
@@ -128,10 +118,6 @@ TEST(Method, EveryOneOfWhatPeopleMeasuredLoadsByItsName) {
   EXPECT_GE(methods, 3);
 }
 
-TEST(Method, IsNoMaterialAndNoStudy) {
-  for (const std::string name : {"nylon", "preload"}) EXPECT_THROW(find_method(name), InvalidInput) << name;
-}
-
 TEST(Method, WritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip.yaml";
   for (const std::string name : {"tighten", "overhand", "straight", "capstan", "from_file"}) {
@@ -142,8 +128,7 @@ TEST(Method, WritesBackToTheSame) {
   const std::string odd = method_yaml(load_method(
       kTighten, {"physics.max_step=0.012345678901234567", "physics.friction={law: smoothed, slip_tolerance: 1.0e-4}",
                  "material.breaking_force=1e4", "machine.load_cell.noise=0.1", "machine.load_cell.accuracy=0.005",
-                 "machine.load_cell.floor=0.002", "machine.load_cell.drift=-1e-3", "machine.load_cell.overload=1.5",
-                 "physics.gravity=[0, 0.1, -9.81]",
+                 "machine.load_cell.floor=0.002", "machine.load_cell.overload=1.5", "physics.gravity=[0, 0.1, -9.81]",
                  "program=[{preload: {load: 1}}, {hold: {duration: 2}}, {pull: {until: {load: 5, time: 3}}}]"}));
   EXPECT_THAT(odd, HasSubstr("max_step: 0.012345678901234567"));
   EXPECT_THAT(odd, HasSubstr("slip_tolerance: 1.0e-04"));
@@ -193,10 +178,13 @@ TEST(Method, CharactersOfATextAreCountedNotItsBytes) {
   EXPECT_EQ(load_method(kTighten, {"report.specimen_id=" + umlauts}).report.specimen_id, umlauts);
 }
 
+constexpr const char* kNames = "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n";
+
 TEST(Method, EveryStepWritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip_steps.yaml";
   const std::string record = ::testing::TempDir() + "knot_utm_record.csv";
-  std::ofstream(record) << "Time (s),Extension (mm),Load (N)\n5.0,1.0,0.5\n6.0,2.5,1.5\n8.0,2.0,1.0\n";
+  std::ofstream(record) << kNames
+                        << "5,0.001,0.5,nan,nan,nan,pull\n6,0.0025,1.5,nan,nan,nan,pull\n8,0.002,1,nan,nan,nan,pull\n";
   const Method method = load_test(
       kTighten,
       {"ends={load: 4000, time: 600, break_at_fraction_of_peak: 0.4}",
@@ -225,7 +213,7 @@ TEST(Method, EveryStepWritesBackToTheSame) {
 
 TEST(Method, ARecordIsNoFasterThanACrosshead) {
   const std::string record = ::testing::TempDir() + "knot_utm_fast_record.csv";
-  std::ofstream(record) << "Time (s),Extension (m),Load (N)\n0,0,0\n1.0,1.5,0.5\n";
+  std::ofstream(record) << kNames << "0,0,0,nan,nan,nan,pull\n1,1.5,0.5,nan,nan,nan,pull\n";
   try {
     load_test(kTighten, {"program=[{follow: {record: " + record + "}}]"});
     ADD_FAILURE();
@@ -269,22 +257,6 @@ TEST(Method, WholeSectionsAreSetBeforeSingleKeys) {
   EXPECT_EQ(m.material.radius, 0.002);
   EXPECT_EQ(m.machine.load_cell.name, "20N");
   EXPECT_EQ(m.machine.load_cell.noise, 0.01);
-}
-
-TEST(Method, PreloadAutoIsTheMaterialsOrFourBendingForces) {
-  const std::string own =
-      "material={radius: 0.002, density: 1000, stretching_stiffness: 4000, bending_stiffness: 4.0e-3, "
-      "twisting_stiffness: 3.0e-3, friction_coefficient: 0.3}";
-  const Method m = load_method(kTighten, {own});
-  EXPECT_DOUBLE_EQ(m.specimen.preload.value(), 4.0 * 4e-3 / 4e-6);
-  EXPECT_EQ(m.material.name, "own");
-  EXPECT_EQ(m.machine.load_cell.name, "auto");
-  EXPECT_EQ(load_method(kTighten, {"specimen.preload=3"}).specimen.preload, 3.0);
-}
-
-TEST(Method, ASpecimenIsToBeTiedWhereTheProgramTies) {
-  EXPECT_TRUE(load_method(kTighten).specimen.to_be_tied);
-  EXPECT_FALSE(load_method(kTighten, {"program=[{balance: {}}]"}).specimen.to_be_tied);
 }
 
 TEST(Method, FilesBesideTheMethodComeFirst) {

@@ -55,16 +55,6 @@ TEST_F(OneNumber, OfABalancedCellWithoutErrors) {
   }
 }
 
-TEST_F(OneNumber, OfACellWithNoiseResolutionAndGain) {
-  const YAML::Node result = run({kWhole,
-                                 "machine.load_cell={capacity: 50000, sampling_rate: 10, noise: 0.05, "
-                                 "resolution: 0.01, accuracy: 0.005, seed: 3}"});
-  expect_that_compare_says(result);
-  const double offset = result["balance_offset"].as<double>(), peak = result["peak_force"].as<double>();
-  EXPECT_NE(result["true_peak_force"].as<double>(), peak + offset);
-  EXPECT_NEAR(result["true_peak_force"].as<double>(), peak + offset, 0.006 * peak);
-}
-
 TEST_F(OneNumber, OfARodThatPartsBetweenTwoReadings) {
   const YAML::Node result = run({"material.breaking_force=1000"});
   EXPECT_EQ(result["ended_by"].as<std::string>(), "break");

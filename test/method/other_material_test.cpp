@@ -11,7 +11,6 @@
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
@@ -104,15 +103,6 @@ TEST(OtherMaterial, AContactOfTwoMaterialsGivesWayAsBothDoOneBehindTheOther) {
               1e-12 * a.stiffness);
 }
 
-TEST(OtherMaterial, BothRopesAreLighterByTheSameFactor) {
-  const Method method = sheet_bend({"other_material=nylon", "other_material.radius=0.001"});
-  const Material moving = as_it_moves(method.material, method.physics, 0.1);
-  const double factor = inertia_factor(method.material, method.physics, 0.1);
-  EXPECT_EQ(moving.density, factor * method.material.density);
-  EXPECT_EQ(moving.other->density, factor * method.material.other->density);
-  EXPECT_LE(factor, inertia_factor(static_cast<const RodMaterial&>(method.material), method.physics, 0.1));
-}
-
 /// The rope that gives way more takes more of the work of rolling, of which it loses its own share.
 TEST(OtherMaterial, TheirContactResistsRollingAsItsTwoHalvesDo) {
   const Method method = sheet_bend({"material=pink_vps", "other_material=pink_vps", "other_material.radius=0.001",
@@ -145,33 +135,6 @@ TEST(OtherMaterial, TheirContactResistsRollingAsItsTwoHalvesDo) {
   EXPECT_NEAR(rolling_between(one, rigid, 1e-3).coefficient, one.rolling_resistance, 1e-6);
 }
 
-TEST(OtherMaterial, WhatResistsRollingIsSavedWithTheSettings) {
-  for (const char* resists : {"0", "0.3"}) {
-    const Method method = sheet_bend({"other_material=polyester_cord", "other_material.radius=0.001",
-                                      std::string("material.rolling_resistance=") + resists,
-                                      std::string("other_material.rolling_resistance=") + resists});
-    const StepSettings saved = step_settings(method.specimen, method.material, method.machine, method.physics);
-    StepSettings loaded = saved;
-    loaded.others.reset();
-    std::string bytes, again;
-    Archive::to(bytes).save(saved);
-    Archive from = Archive::from(bytes, "settings", "a file");
-    from(loaded);
-    EXPECT_EQ(loaded.others->rolling_own.coefficient, saved.others->rolling_own.coefficient);
-    EXPECT_EQ(loaded.others->rolling_between.radius, resists[1] ? saved.others->rolling_between.radius : 0.0);
-    Archive::to(again).save(loaded);
-    EXPECT_EQ(again, bytes);
-  }
-}
-
-TEST(OtherMaterial, TheCellSuitsTheWeakerRope) {
-  const Method alone = sheet_bend({}),
-               strong = sheet_bend({"other_material=polyester_cord", "other_material.breaking_force=1e6"}),
-               weak = sheet_bend({"other_material=polyester_cord", "other_material.breaking_force=100"});
-  EXPECT_EQ(strong.machine.load_cell.capacity, alone.machine.load_cell.capacity);
-  EXPECT_LT(weak.machine.load_cell.capacity, 0.2 * alone.machine.load_cell.capacity);
-}
-
 TEST(OtherMaterial, TheRopeThatIsNearestToItsOwnBreakingForceParts) {
   const Method method = sheet_bend({"other_material=polyester_cord", "other_material.breaking_force=1000"});
   EXPECT_EQ(weakest(method.material), 1000.0);
@@ -197,61 +160,22 @@ TEST(OtherMaterial, TheAutomaticPreloadTiesTheStifferRopeAndSparesTheWeakerOne) 
   EXPECT_EQ(weak.specimen.preload, 5.0);
 }
 
-/// Laid, and moved for a while, the same material twice is as it is once: up to the compliances of contacts, whose sums
-/// round otherwise.
-TEST(OtherMaterial, TheSameOneTwiceIsAsOne) {
-  const auto after = [](const std::vector<std::string>& more) {
-    const Method method = sheet_bend(more);
-    TestingMachine machine(method.specimen, method.material, method.machine, method.physics);
-    Command tie;
-    tie.time = 0.3;
-    tie.step = 0;
-    tie.phase = Phase::kTie;
-    tie.speed = method.program[0]->speed;
-    machine.respond(tie);
-    return machine.state().position;
-  };
-  const Points one = after({}), two = after({"other_material=polyester_cord"});
-  const double h = sheet_bend({}).material.radius;
-  ASSERT_EQ(one.cols(), two.cols());
-  // The residual of Newton's method leaves a thousandth of a radius where strands have not met yet.
-  EXPECT_LT((one - two).cwiseAbs().maxCoeff(), 1e-3 * h);
-}
-
-struct Refused {
-  std::vector<std::string> more;
-  std::string says;
-};
-
 TEST(OtherMaterial, IsRefusedInOneLineWhereNothingTellsRopesApart) {
   const std::string other = "other_material=polyester_cord";
-  for (const Refused& one :
-       std::vector<Refused>{{{other, "specimen.knot=bowline"},
-                             "other_material is polyester_cord, but has an effect only for a knot of two ropes"},
-                            {{other, "specimen.knot=straight", "program=[hold: {duration: 1}]"}, "other_material"},
-                            {{"other_material=steel_wire"},
-                             "other_material.bending_law is elastic, but must be that of material, frictional"},
-                            {{other, "other_material.stretching_law=neo_hookean"}, "other_material.stretching_law"},
-                            {{other, "other_material.friction_couple=0"},
-                             "other_material.friction_couple is 0, but must be that of material, 1"},
-                            {{other, "other_material.friction_couple=0.5"}, "0, 1, or auto"},
-                            {{other, "material.friction_couple=0", "other_material.friction_couple=0",
-                              "other_material.rolling_resistance=0.1"},
-                             "other_material.rolling_resistance is 0.1, but has an effect only with other_material."},
-                            {{other, "other_material.rolling_hysteresis=0.1"},
-                             "other_material.rolling_hysteresis is 0.1, but has an effect only in a solid rod"},
-                            {{other, "physics.friction.pair=larger"}, "smaller or mean"},
-                            {{"physics.friction.pair=mean"},
-                             "physics.friction.pair is mean, but has an effect only with other_material"},
-                            {{other, "physics.contact.law=edge"}, "physics.contact.law"},
-                            {{other, "analysis.margin=true"}, "analysis.margin"},
-                            {{other, "other_material.radius=2"}, "other_material.radius"},
-                            {{other, "other_material.colour=red"}, "other_material.colour"},
-                            {{"other_material=nyloon"}, "other_material"},
-                            {{"physics.friction.pair=0.2"},
-                             "physics.friction.pair is 0.2, but has an effect only with other_material"}}) {
-    const std::string line = refusal_of(one.more);
-    EXPECT_THAT(line, HasSubstr(one.says));
+  const std::pair<std::vector<std::string>, const char*> kRefused[] = {
+      {{other, "specimen.knot=bowline"}, "other_material is polyester_cord"},
+      {{"other_material=steel_wire"}, "other_material.bending_law"},
+      {{other, "other_material.stretching_law=neo_hookean"}, "other_material.stretching_law"},
+      {{other, "other_material.friction_couple=0"}, "other_material.friction_couple is 0"},
+      {{other, "other_material.rolling_hysteresis=0.1"}, "other_material.rolling_hysteresis is 0.1"},
+      {{other, "other_material.twisting_stiffness=1e-9"}, "other_material.twisting_stiffness is 1e-09"},
+      {{other, "physics.friction.pair=larger"}, "physics.friction.pair"},
+      {{other, "other_material.radius=2"}, "other_material.radius is 2"},
+      {{"other_material=nyloon"}, "other_material"},
+      {{"physics.friction.pair=0.2"}, "physics.friction.pair is 0.2"}};
+  for (const auto& [set, says] : kRefused) {
+    const std::string line = refusal_of(set);
+    EXPECT_THAT(line, HasSubstr(says));
     EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 0) << line;
   }
 }

@@ -117,52 +117,6 @@ TEST(TiedByEnds, AnEndOfTheUpperGripSlipsAtItsPartAndIsHeldWhereItIsOnceItIsLetG
   EXPECT_GT(bench.last.force_upper, 0.0);
 }
 
-/// As the automatic value it may stand there, as in the method.yaml of an earlier run.
-TEST(TiedByEnds, APreloadOfAKnotThatNothingTiesIsRefused) {
-  const Method method = knot_method("figure_eight");
-  EXPECT_FALSE(method.specimen.preload);
-  for (const Scatter& scatter : method.specimens.scatter) EXPECT_NE(scatter.key, "specimen.preload");
-  EXPECT_NO_THROW(knot_method("figure_eight", {"specimen.preload=" + format_number(default_preload(method.material))}));
-  try {
-    knot_method("figure_eight", {"specimen.preload=7"});
-    ADD_FAILURE() << "it has no effect";
-  } catch (const InvalidInput& invalid) {
-    EXPECT_NE(std::string(invalid.what()).find("specimen.preload is 7, but has an effect only on a knot whose file"),
-              std::string::npos);
-  }
-  EXPECT_EQ(knot_method("overhand_stopper", {"specimen.preload=7"}).specimen.preload, 7.0);
-}
-
-/// A figure-eight, which has no free end, is tightened by its upper end. Without a release the machine's grip takes
-/// over the load, on a frame that gives as on one that does not.
-TEST(TiedByEnds, AKnotWithoutAFreeEndMayBeTightenedByItsUpperEndWhichTheGripThenHolds) {
-  for (const char* stiffness : {"inf", "1e5"}) {
-    Method method = knot_method("figure_eight", {std::string("machine.stiffness=") + stiffness});
-    KnotDrawing drawing = *method.specimen.drawing;
-    drawing.tie = {{{"upper", 1.0}}};
-    method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
-    method.program.erase(method.program.begin() + 1);
-    Bench bench(method);
-    bench.run_past(Phase::kTie);
-    const double preload = tying_load(method.specimen, method.material);
-    EXPECT_NEAR(bench.last.force_upper, preload, 3e-3 * preload) << stiffness;
-    EXPECT_NEAR(bench.last.force_lower, preload, 3e-3 * preload) << stiffness;
-    bench.last = bench.machine.respond(bench.program.last());
-    EXPECT_EQ(bench.last.status, BenchStatus::kRunning) << bench.last.message;
-    for (const Sample& step : bench.machine.substeps())
-      EXPECT_NEAR(step.force_upper, preload, 5e-3 * preload) << stiffness;
-  }
-}
-
-TEST(TiedByEnds, AKnotWithoutAFreeEndOnlySettles) {
-  Bench bench(knot_method("figure_eight"));
-  bench.run_past(Phase::kRelease);
-  EXPECT_NE(bench.program.last().phase, Phase::kTie);
-  EXPECT_EQ(bench.last.tail_length.size(), 0u);
-  bench.run_past(Phase::kPull);
-  EXPECT_GT(bench.last.force_upper, 0.0);
-}
-
 TEST(TiedByEnds, ReadsHowMuchOfEachFreeEndIsLeft) {
   const Method method = knot_method("grief");
   Bench bench(method);
@@ -201,25 +155,6 @@ TEST(TiedByEnds, TheTailOfAHitchEndsWhereTheRopeComesUponItself) {
     bench.run_past(Phase::kPull);
     EXPECT_NEAR(bench.last.tail_length[0], tail_by_places(bench.machine, h), 5.0 * h) << knot;
   }
-}
-
-/// One and a half turns around a post, whose strands never touch: they hold by the post alone, and do not come undone.
-TEST(TiedByEnds, TheTailOfTurnsAroundAPostEndsWhereThePostPresses) {
-  Method method = knot_method("clove_hitch");
-  KnotDrawing drawing = *method.specimen.drawing;
-  KnotDrawing::Strand& strand = drawing.strands.front();
-  strand.points = {{6.2, 0.0, 20.0}, {6.2, 0.0, 14.0}, {6.2, 0.0, 7.0}};
-  for (double turned = 0.0; turned < 3.0 * M_PI + 0.1; turned += M_PI / 6.0)
-    strand.points.emplace_back(6.2 * std::cos(turned), turned * 6.0 / M_PI, -6.2 * std::sin(turned));
-  strand.points.insert(strand.points.end(), {{-6.2, 19.0, 6.0}, {-6.2, 19.5, 12.0}});
-  method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
-  Bench bench(method);
-  bench.run_past(Phase::kTie);
-  EXPECT_EQ(bench.last.normal_force, 0.0) << "of strands on strands";
-  ASSERT_EQ(bench.last.tail_length.size(), 1u);
-  // The tail as it is drawn. Tying takes the gap around the post, 2 h, and a twentieth of the force lies on 2 h.
-  const double h = method.material.radius;
-  EXPECT_NEAR(bench.last.tail_length[0], method.specimen.tail + 12.0 * h, 6.0 * h);
 }
 
 /// Contacts that roll have less memory of how a knot was tied.
@@ -345,8 +280,6 @@ TEST(Ring, BearsAStrandInAPlaneThroughItsAxisAsAPost) {
   EXPECT_NEAR(on_ring.last.force_lower, on_post.last.force_lower, 1e-6 * load);
 }
 
-TEST(Ring, IsPartOfASavedState) { expect_the_same_bits_from_a_saved_state(knot_method("overhand_stopper"), 20); }
-
 /// The tail of an overhand whose contacts roll slides out of its knot in nylon, before a hole that holds a figure-eight
 /// knot.
 TEST(Stopper, OfAFigureEightHoldsMoreThanThatOfAnOverhand) {
@@ -361,19 +294,6 @@ TEST(Stopper, OfAFigureEightHoldsMoreThanThatOfAnOverhand) {
     return last.force_upper;
   };
   EXPECT_GT(load("figure_eight_stopper"), 5.0 * load("overhand_stopper"));
-}
-
-TEST(Stopper, LeavesAHoleThatIsWiderThanItsKnot) {
-  Method method = knot_method("overhand_stopper");
-  KnotDrawing drawing = *method.specimen.drawing;
-  drawing.posts.front().ring = 6.0;
-  method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
-  for (ProgramStep& step : method.program)
-    if (PullStep* pull = step.as<PullStep>()) pull->until.extension = 0.15;
-  Bench bench(method);
-  bench.run_past(Phase::kPull);
-  EXPECT_LT(bench.machine.state().position.row(2).minCoeff(), 0.0);
-  EXPECT_LT(std::abs(bench.last.force_upper), 1e-3 * *method.specimen.preload);
 }
 
 TEST(TiedByEnds, AWeightHangsOnAnEndFromItsReleaseOn) {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "contact/nodal_forces.hpp"
-#include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "properties/random.hpp"
@@ -15,22 +14,12 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-template <typename Law>
-class ContactLawSymmetry : public testing::Test {
- protected:
-  static Law law(const Units& units) { return {1e7 * units.stress(), 5e-5 * units.length}; }
-};
-template <>
-NormalLaw ContactLawSymmetry<NormalLaw>::law(const Units& units) {
-  return {1e7 * units.stress(), 5e-5 * units.length, 4e-5 * units.length};
-}
-using Laws = testing::Types<NormalLaw, EdgeLaw>;
-TYPED_TEST_SUITE(ContactLawSymmetry, Laws);
+NormalLaw law_of(const Units& units) { return {1e7 * units.stress(), 5e-5 * units.length, 4e-5 * units.length}; }
 
-TYPED_TEST(ContactLawSymmetry, HasNoUnitOfItsOwn) {
+TEST(ContactLawSymmetry, HasNoUnitOfItsOwn) {
   rc::detail::checkGTest([] {
     const Units units = random_powers_of_two();
-    const TypeParam law = TestFixture::law({1, 1, 1}), other = TestFixture::law(units);
+    const NormalLaw law = law_of({1, 1, 1}), other = law_of(units);
     const double overlap = random_between(-1e-4, 3e-4);
     RC_ASSERT(other.pressure(units.length * overlap) == units.force / units.length * law.pressure(overlap));
     RC_ASSERT(other.slope(units.length * overlap) == units.stress() * law.slope(overlap));
@@ -38,20 +27,19 @@ TYPED_TEST(ContactLawSymmetry, HasNoUnitOfItsOwn) {
   });
 }
 
-TYPED_TEST(ContactLawSymmetry, PressureRisesAndCanBeTurnedRound) {
+TEST(ContactLawSymmetry, PressureRisesAndCanBeTurnedRound) {
   rc::detail::checkGTest([] {
-    const TypeParam law = TestFixture::law({1, 1, 1});
+    const NormalLaw law = law_of({1, 1, 1});
     const double high = random_between(1e-5, 3e-4), low = high - random_between(1e-6, 3e-4);
     RC_ASSERT(law.pressure(low) >= 0.0 && law.pressure(high) > law.pressure(low));
     RC_ASSERT(law.energy(low) >= 0.0 && law.energy(high) > law.energy(low));
     const double pressure = law.pressure(high);
-    // The root is found to 1e-9 of the pressure, or to 1e-12 of a fifteenth of delta.
+    // The root is found to 1e-9 of the pressure.
     near(std::abs(law.pressure(law.overlap_at(pressure)) - pressure), 2e-9 * pressure, "pressure at its overlap");
   });
 }
 
 /// Contacts of a random scene after it has moved by a little, from rest or with friction.
-template <typename Contact>
 struct Touching {
   Scene scene;
   Points position;
@@ -61,12 +49,12 @@ struct Touching {
 
   explicit Touching(double friction) {
     const std::vector<int> numbers = random_numbers(RandomScene::kNumbers);
-    scene = RandomScene(numbers, ContactLaw::kSmooth, false).scene();
+    scene = RandomScene(numbers, false).scene();
     presliding = 0.02 * scene.rod.material.radius;
     scene.settings.friction = MemoryFriction{friction, presliding};
     position = scene.state.position + scene.dt * scene.state.velocity;
     const StepSettings& s = scene.settings;
-    Contact contact(scene.rod, s.pressure_law, s.friction, s.candidate_margin);
+    SmoothContact contact(scene.rod, s.pressure_law, s.friction, s.candidate_margin);
     contact.begin(position);
     contact.evaluate(position, scene.state.position, scene.dt);
     contacts = contact.contacts();
@@ -86,31 +74,26 @@ struct Touching {
   }
 };
 
-template <typename Contact>
-class ContactSymmetry : public testing::Test {};
-using Contacts = testing::Types<SmoothContact, EdgeContact>;
-TYPED_TEST_SUITE(ContactSymmetry, Contacts);
-
-TYPED_TEST(ContactSymmetry, ForcesAddUpToNothing) {
+TEST(ContactSymmetry, ForcesAddUpToNothing) {
   rc::detail::checkGTest([] {
-    const Touching<TypeParam> touching(random_between(0.0, 0.6));
+    const Touching touching(random_between(0.0, 0.6));
     near(touching.forces().rowwise().sum().norm(), touching.force_error(), "force");
   });
 }
 
 /// Normal forces act along the line between their two points.
-TYPED_TEST(ContactSymmetry, MomentsAddUpToNothingWithoutFriction) {
+TEST(ContactSymmetry, MomentsAddUpToNothingWithoutFriction) {
   rc::detail::checkGTest([] {
-    const Touching<TypeParam> touching(0.0);
+    const Touching touching(0.0);
     const double far = touching.position.colwise().norm().maxCoeff();
     near(touching.moment().norm(), 4.0 * touching.force_error() * far, "moment");
   });
 }
 
 /// Friction acts on the centrelines too, a diameter apart, and no moment about the strands makes up for that.
-TYPED_TEST(ContactSymmetry, FrictionLeavesTheMomentOfItsArms) {
+TEST(ContactSymmetry, FrictionLeavesTheMomentOfItsArms) {
   rc::detail::checkGTest([] {
-    const Touching<TypeParam> touching(0.5);
+    const Touching touching(0.5);
     Vec3 arms = Vec3::Zero();
     for (const ContactPoint& contact : touching.contacts) arms += contact.x.cross(contact.force);
     const double far = touching.position.colwise().norm().maxCoeff();
@@ -118,10 +101,10 @@ TYPED_TEST(ContactSymmetry, FrictionLeavesTheMomentOfItsArms) {
   });
 }
 
-TYPED_TEST(ContactSymmetry, FrictionIsTangentialAndAtMostMuTimesThePressure) {
+TEST(ContactSymmetry, FrictionIsTangentialAndAtMostMuTimesThePressure) {
   rc::detail::checkGTest([] {
     const double mu = random_between(0.1, 0.6);
-    const Touching<TypeParam> touching(mu);
+    const Touching touching(mu);
     for (const ContactPoint& contact : touching.contacts) {
       const double normal = contact.weight * contact.pressure;
       const Vec3 tangential = contact.force - normal * contact.n;

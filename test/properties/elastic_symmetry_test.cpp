@@ -56,17 +56,15 @@ struct Rod {
 
 Rod random_rod() {
   const std::vector<int> numbers = random_numbers(RandomScene::kNumbers);
-  const Scene scene = RandomScene(numbers, ContactLaw::kSmooth, true).scene();
+  const Scene scene = RandomScene(numbers, true).scene();
   Rod out{scene.rod, scene.state};
   initialise_frames(&out.state);
   const Eigen::Index edges = out.rod.edges(), inner = edges - 1;
   const double a = random_between(-0.5, 0.5), b = random_between(-0.5, 0.5), c = random_between(0.1, 2.0);
   for (Eigen::Index j = 0; j < edges; ++j) out.state.twist[j] = a * std::sin(c * static_cast<double>(j));
   out.state.natural_curvature.resize(2, inner);
-  out.rod.natural_twist.resize(inner);
   for (Eigen::Index i = 0; i < inner; ++i) {
     out.state.natural_curvature.col(i) << b, a * std::cos(c * static_cast<double>(i));
-    out.rod.natural_twist[i] = 0.3 * b * std::cos(0.7 * static_cast<double>(i));
   }
   return out;
 }
@@ -78,7 +76,6 @@ Rod moved(Rod rod, const Motion& motion) {
   rod.state.twist *= motion.handedness();
   rod.state.reference_twist *= motion.handedness();
   rod.state.natural_curvature.row(1) *= motion.handedness();
-  rod.rod.natural_twist *= motion.handedness();
   return rod;
 }
 
@@ -92,7 +89,6 @@ Rod reversed(Rod rod) {
   rod.rod = make_rod(before.rod.material, before.rod.rest_length.reverse());
   rod.state.natural_curvature = before.state.natural_curvature.rowwise().reverse();
   rod.state.natural_curvature.row(1) *= -1.0;
-  rod.rod.natural_twist = before.rod.natural_twist.reverse();
   return rod;
 }
 

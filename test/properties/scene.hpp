@@ -78,7 +78,7 @@ class RandomScene {
  public:
   static constexpr std::size_t kNumbers = 40;
 
-  RandomScene(const std::vector<int>& numbers, ContactLaw law, bool twist) : numbers_(numbers) {
+  RandomScene(const std::vector<int>& numbers, bool twist) : numbers_(numbers) {
     Scene& s = scene_;
     s.twist = twist;
     RodMaterial material;
@@ -97,7 +97,6 @@ class RandomScene {
     const double bending_time = h_ * h_ * std::sqrt(material.density * M_PI * h_ * h_ / material.bending_stiffness);
     s.dt = bending_time * between(0.1, 0.5);
     s.settings.weighting_time = between(1.0, 10.0) * s.dt;
-    s.settings.contact_law = law;
     s.settings.pressure_law = NormalLaw{300.0 * material.bending_stiffness / std::pow(h_, 4), 0.02 * h_, 0.05 * h_};
     s.settings.friction = MemoryFriction{between(0.0, 0.4), 0.02 * h_};
     s.settings.roller_friction = SmoothedFriction{between(0.0, 0.6), 0.02 * h_ / s.dt};

@@ -6,7 +6,7 @@ import sys
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
 TOOLS = os.environ.get("KNOT_UTM_TOOLS_DIR", os.path.join(ROOT, "build/devel/lib/knot_utm"))
 sys.dont_write_bytecode = True
-os.environ["KNOT_UTM_CACHE_LIMIT"] = "0"  # a test takes up nothing that another one has left
+os.environ["KNOT_UTM_NO_CACHE"] = "1"  # a test takes up nothing that another one has left
 
 try:
     import matplotlib  # noqa: F401

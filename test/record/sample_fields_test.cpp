@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -67,53 +65,6 @@ TEST(SampleFields, StandInTheOrderOfTheJournal) {
                                  "steps", "rejected_steps", "newton_iterations", "knot_type", "status", "message",
                                  "highest_load", "lowest_load", "break_arclength", "break_place", "knots_force",
                                  "knot_on_roller", "raw_extension", "turn", "torque", "knot_readings"));
-}
-
-/// A field of msg/KnotState.msg and the comment above it, lines joined.
-struct MessageField {
-  std::string type, comment;
-};
-
-std::map<std::string, MessageField> message_fields() {
-  std::ifstream in(std::string(KNOT_UTM_SOURCE_DIR) + "/msg/KnotState.msg");
-  std::map<std::string, MessageField> fields;
-  const std::regex field(R"(([\w/\[\]]+) (\w+))");
-  std::string comment;
-  for (std::string line; std::getline(in, line);) {
-    std::smatch parts;
-    if (line.rfind("# ", 0) == 0) {
-      comment += (comment.empty() ? "" : " ") + line.substr(2);
-      continue;
-    }
-    if (std::regex_match(line, parts, field)) fields[parts[2]] = {parts[1], comment};
-    comment.clear();
-  }
-  return fields;
-}
-
-template <typename Value>
-std::string message_type() {
-  if constexpr (std::is_same_v<Value, Phase> || std::is_same_v<Value, std::string>) return "string";
-  if constexpr (std::is_enum_v<Value>) return "uint8";
-  if constexpr (std::is_same_v<Value, std::uint64_t>) return "uint64";
-  if constexpr (std::is_same_v<Value, int>) return "int32";
-  if constexpr (std::is_same_v<Value, PerKnot>) return "float64[]";
-  return "float64";
-}
-
-TEST(SampleFields, AreThoseOfTheMessage) {
-  std::map<std::string, MessageField> said = message_fields();
-  visit_sample_fields([&](const auto& field) {
-    ASSERT_TRUE(said.count(field.name)) << field.name;
-    const MessageField& message = said[field.name];
-    EXPECT_EQ(message.type, message_type<ValueOf<std::decay_t<decltype(field)>>>()) << field.name;
-    EXPECT_EQ(message.comment, field.meaning + (" [" + std::string(field.unit)) + "]") << field.name;
-    said.erase(field.name);
-  });
-  // What a message says beside its sample.
-  std::vector<std::string> others;
-  for (const auto& [name, field] : said) others.push_back(name);
-  EXPECT_THAT(others, ElementsAre("header", "locked", "motion_pattern", "run"));
 }
 
 TEST(PerKnot, TakesNoMoreThanItHasRoomFor) {

@@ -125,19 +125,6 @@ TYPED_TEST(BendingLaw, RemembersWhatItsMomentIsOf) {
   }
 }
 
-TEST(PlasticBending, AStripKeepsWhatItsMomentDoesNotHold) {
-  const PlasticBending law{kYield, kHardening};
-  const double lbar = 0.1, k_b = 3.0, kappa = 7.0;
-  BendingNode strip{k_b, lbar, {kappa * lbar, 0.0}, {0.0, 0.0}};
-  const double moment = law.respond(strip).moment[0];
-  EXPECT_NEAR(moment, k_b * (kHardening * kappa + (1.0 - kHardening) * kYield), 1e-14 * moment);
-  const BendingMemory memory = law.remember(strip);
-  EXPECT_NEAR(memory.dissipated, (1.0 - kHardening) * k_b * kYield * (kappa - kYield) * lbar, 1e-14 * moment);
-  strip.natural = memory.natural;
-  strip.bend[0] = (kappa - moment / k_b) * lbar;
-  EXPECT_LT(law.respond(strip).moment.norm(), 1e-14 * moment) << "released";
-}
-
 /// Bent to and fro between +kappa and -kappa, it dissipates 4 (1 - r) k_b kappa_y (kappa - kappa_y) lbar a cycle.
 TEST(PlasticBending, DissipatesTheLoopOfACycle) {
   const PlasticBending law{kYield, kHardening};
@@ -152,49 +139,6 @@ TEST(PlasticBending, DissipatesTheLoopOfACycle) {
   }
   const double loop = 4.0 * (1.0 - kHardening) * k_b * kYield * (kappa - kYield) * lbar;
   EXPECT_NEAR(dissipated, 3.0 * loop, 1e-12 * loop);
-}
-
-/// A strip that slides under M_y = k_b m_0/h + c_m h T_max bears M_y beside k_b kappa, keeps M_y/k_b once it is let go,
-/// and loses 4 M_y (kappa - M_y/(k_b (s - 1))) a length in a cycle between +kappa and -kappa.
-TEST(FrictionalBending, AStripKeepsItsFrictionMomentAndLosesItsLoop) {
-  const FrictionalBending law = frictional();
-  const double lbar = 0.1, k_b = 3.0, kappa = 7.0, h = 0.005;
-  const double yield = k_b * 0.008 / h + 30.0 * h * kOwnNumbers[0];  // M_y [N m]
-  BendingNode strip{k_b, lbar, {kappa * lbar, 0.0}, {0.0, 0.0}, 0.0, kOwnNumbers};
-  EXPECT_NEAR(law.respond(strip).moment[0], k_b * kappa + yield, 1e-14 * k_b * kappa);
-  EXPECT_NEAR(law.respond(strip).tangent(0, 0), k_b / lbar, 1e-12 * k_b / lbar);
-  strip.bend[0] = 0.01 * yield / k_b * lbar;
-  EXPECT_NEAR(law.respond(strip).moment[0], 20.0 * 0.01 * yield, 1e-14 * yield) << "no fibre slides yet";
-  double dissipated = 0.0;
-  for (int turn = 0; turn < 3; ++turn) {
-    strip.bend[0] = (turn % 2 == 0 ? kappa : -kappa) * lbar;
-    const BendingMemory memory = law.remember(strip);
-    if (turn > 0) dissipated += memory.dissipated;
-    strip.natural = memory.natural;
-  }
-  const double loop = 4.0 * yield * (kappa - yield / (19.0 * k_b)) * lbar;
-  EXPECT_NEAR(dissipated, loop, 1e-12 * loop);
-  strip.bend[0] = yield / k_b * lbar;
-  EXPECT_LT(std::abs(law.respond(strip).moment[0]), 1e-13 * yield) << "let go, the bend that is left needs no moment";
-}
-
-/// The tension that compacts a place follows a larger one within tau, in steps of any length, and never falls.
-TEST(FrictionalBending, RemembersTheLargestTensionThatLasts) {
-  const FrictionalBending law = frictional();
-  double own[] = {4.0};
-  BendingNode strip{3.0, 0.1, {0.0, 0.0}, {0.0, 0.0}, 1e-4, own};
-  const auto bear = [&](double tension, double time) {
-    strip.tension = tension;
-    for (double t = 0.0; t < time - 0.5 * strip.dt; t += strip.dt) law.keep_own(strip, own);
-  };
-  bear(3.0, 1.0);
-  bear(-8.0, 1.0);
-  EXPECT_EQ(own[0], 4.0);
-  bear(6.0, FrictionalBending::kCompactionTime);
-  EXPECT_NEAR(own[0], 6.0 - 2.0 * std::exp(-1.0), 2e-3);
-  bear(6.0, 1.0);
-  bear(5.0, 1.0);
-  EXPECT_NEAR(own[0], 6.0, 1e-6);
 }
 
 }  // namespace

@@ -42,12 +42,6 @@ double writhe(const Points& x, Eigen::Index n) {
   return sum / (2.0 * M_PI);
 }
 
-void expect_normal_to_tangents(const Points& d1, const Points& position) {
-  const Points t = tangents(position);
-  EXPECT_LT((d1.colwise().norm().array() - 1.0).abs().maxCoeff(), kRounding);
-  EXPECT_LT(d1.cwiseProduct(t).colwise().sum().cwiseAbs().maxCoeff(), kRounding);
-}
-
 TEST(Frames, TransportRotatesTangentToTangentAndKeepsTheirNormal) {
   const Vec3 from = Vec3(1.0, 2.0, 3.0).normalized();
   const Vec3 to = Vec3(-2.0, 1.0, 0.4).normalized();
@@ -88,29 +82,6 @@ TEST(Frames, RightHandedTwistIsPositive) {
   EXPECT_LT((m.m1 - Vec3(std::cos(0.3), std::sin(0.3), 0.0)).norm(), kRounding);
   EXPECT_LT((m.m2 - t.cross(m.m1)).norm(), kRounding);
   EXPECT_NEAR(reference_twist(Vec3::UnitX(), t, m.m1, t), 0.3, kRounding);
-}
-
-TEST(Frames, RigidMotionLeavesTheTwistAlone) {
-  RodState state;
-  state.position = trefoil(40);
-  initialise_frames(&state);
-  state.twist.setLinSpaced(0.0, 50.0);
-  const auto twist = [&] { return state.twist.tail(40) - state.twist.head(40) + state.reference_twist; };
-  const Eigen::VectorXd twist_before = twist();
-  const Mat3 rotation = Eigen::AngleAxisd(0.1, Vec3(0.3, 1.0, -0.4).normalized()).toRotationMatrix();
-  for (int step = 0; step < 70; ++step) {
-    const Points before = state.position;
-    const Points director_before = state.reference_director;
-    state.position = rotation * before;
-    transport_frames(before, &state);
-    // The reference frame lags behind the body by each edge's holonomy; theta makes up for it.
-    const Points t = tangents(state.position);
-    for (Eigen::Index j = 0; j < t.cols(); ++j) {
-      state.twist[j] += signed_angle(state.reference_director.col(j), rotation * director_before.col(j), t.col(j));
-    }
-  }
-  expect_normal_to_tangents(state.reference_director, state.position);
-  EXPECT_LT((twist() - twist_before).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(Frames, ReferenceTwistCountsWholeTurns) {

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include "rod/finite_difference.hpp"
 #include "rod/isotropic_bending_local.hpp"
 
 namespace knot_utm {
@@ -12,8 +11,6 @@ namespace {
 
 constexpr double kStiffness = 4.3e-5;
 constexpr double kVoronoi = 3e-3;
-constexpr double kStep = 1e-6;
-constexpr double kResolved = 1.1;  // [rad]
 
 using Edges = Eigen::Matrix<double, 6, 1>;
 
@@ -31,37 +28,9 @@ IsotropicBendingLocal at(const Eigen::VectorXd& x) {
   return isotropic_bending(kStiffness, kVoronoi, x.head<3>(), x.tail<3>());
 }
 
-Edges gradient(const IsotropicBendingLocal& local) {
-  Edges g;
-  g.head<3>() = local.gradient_e;
-  g.tail<3>() = local.gradient_f;
-  return g;
-}
-
 struct IsotropicBendingBy : testing::TestWithParam<double> {
   Edges edges = turn(GetParam());
 };
-
-TEST_P(IsotropicBendingBy, EnergyIsThatOfTheTurningAngle) {
-  if (GetParam() > kResolved) GTEST_SKIP() << "no edge resolves such a bend";
-  const double expected = 0.5 * kStiffness / kVoronoi * GetParam() * GetParam();
-  EXPECT_NEAR(at(edges).energy, expected, 3e-6 * expected + 1e-30);
-}
-
-TEST_P(IsotropicBendingBy, GradientIsThatOfTheEnergy) {
-  const auto energy = [](const Eigen::VectorXd& x) { return at(x).energy; };
-  const Edges expected = finite_difference_gradient(energy, edges, kStep);
-  EXPECT_LT((gradient(at(edges)) - expected).norm(), 1e-8 * expected.norm() + 1e-10);
-}
-
-TEST_P(IsotropicBendingBy, HessianIsThatOfTheGradient) {
-  const auto gradient_at = [](const Eigen::VectorXd& x) -> Eigen::VectorXd { return gradient(at(x)); };
-  const IsotropicBendingLocal local = at(edges);
-  Eigen::Matrix<double, 6, 6> hessian;
-  hessian << local.hessian_ee, local.hessian_ef, local.hessian_ef.transpose(), local.hessian_ff;
-  EXPECT_LT(relative_difference(hessian, finite_difference(gradient_at, edges, kStep)), 1e-8);
-  EXPECT_LT((hessian - hessian.transpose()).norm(), 1e-12 * hessian.norm());
-}
 
 TEST_P(IsotropicBendingBy, CheapPathAgrees) {
   const IsotropicBendingLocal full = at(edges);

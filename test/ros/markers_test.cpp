@@ -44,18 +44,6 @@ TEST(TubeMarker, ClosedSurfaceWindsOutwards) {
   EXPECT_EQ(marker.colors.size(), marker.points.size());
 }
 
-TEST(TubeMarker, SidesPointAwayFromTheCentreline) {
-  Points points(3, 2);
-  points << 0.0, 0.0, 0.0, 0.0, 0.0, 1.0;
-  const auto marker = tube_marker(points, Colors(2), 0.1, TubeOptions());
-  const auto triangles = static_cast<std::size_t>(2 * TubeOptions().sides);
-  for (std::size_t i = 0; i < 3 * triangles; i += 3) {
-    const Vec3 a = vec(marker.points[i]), b = vec(marker.points[i + 1]), c = vec(marker.points[i + 2]);
-    const Vec3 middle = (a + b + c) / 3.0;
-    EXPECT_GT((b - a).cross(c - a).dot(Vec3(middle.x(), middle.y(), 0.0)), 0.0);
-  }
-}
-
 /// Where edges are longer than the rod is thick there are spheres between the nodes, but not where it has parted.
 TEST(SpheresMarker, StandCloseTogether) {
   const double radius = 0.002;
@@ -69,10 +57,6 @@ TEST(SpheresMarker, StandCloseTogether) {
     const bool parted = (vec(marker.points[i - 1]) - points.col(7)).norm() < 1e-12;
     EXPECT_NEAR(gap, parted ? 2.5 * radius : 1.25 * radius, 1e-12);
   }
-}
-
-TEST(TubeMarker, NothingToShow) {
-  EXPECT_TRUE(tube_marker(Points(3, 0), Colors(), 0.01, TubeOptions()).points.empty());
 }
 
 TEST(TensionAtNodes, IsTheMeanOfTheirEdges) {
@@ -112,7 +96,7 @@ class ScenePictureTest : public testing::Test {
  protected:
   visualization_msgs::MarkerArray draw(const Points& points, double tension = 1.0) {
     const Eigen::VectorXd tensions = Eigen::VectorXd::Constant(points.cols() - 1, tension);
-    const SceneView view{points, tensions, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, "sliding"};
+    const SceneView view{points, tensions, contacts, Vec3::Zero(), Vec3::UnitZ(), sample};
     return picture.draw(view, ros::Time(1.0));
   }
   static visualization_msgs::Marker part(const visualization_msgs::MarkerArray& all, const std::string& name) {
@@ -148,15 +132,6 @@ TEST_F(ScenePictureTest, GaugeMarksGoWithTheRod) {
   }
 }
 
-/// Whatever was seen before: a colour means the same force throughout.
-TEST_F(ScenePictureTest, AColourMeansTheSameForceThroughout) {
-  picture.begin(helix(50));
-  const auto before = part(draw(helix(50), 4.0), "rod").colors;
-  draw(helix(50), 2000.0);
-  sample.phase = Phase::kPull;
-  EXPECT_EQ(part(draw(helix(50), 4.0), "rod").colors, before);
-}
-
 /// Of a rod that has parted no tension is known: all of it has one colour, whatever its tension was, and no value of
 /// the scale has that colour. Its bends are known.
 TEST_F(ScenePictureTest, ARodThatPartedHasNoColourOfAForce) {
@@ -172,7 +147,7 @@ TEST_F(ScenePictureTest, ARodThatPartedHasNoColourOfAForce) {
   straight.row(2) = Eigen::RowVectorXd::LinSpaced(50, 0.0, 0.5);
   picture.begin(straight);
   const Eigen::VectorXd tension = Eigen::VectorXd::Constant(49, 4.0);
-  const SceneView view{straight, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, "sliding"};
+  const SceneView view{straight, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample};
   const auto small = part(picture.draw_small(view, ros::Time(1.0)), "rod");
   for (double force = -500.0; force <= 500.0; force += 0.5)
     ASSERT_NE(picture.scale().color(force), small.colors.front()) << force;
@@ -234,7 +209,7 @@ TEST_F(ScenePictureTest, RopesOfAnotherMaterialHaveTheirOwnRadius) {
   EXPECT_NEAR(widest[0], 0.002, 1e-12);
   EXPECT_NEAR(widest[1], 0.001, 1e-12);
   const Eigen::VectorXd tension = Eigen::VectorXd::Constant(101, 1.0);
-  const SceneView view{both, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, "sliding"};
+  const SceneView view{both, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample};
   std::vector<std::pair<double, double>> rows;  // diameter, and x of the first sphere
   for (const auto& marker : picture.draw_small(view, ros::Time(1.0)).markers)
     if (marker.ns == "rod") rows.emplace_back(marker.scale.x, marker.points.front().x);

@@ -63,16 +63,9 @@ TEST_F(TestBagTest, HoldsEveryCommandAndEveryReading) {
   for (const char* topic : {"/knot/markers", "/tf", "/utm/status"}) EXPECT_EQ(count(file("a.bag"), topic), 3u) << topic;
   for (const char* topic : {"/utm/method", "/knot/colors"}) EXPECT_EQ(count(file("a.bag"), topic), 1u) << topic;
   EXPECT_EQ(bag.messages(), 5u + 5u + 5u + 3u + 3u + 3u * 3u + 2u);
-}
-
-TEST_F(TestBagTest, StampsAreThoseOfTheHeaders) {
-  RunBag bag(file("a.bag"), straight());
-  for (std::uint64_t i = 0; i < 5; ++i) add(bag, i);
-  bag.close();
   const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
-  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/state"))) {
+  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/state")))
     EXPECT_EQ(m.getTime(), m.instantiate<KnotState>()->header.stamp);
-  }
 }
 
 /// What `rosbag play` and rviz need to show the test with nothing else running: every frame that a picture stands in,
@@ -101,13 +94,8 @@ TEST_F(TestBagTest, ShowsTheTestByItself) {
   }
 }
 
-std::string texts_of(const visualization_msgs::MarkerArray& markers) {
-  std::string all;
-  for (const auto& marker : markers.markers) all += marker.text + "\n";
-  return all;
-}
-
-/// The rod parts in a command at whose end the cell is not read: its shape and its picture are there all the same.
+/// The rod parts in a command at whose end the cell is not read: its shape and its picture are there all the same, and
+/// nothing but the rod and the grips is in it.
 TEST_F(TestBagTest, ARodThatPartsIsSeenToPart) {
   RunBag bag(file("a.bag"), straight());
   for (std::uint64_t i = 0; i < 2; ++i) add(bag, i);
@@ -122,11 +110,11 @@ TEST_F(TestBagTest, ARodThatPartsIsSeenToPart) {
   bag.close();
   EXPECT_EQ(count(file("a.bag"), "/knot/shape"), 2u);
   const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
-  std::string last;
+  std::set<std::string> drawn;
   for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/markers")))
-    last = texts_of(*m.instantiate<visualization_msgs::MarkerArray>());
-  for (const char* words : {"state: broke", "load at the break 321 N", "tension not known"})
-    EXPECT_THAT(last, testing::HasSubstr(words));
+    for (const auto& marker : m.instantiate<visualization_msgs::MarkerArray>()->markers) drawn.insert(marker.ns);
+  EXPECT_EQ(count(file("a.bag"), "/knot/markers"), 2u);
+  EXPECT_EQ(drawn, (std::set<std::string>{"grips", "rod"}));
 }
 
 /// A file that may not grow stands for a disk that is full.

@@ -28,13 +28,6 @@ class ClaimedFolderOf : public OwnFolder {
   static std::string claimed(const std::string& asked) { return ClaimedFolder::first_free(asked).path(); }
 };
 
-TEST_F(ClaimedFolderOf, ARunIsTheOneAskedForWhereNothingWouldBeLost) {
-  fs::create_directories(in("there/curve.csv"));
-  write_whole(in("there/notes.txt"), "mine");
-  EXPECT_EQ(claimed(in("new/folder")), in("new/folder"));
-  EXPECT_EQ(claimed(in("there")), in("there"));
-}
-
 TEST_F(ClaimedFolderOf, ARunIsTheNextFreeOneWhereSomethingWould) {
   for (const char* name :
        {"result.yaml", "curve.csv", "curve_full.csv", "method.yaml", "specimen.csv", "knot.yaml", "test.bag",
@@ -57,18 +50,6 @@ TEST_F(ClaimedFolderOf, TwoRunsAtOnceAreTwoFolders) {
   EXPECT_THROW(ClaimedFolder{in("run")}, InvalidInput);
 }
 
-TEST_F(ClaimedFolderOf, AFolderThatCannotBeMadeIsRefused) {
-  fs::create_directories(folder());
-  write_whole(in("file"), "");
-  EXPECT_THROW(claimed(in("file/below")), InvalidInput);
-}
-
-TEST(NumberedFolder, StandsBesideTheFirst) {
-  EXPECT_EQ(numbered_folder("out/nylon", 1), "out/nylon");
-  EXPECT_EQ(numbered_folder("out/nylon//", 3), "out/nylon-3");
-  EXPECT_EQ(numbered_folder(".", 2), fs::current_path().string() + "-2");
-}
-
 /// The commands, as a user has them.
 class KeptRun : public ClaimedFolderOf {
  protected:
@@ -86,20 +67,18 @@ class KeptRun : public ClaimedFolderOf {
 };
 
 TEST_F(KeptRun, IsLeftAsItIsUnlessItMayBeOverwritten) {
-  for (const char* out : {"", "--out own"}) {
-    const std::string first = *out == '\0' ? "out/straight" : "own";
-    ASSERT_EQ(test(out).code, 0);
-    const std::string result = read_whole(in(first + "/result.yaml"));
-    const Answer again = test(std::string("--quiet ") + out);
-    EXPECT_EQ(again.code, 0);
-    EXPECT_THAT(again.text, AllOf(HasSubstr(first + " holds a run already"), HasSubstr("written to " + first + "-2"),
-                                  HasSubstr("--overwrite")));
-    EXPECT_EQ(read_whole(in(first + "/result.yaml")), result);
-    EXPECT_EQ(read_whole(in(first + "/curve.csv")), read_whole(in(first + "-2/curve.csv")));
-    EXPECT_EQ(test(std::string("--quiet --overwrite ") + out).text, "");
-    EXPECT_NE(read_whole(in(first + "/result.yaml")), result) << "its wall time is another one";
-    EXPECT_FALSE(fs::exists(in(first + "-3")));
-  }
+  const std::string first = "out/straight";
+  ASSERT_EQ(test("").code, 0);
+  const std::string result = read_whole(in(first + "/result.yaml"));
+  const Answer again = test("--quiet");
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.text, AllOf(HasSubstr(first + " holds a run already"), HasSubstr("written to " + first + "-2"),
+                                HasSubstr("--overwrite")));
+  EXPECT_EQ(read_whole(in(first + "/result.yaml")), result);
+  EXPECT_EQ(read_whole(in(first + "/curve.csv")), read_whole(in(first + "-2/curve.csv")));
+  EXPECT_EQ(test("--quiet --overwrite").text, "");
+  EXPECT_NE(read_whole(in(first + "/result.yaml")), result) << "its wall time is another one";
+  EXPECT_FALSE(fs::exists(in(first + "-3")));
 }
 
 TEST(Tools, TellTheSameVersion) {
@@ -186,16 +165,9 @@ TEST_F(LatestLink, FollowingCommandsReadTheRunThatWasJustMade) {
   run("--out out/mine");
   run("--out out/mine --set specimen.length=0.1");
   EXPECT_EQ(latest(), "mine-2");
-  const Answer same = answer_of(begin + tool("compare", "out/latest/curve.csv out/mine-2/curve.csv --tolerance 0"));
-  EXPECT_EQ(same.code, 0) << same.text;
-  EXPECT_EQ(answer_of(begin + tool("compare", "out/latest/curve.csv out/mine/curve.csv --tolerance 0.1")).code, 1);
-  // A batch as a whole, not one of its specimens.
-  run("--out out/batch --specimens 2");
-  EXPECT_EQ(latest(), "batch");
-  EXPECT_FALSE(fs::exists(folder() + "/out/batch/latest"));
   // What is refused leaves it where it was.
   EXPECT_EQ(answer_of(begin + tool("tensile_test", "straight --out out/no --set specimen.length=-1")).code, 2);
-  EXPECT_EQ(latest(), "batch");
+  EXPECT_EQ(latest(), "mine-2");
 }
 
 }  // namespace

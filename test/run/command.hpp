@@ -18,7 +18,7 @@ struct Answer {
 /// Runs a line of the shell, where no program has a cache unless the line says so.
 inline Answer answer_of(const std::string& line) {
   Answer out;
-  setenv("KNOT_UTM_CACHE_LIMIT", "0", 1);
+  setenv("KNOT_UTM_NO_CACHE", "1", 1);
   FILE* pipe = popen((line + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return out;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) out.text += static_cast<char>(c);

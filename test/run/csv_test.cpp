@@ -9,7 +9,6 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/specimen/centreline_file.hpp"
 
 namespace knot_utm {
 namespace {
@@ -54,26 +53,6 @@ TEST_F(Csv, CurveIsExactlyAsPromised) {
             "s,m,N,m,m,N,-,N\n"
             "0.3333333333333333,0.01,2.5,nan,0.26,1.75,pull,0.25\n");
   EXPECT_EQ(writer.rows(), 1u);
-}
-
-TEST_F(Csv, CurveReadsBackToTheSameBits) {
-  CurveWriter writer(path_);
-  CurveRow row;
-  row.time = 1.0 / 7.0;
-  row.load = -1e-17;
-  row.phase = Phase::kTie;
-  writer.write(row);
-  row.knot_distance = 0.15000000000000002;
-  row.phase = Phase::kHold;
-  writer.write(row);
-  const std::vector<CurveRow> rows = read_curve(path_);
-  ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0].time, 1.0 / 7.0);
-  EXPECT_EQ(rows[0].load, -1e-17);
-  EXPECT_TRUE(std::isnan(rows[0].knot_distance));
-  EXPECT_EQ(rows[0].phase, Phase::kTie);
-  EXPECT_EQ(rows[1].knot_distance, 0.15000000000000002);
-  EXPECT_EQ(rows[1].phase, Phase::kHold);
 }
 
 /// What judges a curve needs the force that the rod bears: both loads are balanced, by an amount that stands beside
@@ -134,20 +113,11 @@ TEST_F(Csv, WrongCurvesAreNamed) {
   EXPECT_THAT(complaint(head + std::string(5000, '0') + "\n"), HasSubstr("row 3 is longer than 4096 characters"));
 }
 
-TEST_F(Csv, FinalShapeIsACentrelineFile) {
-  Points points = Points::Random(3, 10);
-  write_centreline(path_, points);
-  EXPECT_THAT(text(), HasSubstr("x,y,z\nm,m,m\n"));
-  EXPECT_EQ(read_centreline(path_), points);
-}
-
 TEST_F(Csv, FinalShapeOfSeveralRopesNumbersThem) {
   const Points points = Points::Zero(3, 5);
   write_centreline(path_, points, {1});
   EXPECT_EQ(text(), "x,y,z,rope\nm,m,m,-\n0,0,0,1\n0,0,0,1\n0,0,0,2\n0,0,0,2\n0,0,0,2\n");
 }
-
-TEST_F(Csv, AFolderThatIsNotThere) { EXPECT_THROW(CurveWriter("/nowhere/curve.csv"), std::runtime_error); }
 
 }  // namespace
 }  // namespace knot_utm

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,7 +15,6 @@
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/curve_file.hpp"
-#include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
@@ -26,7 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-using testing::Not;
 
 class Follow : public MadeFolder {
  protected:
@@ -44,14 +41,6 @@ class Follow : public MadeFolder {
     while (i + 1 < rows.size() && rows[i].time < time) ++i;
     const CurveRow &a = rows[i - 1], &b = rows[i];
     return a.extension + (time - a.time) / (b.time - a.time) * (b.extension - a.extension);
-  }
-
-  /// A method that follows a file of test/raw/files.
-  static Method following(const std::string& file, const std::string& keys, const Tell& tell = nullptr) {
-    const std::string source = KNOT_UTM_SOURCE_DIR;
-    return load_test(source + "/config/straight.yaml",
-                     {"program=[{follow: {record: '" + source + "/test/raw/files/" + file + "', " + keys + "}}]"},
-                     tell);
   }
 
   static std::string refusal(const std::string& rows) {
@@ -112,7 +101,7 @@ TEST_F(Follow, ABalanceBehindTheLastPullEndsTheRecordAndIsTold) {
                          "0,0,0,nan,0.25,0,idle\n1,0.001,1,nan,0.251,1,pull\n2,0.0005,0.5,nan,0.2505,0.5,return\n"
                          "3,0,0,nan,0.2505,0,balance\n4,0,0,nan,0.2505,0,hold\n";
   std::vector<std::string> told;
-  const std::vector<CurveRow> rows = read_course(file, {}, [&](const std::string& line) { told.push_back(line); });
+  const std::vector<CurveRow> rows = read_course(file, [&](const std::string& line) { told.push_back(line); });
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows.back().phase, Phase::kReturn);
   EXPECT_THAT(told, testing::ElementsAre(HasSubstr("followed to reading 3, behind which the test was balanced")));
@@ -141,59 +130,26 @@ TEST_F(Follow, ARecordWithTwoZerosOrATimeThatGoesBackIsRefused) {
   EXPECT_EQ(refusal(start + "2,0.002,2,nan,0.252,2,pull\n3,0,0,nan,0.252,0,balance\n"), "") << "behind the last pull";
 }
 
-/// Raw data of others, which `compare` reads by its options, are read by the same words in the step.
-TEST_F(Follow, ARecordIsReadAsTheStepSays) {
-  struct Case {
-    const char *file, *keys;
-    RecordedPlace last;  // [s], [m]
-    const char* told;
-  };
-  for (const Case& one : {Case{"side_by_side.csv", "specimen: 2", {4.0, 2e-3}, "9 readings of specimen 2 of 2"},
-                          Case{"no_units.csv", "units: 'time=min,extension=in,load=lbf'", {300.0, 0.0635}, "in in"},
-                          Case{"headerless.csv",
-                               "columns: 'time=1,extension=2,load=3', units: 'time=s,extension=cm,load=N'",
-                               {5.5, 2.75e-2},
-                               "load is column 3 in N"},
-                          Case{"neg_ext.csv", "invert: falling", {4.5, 2.25e-3}, "the sign of extension"},
-                          Case{"neg_load.csv", "invert: both", {4.5, -2.25e-3}, "the sign of extension and load"}}) {
-    std::vector<std::string> told;
-    const Method method = following(one.file, one.keys, [&](const std::string& line) { told.push_back(line); });
-    const FollowStep& step = *method.program.front().as<FollowStep>();
-    EXPECT_NEAR(step.recorded.back().time, one.last.time, 1e-9) << one.file;
-    EXPECT_NEAR(step.recorded.back().displacement, one.last.displacement, 1e-12) << one.file;
-    EXPECT_THAT(told, testing::Contains(HasSubstr(one.told))) << one.file;
-    // Resolved, it says the same.
-    std::ofstream(in("method.yaml")) << method_yaml(method);
-    EXPECT_EQ(load_test(in("method.yaml")).program.front().as<FollowStep>()->recorded.back().displacement,
-              step.recorded.back().displacement);
+TEST_F(Follow, WhatIsNotImportedIsRefused) {
+  const Answer answer = test("[{follow: {record: " KNOT_UTM_SOURCE_DIR "/test/raw/raw_data/english.csv}}]", "raw");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr("english.csv: the file is no curve.csv; import_instron makes one of"));
+  EXPECT_EQ(test("[{follow: {record: source, units: load=N}}]", "raw").code, 2) << "no such key";
+  EXPECT_FALSE(fs::exists(in("raw")));
+  for (const char* folder : {"batch/specimen_001", "batch/specimen_002"}) {
+    fs::create_directories(in(folder));
+    std::ofstream(in(folder + std::string("/curve.csv")));
   }
-}
-
-TEST_F(Follow, WhatCannotBeReadIsSaidInTheWordsOfAMethod) {
-  const std::string key = "program.0.follow.";
-  const std::vector<std::array<std::string, 3>> cases{
-      {"side_by_side.csv", "", "2 specimens, side by side: choose one by " + key + "specimen: 1 to 2"},
-      {"side_by_side.csv", "specimen: 3", key + "specimen is 3, but the file holds 2 specimens"},
-      {"side_by_side.csv", "specimen: both", key + "specimen is both, but must be a number from 1 on"},
-      {"no_units.csv", "", "give ms, s, min or h, by " + key + "units: time=UNIT"},
-      {"headerless.csv", "", "such as " + key + "columns: time=1,extension=2,load=3"},
-      {"extenso.csv", "units: load=MPa", key + "units is load=MPa, but must be"},
-      {"neg_load.csv", "invert: up", key + "invert is up, but must be falling, extension, load or both"},
-      {"no_time.csv", "", "no row names the columns time, extension and load"}};
-  for (const auto& [file, keys, why] : cases) {
-    try {
-      following(file, keys);
-      ADD_FAILURE() << file << ' ' << keys;
-    } catch (const InvalidInput& invalid) {
-      EXPECT_THAT(invalid.what(), HasSubstr(why));
-      EXPECT_THAT(invalid.what(), Not(HasSubstr("--")));
-    }
-  }
+  EXPECT_THAT(test("[{follow: {record: " + in("batch") + "}}]", "raw").text,
+              HasSubstr("the folder holds 2 specimens: give the folder of one"));
 }
 
 /// The largest load is one of tension; where there is none, that is said.
 TEST_F(Follow, ARecordOfCompressionHasNoPeak) {
-  std::ofstream(in("record.csv")) << "Time (s),Extension (mm),Load (N)\n0,0,0\n1,-0.1,-10\n2,-0.2,-20\n";
+  std::ofstream(in("record.csv")) << "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n"
+                                     "0,0,0,nan,nan,nan,pull\n1,-0.0001,-10,nan,nan,nan,pull\n"
+                                     "2,-0.0002,-20,nan,nan,nan,pull\n";
   const Answer answer = test("[{follow: {record: " + in("record.csv") + "}}]", "compressed");
   ASSERT_EQ(answer.code, 0) << answer.text;
   const std::string result = read_whole(in("compressed/result.yaml"));
@@ -216,23 +172,6 @@ TEST_F(Follow, TheFolderOfTheRecordIsNotWrittenTo) {
     return all;
   };
   const std::string before = content();
-  const auto of_ours = [&](const std::string& record) {
-    std::vector<std::string> told;
-    load_test(KNOT_UTM_SOURCE_DIR "/config/straight.yaml", {"program=[{follow: {record: " + in(record) + "}}]"},
-              [&](const std::string& line) { told.push_back(line); });
-    return told;
-  };
-  EXPECT_THAT(of_ours("source, units: load=lbf"),
-              testing::ElementsAre(HasSubstr("for which program.0.follow.units changes nothing")));
-  EXPECT_THAT(of_ours("source/curve.csv, specimen: 3, invert: load"),
-              testing::ElementsAre(HasSubstr("program.0.follow.invert and program.0.follow.specimen change nothing")));
-  EXPECT_THAT(of_ours("source, specimen: 1"), testing::IsEmpty());
-  try {
-    of_ours("source, specimen: 3");
-    ADD_FAILURE() << "there is no third one";
-  } catch (const InvalidInput& invalid) {
-    EXPECT_THAT(invalid.what(), HasSubstr("program.0.follow.specimen is 3, but the folder is that of a single test"));
-  }
   const Answer answer = test("[{follow: {record: " + in("source") + "}}]", "source/../source");
   EXPECT_EQ(answer.code, 2);
   EXPECT_THAT(answer.text, testing::AllOf(HasSubstr("the method follows "), HasSubstr("choose another folder"),

@@ -27,12 +27,6 @@ class ReportIn : public MadeFolder {
   const Pull a_{{0.0, 0.0, 0.0, 1.5}, {1.0, 0.25, 0.0, 2.0}};
 };
 
-TEST_F(ReportIn, AComparisonIsItsYamlAndBothPulls) {
-  write_comparison(in("new/folder"), "a: x\n", a_, a_, "x", "y");
-  EXPECT_EQ(read_whole(in("new/folder/comparison.yaml")), "a: x\n");
-  EXPECT_EQ(read_whole(in("new/folder/b.csv")), "extension,load\nm,N\n0,1.5\n0.25,2\n");
-}
-
 TEST_F(ReportIn, AComparisonReplacesNoRunAndNothingThatItCompares) {
   write_whole(in("b.csv"), "measured");
   EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", in("./b.csv")), InvalidInput);

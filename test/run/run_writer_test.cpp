@@ -80,20 +80,6 @@ TEST_F(RunFolder, HoldsTheInnerDiameterOfAKnotThatIsWhole) {
   EXPECT_TRUE(result()["knotability"].IsNull());
 }
 
-/// That result.yaml has every key of the table, ResultKeys says.
-TEST_F(RunFolder, HoldsEveryPromisedFile) {
-  run(load_method(kConfig + "tighten.yaml"));
-  for (const char* file : {"curve.csv", "curve_full.csv", "result.yaml", "method.yaml", "final_shape.csv"}) {
-    EXPECT_TRUE(fs::is_regular_file(folder_ / file)) << file;
-  }
-  const YAML::Node made = result();
-  EXPECT_EQ(made["ended_by"].as<std::string>(), "extension");
-  EXPECT_EQ(made["preload"].as<double>(), 150.0);
-  EXPECT_TRUE(made["lock_extension"].IsNull());
-  EXPECT_GT(made["peak_memory"].as<double>(), 1e5);
-  EXPECT_DOUBLE_EQ(made["real_time_factor"].as<double>(), made["simulated_time"].as<double>() / 0.5);
-}
-
 TEST_F(RunFolder, CurveHasTheSamplingInstantsAndTheFullCurveEveryStep) {
   run(load_method(kConfig + "tighten.yaml"));
   const std::vector<CurveRow> curve = read_curve((folder_ / "curve.csv").string());
@@ -133,25 +119,6 @@ TEST_F(RunFolder, KeepsTheKnotThatAUsersFileDescribes) {
   EXPECT_EQ(read_whole((folder_ / "method.yaml").string()), method);
 }
 
-TEST_F(RunFolder, HoldsTheVerdictOnItsSpecification) {
-  const auto made = [this](const std::vector<std::string>& overrides) {
-    run(load_method(kConfig + "straight.yaml", overrides));
-    return result();
-  };
-  EXPECT_TRUE(made({})["specification_passed"].IsNull());
-  EXPECT_TRUE(made({"specification.peak_force.min=0"})["specification_passed"].as<bool>());
-  const YAML::Node failed = made({"specification={steps: {min: 1}, untangled_at: {max: 1}}"});
-  EXPECT_FALSE(failed["specification_passed"].as<bool>());
-  ASSERT_EQ(failed["specification_failed"].size(), 1u);
-  EXPECT_EQ(failed["specification_failed"][0].as<std::string>(), "untangled_at has no value in this test");
-}
-
-TEST_F(RunFolder, AHoldBehindOneAtALoadHasARelaxation) {
-  run(load_method(kConfig + "straight.yaml", {"program=[{preload: {load: 5}}, {hold: {duration: 3, control: load, "
-                                              "load: 50}}, {hold: {duration: 3}}]"}));
-  EXPECT_FALSE(result()["relaxation"].IsNull());
-}
-
 TEST_F(RunFolder, ARunThatGaveUpKeepsWhatItHadAndTheReason) {
   FakeBench bench;
   bench.fail_time = 8.0;
@@ -180,11 +147,6 @@ TEST_F(RunFolder, ARunMayTestTheShapeThatTheLastOneLeftThere) {
   begin(method);
   EXPECT_EQ(read_whole((folder_ / "specimen.csv").string()), shape);
   EXPECT_FALSE(fs::exists(folder_ / "final_shape.csv"));
-}
-
-TEST_F(RunFolder, AFileWhereTheFolderShouldBe) {
-  std::ofstream(folder_.string()) << "x";
-  EXPECT_THROW(begin(load_method(kConfig + "straight.yaml")), InvalidInput);
 }
 
 }  // namespace

@@ -129,27 +129,6 @@ TEST_F(Samples, TornAnywhereTheyEndWithTheLastWholeCommandAndGoOnFromThere) {
   }
 }
 
-TEST_F(Samples, ARowThatNobodyWroteSoIsNamed) {
-  { SamplesWriter(folder()).append(record(2)); }
-  const std::string good = rows();
-  const auto complaint = [&](const std::string& changed) -> std::string {
-    write_whole(samples_file(folder()), changed);
-    try {
-      SamplesReader reader(folder());
-      Record found;
-      while (reader.next(found)) continue;
-    } catch (const InvalidInput& invalid) {
-      return invalid.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(complaint(good), "");
-  EXPECT_THAT(complaint("x,y,z\nm,m,m\n"), AllOf(HasSubstr(samples_file(folder())), HasSubstr("columns")));
-  EXPECT_THAT(complaint(good + "step,1\n"), HasSubstr("row 6"));
-  EXPECT_THAT(complaint(good + good.substr(good.rfind("\nanswer,") + 1, 7) + "soon\n"),
-              AllOf(HasSubstr("row 6: wall_time"), HasSubstr("\"soon\"")));
-}
-
 TEST_F(Samples, AnyBytesAreUnderstoodOrRefusedInOneLine) {
   {
     SamplesWriter writer(folder());

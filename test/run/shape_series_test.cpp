@@ -79,19 +79,5 @@ TEST(ShapeSeries, NumbersSeveralRopesAndKnowsNothingBetweenThem) {
             "1,3,4,4,4,nan,nan,0,2\n");
 }
 
-TEST(ShapeSeries, LeavesOutWhatHasNoReadingsAndARodThatHasParted) {
-  ShapeSeries series;
-  Record record = reading(0);
-  record.readings.reset();
-  series.add(record);
-  record = reading(1);
-  record.shape = Points();
-  series.add(record);
-  record = reading(2);
-  record.answer.status = BenchStatus::kBroken;
-  series.add(record);
-  EXPECT_TRUE(series.empty());
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -18,7 +18,6 @@ namespace knot_utm {
 namespace {
 
 using testing::AllOf;
-using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -65,17 +64,6 @@ TEST_F(Summary, OfARunHasTheMainReadingsAndNoNull) {
   EXPECT_LE(lines(text), 10);
 }
 
-TEST_F(Summary, SaysWhyThereIsNoPlateau) {
-  write("result.yaml",
-        "motion_pattern: none\nmotion_pattern_confidence: 0\nended_by: load\nplateau_force: null\n"
-        "no_plateau_because: \"a knot jumped open\"\njump_force: 2.5\njump_extension: 0.0123\npeak_force: 3\n");
-  EXPECT_EQ(run_summary(folder()),
-            "the test ended by load\n"
-            "  knot jumped open at   2.500 N and an extension of 12.30 mm\n"
-            "  plateau force         none: a knot jumped open\n"
-            "  largest load          3.000 N\n");
-}
-
 TEST_F(Summary, OfABatchHasMeansAndScatter) {
   write("statistics.yaml",
         "specimens: 3\nrejected:\n  - {specimen: 2, reason: \"it came undone\"}\nmotion_pattern: {sliding: 2}\n"
@@ -86,36 +74,6 @@ TEST_F(Summary, OfABatchHasMeansAndScatter) {
             "2 of 3 specimens count\n"
             "  plateau force         5.10 ± 0.12 N (mean ± standard deviation of 2)\n"
             "  largest load          2.500 kN (mean ± standard deviation of 2)\n");
-}
-
-TEST_F(Summary, OfABatchSaysHowManyMeetTheSpecification) {
-  write("statistics.yaml",
-        "specimens: 4\nrejected:\n  - {specimen: 2, reason: \"it came undone\"}\n"
-        "peak_force: {mean: 3, sd: null, cv: null, low: null, high: null, minimum: 3, maximum: 3, n: 3}\n");
-  for (const auto& [number, passed] : {std::pair{1, "true"}, std::pair{2, "false"}, std::pair{3, "false"},
-                                       std::pair{4, "true"}, std::pair{5, "true"}}) {
-    std::filesystem::create_directories(specimen_folder(folder(), number));
-    write("specimen_00" + std::to_string(number) + "/result.yaml",
-          std::string("specification_passed: ") + passed + "\n");
-  }
-  EXPECT_THAT(run_summary(folder()), EndsWith("  specification         met by 2 of 3 specimens\n"))
-      << "2 is rejected, and 5 is not of this batch";
-}
-
-TEST_F(Summary, LeavesOutALossThatIsRounding) {
-  for (const auto& [loss, stands] : {std::pair{"4.08e-07", false}, std::pair{"0.02", true}}) {
-    write("result.yaml",
-          std::string("motion_pattern: none\nended_by: break\nenergy_to_peak: 17.02\nhysteresis: ") + loss + "\n");
-    EXPECT_EQ(run_summary(folder()).find("hysteresis") != std::string::npos, stands) << loss;
-  }
-}
-
-TEST_F(Summary, KeepsLossesOfBothSigns) {
-  for (const auto& [sd, stands] : {std::pair{"1e-9", false}, std::pair{"0.5", true}}) {
-    write("statistics.yaml", std::string("specimens: 2\nenergy_to_peak: {mean: 17.02, sd: null, n: 2}\n") +
-                                 "hysteresis: {mean: 1e-9, sd: " + sd + ", n: 2}\n");
-    EXPECT_EQ(run_summary(folder()).find("hysteresis") != std::string::npos, stands) << sd;
-  }
 }
 
 TEST(ComparisonSummary, ShowsNoRounding) {

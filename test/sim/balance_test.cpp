@@ -77,7 +77,6 @@ enum class Kind { kStraight, kOverhand, kFallsOnARoller, kCurved };
 struct Scene {
   Kind kind;
   bool twist;
-  ContactLaw law;
   double friction;
   double couple = 0.0;  // of friction at the surface
   Turns turns = Turns::kNot;
@@ -88,8 +87,7 @@ struct Scene {
   std::string name() const {
     static const char* const kinds[] = {"Straight", "Overhand", "FallsOnARoller", "Curved"};
     return std::string(kinds[static_cast<int>(kind)]) + (twist ? "WithTwist" : "") +
-           (law == ContactLaw::kEdge ? "BetweenEdges" : "") + (friction > 0.0 ? "AndFriction" : "") +
-           (couple > 0.0 ? "AtTheSurface" : "") +
+           (friction > 0.0 ? "AndFriction" : "") + (couple > 0.0 ? "AtTheSurface" : "") +
            (turns == Turns::kFreely   ? "ThatIsFree"
             : turns == Turns::kDriven ? "ThatIsDriven"
                                       : "") +
@@ -114,7 +112,6 @@ struct Running {
       material.stretching_stiffness = 40.0 * material.bending_stiffness / std::pow(material.radius, 2.0);
     }
     StepSettings settings = closed_form_settings(material);
-    settings.contact_law = scene.law;
     settings.gravity = Vec3(0.5, 0.0, -kGravity);
     settings.drag = 1.0;
     settings.friction = settings.roller_friction = MemoryFriction{scene.friction, 1e-3 * material.radius};
@@ -215,25 +212,20 @@ TEST_P(BalanceOf, EverySceneClosesStepByStep) {
   EXPECT_NEAR(energies.twisting, elastic.twisting, lag * energies.total());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, BalanceOf,
-    testing::Values(Scene{Kind::kCurved, true, ContactLaw::kSmooth, 0.0},
-                    Scene{Kind::kStraight, false, ContactLaw::kSmooth, 0.0},
-                    Scene{Kind::kStraight, true, ContactLaw::kSmooth, 0.0},
-                    Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.3},
-                    Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3},
-                    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 1.0},
-                    Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3, 1.0},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0},
-                    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kFreely},
-                    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kDriven},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven},
-                    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 1.0, Turns::kNot, true},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely, true},
-                    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven, true}),
-    [](const auto& scene) { return scene.param.name(); });
+INSTANTIATE_TEST_SUITE_P(Scenes, BalanceOf,
+                         testing::Values(Scene{Kind::kCurved, true, 0.0}, Scene{Kind::kStraight, false, 0.0},
+                                         Scene{Kind::kStraight, true, 0.0}, Scene{Kind::kOverhand, false, 0.3},
+                                         Scene{Kind::kOverhand, true, 0.3}, Scene{Kind::kOverhand, true, 0.3, 1.0},
+                                         Scene{Kind::kFallsOnARoller, true, 0.0},
+                                         Scene{Kind::kFallsOnARoller, true, 0.4, 1.0},
+                                         Scene{Kind::kFallsOnARoller, false, 0.4, 0.0, Turns::kFreely},
+                                         Scene{Kind::kFallsOnARoller, false, 0.4, 0.0, Turns::kDriven},
+                                         Scene{Kind::kFallsOnARoller, true, 0.4, 1.0, Turns::kFreely},
+                                         Scene{Kind::kFallsOnARoller, true, 0.4, 1.0, Turns::kDriven},
+                                         Scene{Kind::kOverhand, true, 0.3, 1.0, Turns::kNot, true},
+                                         Scene{Kind::kFallsOnARoller, true, 0.4, 1.0, Turns::kFreely, true},
+                                         Scene{Kind::kFallsOnARoller, true, 0.4, 1.0, Turns::kDriven, true}),
+                         [](const auto& scene) { return scene.param.name(); });
 
 }  // namespace
 }  // namespace knot_utm

@@ -80,7 +80,6 @@ struct Capstan {
   int last = 0;
   StepControl::Counters counters{};
   double time = 0.0;
-  bool by_roller = false;
 
   Capstan(double t1_, const Options& options_) : options(options_), t1(t1_) {
     const double turn = std::hypot(2.0 * M_PI, kPitch);
@@ -129,23 +128,19 @@ struct Capstan {
     boundary.fixed_nodes = {{last, state.position.col(last)}};
   }
 
-  /// Pulls the rod by `distance` in steps of no more than `stride`, or turns the roller the other way as far while the
-  /// rod is held; mean of T2/T1 over their length. Throws where the physics gives up.
+  /// Pulls the rod by `distance` in steps of no more than `stride`; mean of T2/T1 over their length. Throws where the
+  /// physics gives up.
   double pull_by(double distance, double stride) {
     StepControl::Options control_options;
     control_options.longest = stride / kSpeed;
     control_options.motion = 0.5;
     StepControl control(control_options);
     const Vec3 from = boundary.fixed_nodes[0].position;
-    const double turned = boundary.rollers[0].turn, rho = boundary.rollers[0].radius + kRadius;
     double now = 0.0, sum = 0.0;
     const std::string gave_up = control.advance(
         *stepper, now, distance / kSpeed,
         [&](double, double to) -> const Boundary& {
-          if (by_roller)
-            boundary.rollers[0].turn = turned - kSpeed * to / rho;
-          else
-            boundary.fixed_nodes[0].position = from + kSpeed * to * pull;
+          boundary.fixed_nodes[0].position = from + kSpeed * to * pull;
           return boundary;
         },
         [&](double, double dt, const StepSummary&) {

@@ -27,12 +27,6 @@ TEST(R8Capstan, CoarseEdgesKeepTheRatio) {
   for (const auto& [t1, expected] : kReferences) EXPECT_NEAR(Capstan(t1, options).ratio(), expected, 0.005 * expected);
 }
 
-TEST(R8Capstan, ARollerThatIsDrivenUnderARestingRodDragsAtTheSameRatio) {
-  Capstan scene(10.0, {});
-  scene.by_roller = true;
-  hold_against("R8 the same, the roller driven: T2/T1, T1 rho^2/B = 10", 6.305, scene.ratio(), 0.01);
-}
-
 /// Whatever mu, as nothing but the rod acts on it: the tension is the same on both sides, and it turns with the rod.
 /// What is left, 1e-4, is friction along the axis, on which the helix walks and the roller does not.
 TEST(AFreeRoller, TurnsWithTheRodAndTakesNothingFromItsTension) {

@@ -47,8 +47,6 @@ class FrameTermsOf : public testing::TestWithParam<std::tuple<bool, int>> {
     if (curved) {
       start.natural_curvature.resize(2, nodes - 2);
       for (double& kappa : start.natural_curvature.reshaped()) kappa = 0.5 * uniform(random);
-      rod.natural_twist.resize(nodes - 2);
-      for (double& twist : rod.natural_twist) twist = 0.5 * uniform(random);
     }
     start.position.resize(3, nodes);
     for (int i = 0; i < nodes; ++i) start.position.col(i) << i, 0.5 * uniform(random), 0.5 * uniform(random);

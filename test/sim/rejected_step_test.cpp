@@ -1,18 +1,11 @@
-// Steps that are not accepted change nothing, and a state that is saved goes on to the same bits elsewhere; steps that
-// some run once could not make (test/failed_steps) are now made.
+// Steps that are not accepted change nothing, and a state that is saved goes on to the same bits elsewhere.
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "sim/saved.hpp"
 #include "sim/scenes.hpp"
@@ -20,17 +13,15 @@
 namespace knot_utm {
 namespace {
 
-/// A rod that falls onto a roller with friction, moving along it; with and without twist, under both contact laws.
+/// A rod that falls onto a roller with friction, moving along it; with and without twist.
 struct Scene {
   bool twist;
-  ContactLaw law;
 
   std::unique_ptr<TimeStep> stepper() const {
     Material material = braided_rope();
     material.twisting_stiffness = material.bending_stiffness;
     const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(20, material.radius));
     StepSettings settings = closed_form_settings(material);
-    settings.contact_law = law;
     settings.gravity = Vec3(0.5, 0.0, -9.81);
     settings.drag = 1.0;
     settings.roller_friction = MemoryFriction{0.4, 1e-3 * material.radius};
@@ -46,11 +37,8 @@ struct Scene {
   }
 };
 
-std::string name_of(const testing::TestParamInfo<Scene>& scene) {
-  return std::string(scene.param.law == ContactLaw::kEdge ? "edge" : "smooth") + (scene.param.twist ? "Twist" : "");
-}
-const auto kScenes = testing::Values(Scene{false, ContactLaw::kSmooth}, Scene{true, ContactLaw::kSmooth},
-                                     Scene{false, ContactLaw::kEdge}, Scene{true, ContactLaw::kEdge});
+std::string name_of(const testing::TestParamInfo<Scene>& scene) { return scene.param.twist ? "Twist" : "Plain"; }
+const auto kScenes = testing::Values(Scene{false}, Scene{true});
 
 class RejectedStep : public testing::TestWithParam<Scene> {};
 
@@ -114,56 +102,6 @@ TEST_P(SavedTimeStep, ComesToTheSameBitsElsewhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SavedTimeStep, kScenes, name_of);
-
-namespace fs = std::filesystem;
-
-std::vector<fs::path> failed_steps() {
-  std::vector<fs::path> out;
-  for (const fs::directory_entry& entry : fs::directory_iterator(KNOT_UTM_SOURCE_DIR "/test/failed_steps"))
-    out.push_back(entry.path());
-  return out;
-}
-
-std::string first_line(const std::string& bytes) { return bytes.substr(0, bytes.find('\n') + 1); }
-
-/// A file of an earlier version whose format is still the present one, as if it were of this version.
-std::string of_this_version(const std::string& bytes) {
-  constexpr std::size_t kSum = 4;
-  const std::string heading = first_line(Archive("time step").bytes());
-  std::string out = heading + bytes.substr(first_line(bytes).size());
-  out.resize(out.size() - kSum);
-  const uLong sum = crc32_z(0, reinterpret_cast<const Bytef*>(out.data()), out.size());
-  for (std::size_t i = 0; i < kSum; ++i) out += static_cast<char>(sum >> (8 * i) & 0xff);
-  return out;
-}
-
-class OnceFailedStep : public testing::TestWithParam<fs::path> {};
-
-TEST_P(OnceFailedStep, IsMade) {
-  std::ifstream in(GetParam(), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  Archive archive("time step", of_this_version(bytes), GetParam().string());
-  RodProperties rod;
-  StepSettings settings;
-  bool twist = false, curved = false;  // whether the state has frames, and natural curvatures
-  double time = 0.0, dt = 0.0;
-  Boundary boundary;
-  archive(rod, settings, twist, curved, time, dt);
-  boundary.state(archive, static_cast<int>(rod.nodes()));
-  RodState state = straight_state(rod);
-  if (twist) initialise_frames(&state);
-  if (curved) remember_bends(rod, &state);
-  const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
-  archive(*stepper);
-  archive.end();
-  // As StepControl does after repeated failures.
-  StepSummary summary = stepper->step(boundary, dt);
-  if (!summary.newton.converged()) summary = stepper->step(boundary, dt, SolveStrategy::kSecants);
-  EXPECT_TRUE(summary.accepted()) << summary.reason << "; " << summary.diagnosis.text();
-}
-
-INSTANTIATE_TEST_SUITE_P(Every, OnceFailedStep, testing::ValuesIn(failed_steps()),
-                         [](const auto& file) { return file.param.stem().string(); });
 
 }  // namespace
 }  // namespace knot_utm

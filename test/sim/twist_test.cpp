@@ -86,14 +86,11 @@ TEST(Twist, AClampThatTurnsStoresTheEnergyOfAShaft) {
 }
 
 /// A rod clamped at its first edge that is let go relaxes into its natural shape.
-class Natural : public testing::TestWithParam<double> {};
-
-TEST_P(Natural, ShapeIsTheRodAtRest) {
+TEST(Natural, ShapeIsTheRodAtRest) {
   Bare bare(0.8);
-  const double turn = 0.08, twist = GetParam();  // of a node [rad]
+  const double turn = 0.08;  // of a node [rad]
   bare.state.natural_curvature = Eigen::Matrix2Xd::Zero(2, kEdges - 1);
-  bare.state.natural_curvature.row(0).setConstant(turn * std::cos(0.5 * twist));
-  bare.rod.natural_twist = Eigen::VectorXd::Constant(kEdges - 1, twist);
+  bare.state.natural_curvature.row(0).setConstant(turn);
   bare.hold(0);
   bare.hold(1);
   bare.boundary.fixed_twists = {{0, 0.0}};
@@ -108,18 +105,14 @@ TEST_P(Natural, ShapeIsTheRodAtRest) {
     EXPECT_NEAR(std::acos(e.normalized().dot(f.normalized())), turn, 1e-6);
   }
   const Vec3 m1 = end.reference_director.col(0);
-  if (twist == 0.0) {
-    // An arc in the plane of the tangent and m1, bent towards m1.
-    const double radius = 0.5 * kEdge / std::sin(0.5 * turn);
-    const Vec3 tip = end.position.col(kEdges);
-    const double angle = turn * kEdges;  // edges 0 to N-1 are chords of the arc through all nodes
-    EXPECT_NEAR((tip - end.position.col(0)).norm(), 2.0 * radius * std::sin(0.5 * angle), 1e-6);
-    EXPECT_GT(m1.dot(tip), 0.0);
-    EXPECT_NEAR(tip.dot(Vec3::UnitX().cross(m1)), 0.0, 1e-6);
-  }
+  // An arc in the plane of the tangent and m1, bent towards m1.
+  const double radius = 0.5 * kEdge / std::sin(0.5 * turn);
+  const Vec3 tip = end.position.col(kEdges);
+  const double angle = turn * kEdges;  // edges 0 to N-1 are chords of the arc through all nodes
+  EXPECT_NEAR((tip - end.position.col(0)).norm(), 2.0 * radius * std::sin(0.5 * angle), 1e-6);
+  EXPECT_GT(m1.dot(tip), 0.0);
+  EXPECT_NEAR(tip.dot(Vec3::UnitX().cross(m1)), 0.0, 1e-6);
 }
-
-INSTANTIATE_TEST_SUITE_P(ArcAndHelix, Natural, testing::Values(0.0, 0.1));
 
 /// Largest difference of positions, with twist and without, after a bent rod that is free at both ends has sprung and
 /// been pulled about out of plane [m].

@@ -6,12 +6,9 @@
 #include <cmath>
 #include <memory>
 
-#include "knot_utm/contact/smooth_contact.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "sim/balance.hpp"
-#include "sim/saved.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -122,45 +119,6 @@ TEST(TwoMaterials, EachRopeStretchesByItsOwnStiffness) {
   const double expected =
       0.5 * load * load * length * (1.0 / rope.stretching_stiffness + 1.0 / cord.stretching_stiffness);
   EXPECT_NEAR(energy.stretching / expected, 1.0, 1e-6);
-}
-
-TEST(TwoMaterials, ARopeHasTheMassOfItsOwn) {
-  const Material rope = braided_rope(), cord = soft_cord(0.5 * rope.radius);
-  LaidRopes ropes;
-  ropes.add(Vec3::Zero(), Vec3(rope.radius, 0.0, 0.0));
-  ropes.add(Vec3(0.0, 1.0, 0.0), Vec3(cord.radius, 0.0, 0.0));
-  const RodProperties rod = make_rod(rope, cord, ropes.lengths(), ropes.cuts);
-  const auto mass = [](const Material& of) {
-    return of.density * M_PI * of.radius * of.radius * kEdgesOfRope * of.radius;
-  };
-  EXPECT_NEAR(rod.mass.head(kEdgesOfRope + 1).sum() / mass(rope), 1.0, 1e-12);
-  EXPECT_NEAR(rod.mass.tail(kEdgesOfRope + 1).sum() / mass(cord), 1.0, 1e-12);
-}
-
-/// Two rods that cross at right angles, the thin one above the thick one or below it.
-TEST(TwoMaterials, CrossingRodsTouchAtTheSumOfTheirRadii) {
-  const Material rope = braided_rope(), cord = soft_cord(0.4 * rope.radius);
-  const double h = rope.radius, touching = rope.radius + cord.radius;
-  for (const double side : {1.0, -1.0})
-    for (const double overlap : {-0.01 * h, 0.02 * h}) {
-      LaidRopes ropes;
-      ropes.add(Vec3(-6.0 * h, 0.0, 0.0), Vec3(h, 0.0, 0.0));
-      ropes.add(Vec3(0.1 * h, -6.0 * cord.radius, side * (touching - overlap)), Vec3(0.0, cord.radius, 0.0));
-      const NormalLaw law{1e6, 1e-3 * h};
-      SmoothContact contact(make_rod(rope, cord, ropes.lengths(), ropes.cuts), law, MemoryFriction{0.0, h}, 0.5 * h);
-      contact.begin(ropes.position);
-      contact.evaluate(ropes.position, ropes.position, 1e-3);
-      double deepest = -h;
-      for (const ContactPoint& one : contact.contacts()) {
-        EXPECT_EQ(one.pair, 1);
-        deepest = std::max(deepest, one.overlap);
-      }
-      if (overlap < 0.0)
-        EXPECT_TRUE(std::none_of(contact.contacts().begin(), contact.contacts().end(),
-                                 [](const ContactPoint& one) { return one.touches(); }));
-      else  // Of straight strands the foot nearest to the crossing is within a quarter of an edge of the thin one.
-        EXPECT_NEAR(deepest, overlap, 0.03 * h);
-    }
 }
 
 /// Three ropes lie along each other: the first one is drawn along its axis between the other two, which are of another
@@ -281,34 +239,6 @@ TEST(TwoMaterials, ForcesMomentsAndWorkBalance) {
   EXPECT_GT(largest, 0.0);
   EXPECT_GT(friction, 0.0);
   EXPECT_LT(std::abs(balance.gap()), balance.rounding());
-}
-
-TEST(TwoMaterials, ASavedStateOfThemComesToTheSameBitsElsewhere) {
-  const Material rope = braided_rope(), cord = soft_cord(0.5 * rope.radius);
-  const double h = rope.radius;
-  LaidRopes ropes;
-  ropes.add(Vec3(-6.0 * h, 0.0, 0.0), Vec3(h, 0.0, 0.0));
-  ropes.add(Vec3(0.0, -6.0 * h, 0.99 * (h + cord.radius)), Vec3(0.0, h, 0.0));
-  const auto make = [&] {
-    return TimeStep::make(make_rod(rope, cord, ropes.lengths(), ropes.cuts), ropes.state(),
-                          settings_of(rope, 0.4, 0.2));
-  };
-  const std::unique_ptr<TimeStep> step = make(), elsewhere = make();
-  ASSERT_TRUE(step->step({}, 1e-5).accepted());
-  load(saved(*step), *elsewhere);
-  EXPECT_EQ(saved(*elsewhere), saved(*step));
-  ASSERT_TRUE(step->step({}, 1e-5).accepted());
-  ASSERT_TRUE(elsewhere->step({}, 1e-5).accepted());
-  EXPECT_EQ(elsewhere->state().position, step->state().position);
-}
-
-TEST(TwoMaterials, AreRefusedWhereTheirLawsAreOfDifferentKinds) {
-  const Material rope = braided_rope();
-  Material rubber = rope;
-  rubber.stretching.law = static_cast<StretchingLaw>(1);
-  const Eigen::VectorXd lengths = Eigen::VectorXd::Constant(10, rope.radius);
-  EXPECT_THROW(make_rod(rope, rubber, lengths, {4}), InvalidInput);
-  EXPECT_THROW(make_rod(rope, rope, lengths, {}), InvalidInput);
 }
 
 }  // namespace

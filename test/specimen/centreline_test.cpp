@@ -8,8 +8,6 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <optional>
-#include <regex>
 #include <string>
 
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -86,23 +84,6 @@ TEST(FishermanLoop, IsFineInItsKnotsAndCoarseOnTheFarSide) {
     EXPECT_NEAR(edge_at(on_tail), shape.edge_length, 0.05 * shape.edge_length);
   }
   EXPECT_NEAR(edge_at(0.5 * (line.upper_apex + line.lower_apex)), 1.5 * shape.edge_length, 0.05 * shape.edge_length);
-}
-
-/// A coil presses as hard on the strand that it holds as that does on the coil, and slides along it.
-TEST(FishermanLoop, IsFineAlongBothStrandsFromOneKnotThroughTheOther) {
-  FishermanShape shape;
-  shape.refinement = 2.0;
-  const Centreline line = fisherman_loop(shape);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double own = line.knots[k].coil_middle, held = line.knots[1 - k].threaded;
-    const double beyond = held + std::copysign(3.0 * shape.radius, held - own);
-    const int first = line.nearest_node(std::min(own, beyond)), last = line.nearest_node(std::max(own, beyond));
-    ASSERT_GT(last - first, 60);
-    for (int node = first; node < last; ++node) {
-      const double edge = (line.points.col(node + 1) - line.points.col(node)).norm();
-      ASSERT_NEAR(edge, 0.5 * shape.edge_length, 0.05 * shape.edge_length) << node;
-    }
-  }
 }
 
 TEST(FishermanLoop, KeepsItsStrandsApartInEqualEdges) {
@@ -202,21 +183,6 @@ TEST(FishermanLoop, RefusesWhatDoesNotFitTheMachine) {
   }
 }
 
-TEST(FishermanLoop, IsRefusedInTheDistanceThatWasAskedFor) {
-  FishermanShape shape;
-  shape.outward_shift = 0.05;
-  shape.knot_distance = 0.06;
-  try {
-    fisherman_loop(shape);
-    ADD_FAILURE() << "accepted";
-  } catch (const InvalidInput& error) {
-    EXPECT_EQ(error.key, "specimen.knot_distance");
-    EXPECT_EQ(error.value, "0.06");
-    shape.knot_distance = std::stod(error.allowed.substr(std::string("at least ").size())) + 1e-4;  // it is rounded
-  }
-  EXPECT_EQ(refused_key(shape), "");
-}
-
 TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   for (int turns = 1; turns <= 4; ++turns) {
     for (const double excess : {0.65, 0.9}) {
@@ -232,51 +198,6 @@ TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
       EXPECT_GT(nearest_places(line.points, 1.5 * M_PI * shape.radius).distance, 2.1 * shape.radius);
     }
   }
-}
-
-TEST(Overhand, SaysWhichEndToEndDistancesFitItsLength) {
-  const auto refusal = [](double length, double end_to_end) -> std::optional<InvalidInput> {
-    OverhandShape shape;
-    shape.length = length;
-    shape.end_to_end = end_to_end;
-    try {
-      overhand(shape);
-    } catch (const InvalidInput& invalid) {
-      return invalid;
-    }
-    return std::nullopt;
-  };
-  // What one takes from the text is right: a rod may be just longer than the shortest, and the ends of the range fit.
-  const auto short_rod = refusal(0.1, 0.05);
-  ASSERT_TRUE(short_rod);
-  EXPECT_EQ(short_rod->key, "specimen.length");
-  std::smatch least, ends;
-  ASSERT_TRUE(
-      std::regex_match(short_rod->allowed, least, std::regex("more than ([^ ]*) m, which the smallest knot .*")));
-  const double shortest = std::stod(least.str(1));
-  EXPECT_EQ(refusal(0.99 * shortest, 0.05)->key, "specimen.length");
-  const std::regex range("([^ ]*) to ([^ ]*) m, for a knot in a rod of specimen.length, .* m");
-  for (const double length : {1.003 * shortest, 1.0})
-    for (const double wrong : {-0.2, 0.01, 0.99 * length}) {
-      const auto invalid = refusal(length, wrong);
-      ASSERT_TRUE(invalid) << length << ' ' << wrong;
-      EXPECT_EQ(invalid->key, "specimen.end_to_end");
-      ASSERT_TRUE(std::regex_match(invalid->allowed, ends, range)) << invalid->what();
-      const double low = std::stod(ends.str(1)), high = std::stod(ends.str(2));
-      EXPECT_LT(low, high);
-      for (const double fits : {low, 0.5 * (low + high), high}) EXPECT_FALSE(refusal(length, fits)) << invalid->what();
-      for (const double outside : {low - 0.002, high + 0.002}) EXPECT_TRUE(refusal(length, outside)) << invalid->what();
-    }
-}
-
-TEST(FromPoints, ResamplesACircleAndClosesIt) {
-  Points circle(3, 200);
-  for (int i = 0; i < 200; ++i) circle.col(i) << 0.1 * std::cos(0.01 * M_PI * i), 0.1 * std::sin(0.01 * M_PI * i), 0.0;
-  const Centreline line = from_points(circle, true, 3e-3, 3e-3);
-  EXPECT_TRUE(line.closed);
-  expect_equal_edges(line.points, 3e-3);
-  EXPECT_EQ(line.points.col(0), line.points.rightCols(1));
-  EXPECT_NEAR(line.length(), 0.2 * M_PI, 1e-3);
 }
 
 /// A straight strand, one turn of a helix of ten radii h = 1 with a pitch of four, and a straight strand.
@@ -296,7 +217,7 @@ Points one_turn() {
 
 TEST(FromPoints, HasShorterEdgesWhereTheRodComesNearItself) {
   const Points points = one_turn();
-  const Points fine = 1e3 * from_points(1e-3 * points, false, 1e-3, 2e-3, "shape", 4.0).points;
+  const Points fine = 1e3 * from_points(1e-3 * points, 1e-3, 2e-3, "shape", 4.0).points;
   const std::vector<double> along = arclengths(fine);
   const double turn = 20.0 * M_PI, middle = 120.0 + 0.5 * turn;
   for (std::size_t i = 1; i < along.size(); ++i) {
@@ -308,7 +229,7 @@ TEST(FromPoints, HasShorterEdgesWhereTheRodComesNearItself) {
     }
   }
   const Points line = straight(0.1, 1e-3, 2e-3).points;
-  EXPECT_EQ(from_points(line, false, 1e-3, 2e-3, "shape", 4.0).points.cols(), 201) << "everywhere where it never does";
+  EXPECT_EQ(from_points(line, 1e-3, 2e-3, "shape", 4.0).points.cols(), 201) << "everywhere where it never does";
 }
 
 TEST(PartNearItself, IsThatOfAllPairsOfNodes) {
@@ -339,40 +260,24 @@ Points two_strands_that_cross() {
 
 TEST(FromPoints, RefusesOverlapAndNonsense) {
   Points crossing = two_strands_that_cross();
-  EXPECT_THROW(from_points(crossing, false, 3e-3, 3e-3), InvalidInput);
+  EXPECT_THROW(from_points(crossing, 3e-3, 3e-3), InvalidInput);
   crossing(2, 3) = 0.1;
-  EXPECT_NO_THROW(from_points(crossing, false, 3e-3, 3e-3));
+  EXPECT_NO_THROW(from_points(crossing, 3e-3, 3e-3));
   crossing(0, 0) = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(from_points(crossing, false, 3e-3, 3e-3), InvalidInput);
-  EXPECT_THROW(from_points(Points(3, 0), false, 3e-3, 3e-3), InvalidInput);
+  EXPECT_THROW(from_points(crossing, 3e-3, 3e-3), InvalidInput);
+  EXPECT_THROW(from_points(Points(3, 0), 3e-3, 3e-3), InvalidInput);
   const Points line = Points::Ones(3, 1) * Eigen::RowVector4d(0.0, 10.0, 20.0, 40.0);
-  EXPECT_THROW(from_points(line, false, 3e-3, 3e-3), InvalidInput) << "more than 20000 edges";
+  EXPECT_THROW(from_points(line, 3e-3, 3e-3), InvalidInput) << "more than 20000 edges";
 }
 
 /// What is said of points that are refused; empty: they are not.
-std::string refusal(const Points& points, double radius, double edge_length, bool closed = false) {
+std::string refusal(const Points& points, double radius, double edge_length) {
   try {
-    from_points(points, closed, radius, edge_length, "shape.csv");
+    from_points(points, radius, edge_length, "shape.csv");
   } catch (const InvalidInput& bad) {
     return bad.what();
   }
   return {};
-}
-
-TEST(FromPoints, SaysWhereStrandsLieThroughEachOther) {
-  const Points crossing = two_strands_that_cross();
-  EXPECT_EQ(refusal(crossing, 3e-3, 3e-3).rfind("specimen.file shape.csv: strands overlap at ", 0), 0U);
-  double apart = 1.0, first = 0.0, second = 0.0;
-  const std::string said = refusal(crossing, 3e-3, 3e-3);
-  const std::size_t here = said.find("strands overlap ");
-  ASSERT_NE(here, std::string::npos) << said;
-  ASSERT_EQ(std::sscanf(said.c_str() + here, "strands overlap at %lf m and %lf m along the rod, where they are %lf m",
-                        &first, &second, &apart),
-            3);
-  EXPECT_LT(apart, 1e-9);
-  // Edges cut the corners.
-  EXPECT_NEAR(first, 0.15, 3e-3);
-  EXPECT_NEAR(second, 0.3 + std::hypot(0.05, 0.1), 1e-2);
 }
 
 /// A strand that lies half around a straight one. Between its nodes the polyline is nearer than a
@@ -440,14 +345,6 @@ class CentrelineFile : public ::testing::Test {
     std::ofstream(path_) << text;
     return path_;
   }
-  std::string complaint(const std::string& text) {
-    try {
-      read_centreline(write(text));
-    } catch (const InvalidInput& invalid) {
-      return invalid.what();
-    }
-    return "";
-  }
   void TearDown() override { std::remove(path_.c_str()); }
   std::string path_ = ::testing::TempDir() + "knot_utm_centreline_" +
                       ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
@@ -458,20 +355,6 @@ TEST_F(CentrelineFile, HeadingsCommentsAndEmptyRowsArePassedOver) {
   ASSERT_EQ(points.cols(), 4);
   EXPECT_EQ(points.col(1), Vec3(0.0, 0.0, 0.01));
   EXPECT_EQ(points.col(3), Vec3(-1.0, 1.0, 2.0));
-}
-
-TEST_F(CentrelineFile, WrongRowsAreNamed) {
-  EXPECT_THAT(complaint("0,0,0\n0,0\n0,0,2\n0,0,3\n0,0,4\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,nan\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,0\n"), HasSubstr("row 2 is the same point as the one before it"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1\n0,0,2\n"), HasSubstr("has 3 points, but must have four or more"));
-  EXPECT_THAT(complaint("a\nb\nc\n0,0,0\n"), HasSubstr("row 3"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,+-1\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1001\n"),
-              HasSubstr("row 2 is \"0,0,1001\", but must be three numbers x,y,z from -1000"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1e-200\n"), HasSubstr("row 2 is the same point as the one before it"));
-  EXPECT_THAT(complaint("0,0,0\n" + std::string(5000, '0') + ",0,0\n"),
-              HasSubstr("row 2 is longer than 4096 characters"));
 }
 
 }  // namespace

@@ -102,25 +102,6 @@ TEST(KnotDrawing, FindsALandmarkAlongItsStrandAtAnyLengthOfEdges) {
   }
 }
 
-TEST(KnotDrawing, HasEdgesOfTheLengthThatIsAskedFor) {
-  const Centreline rod = draw(hooks(), kSize);
-  for (Eigen::Index i = 0; i + 1 < rod.points.cols(); ++i) {
-    if (i == rod.cuts[0]) continue;
-    EXPECT_NEAR((rod.points.col(i + 1) - rod.points.col(i)).norm(), kSize.edge_length, 3e-4);
-  }
-}
-
-TEST(KnotDrawing, IsRefusedWhereStrandsOverlap) {
-  KnotDrawing knot = hooks();
-  for (Vec3& point : knot.strands[1].points) point[1] -= 3.0;
-  try {
-    draw(knot, kSize);
-    FAIL();
-  } catch (const InvalidInput& refused) {
-    EXPECT_THAT(refused.what(), HasSubstr("specimen.knot hooks: strands overlap at "));
-  }
-}
-
 TEST(KnotDrawing, HasFinerEdgesByItsRefinement) {
   const KnotDrawing knot = hooks();
   for (const double refinement : {0.5, 1.0, 3.0}) {
@@ -129,13 +110,6 @@ TEST(KnotDrawing, HasFinerEdgesByItsRefinement) {
     EXPECT_NEAR((draw(knot, size).points.col(1) - draw(knot, size).points.col(0)).norm(),
                 kSize.edge_length / refinement, 3e-4);
   }
-}
-
-TEST(KnotDrawing, HasTheSlackOfItsStrandsBetweenTheGrips) {
-  KnotDrawing knot = hooks();
-  EXPECT_EQ(slack_between_grips(knot), 0.0) << "each strand has a free end";
-  knot.strands = {{{"lower", "upper"}, {{0, 0, -8}, {0, 0, -4}, {3, 0, 0}, {0, 0, 4}, {0, 0, 8}}}};
-  EXPECT_DOUBLE_EQ(slack_between_grips(knot), 2.0) << "twice the side of a triangle of 3, 4 and 5";
 }
 
 TEST(KnotDrawing, RopesOfTwoRadiiMayComeAsNearAsBothAreThick) {
@@ -175,14 +149,6 @@ TEST(KnotDrawing, IsRefusedWhereAStrandBendsMoreSharplyThanTheRodIsThick) {
   } catch (const InvalidInput& refused) {
     EXPECT_THAT(refused.what(), HasSubstr("specimen.knot hairpin: a strand bends with a radius of "));
   }
-}
-
-TEST(KnotDrawing, IsRefusedWhereItHasNoRoomBetweenTheGrips) {
-  DrawnSize size = kSize;
-  size.end_to_end = 0.9 * least_end_to_end(hooks(), size.radius);
-  EXPECT_THROW(draw(hooks(), size), InvalidInput);
-  size.end_to_end = least_end_to_end(hooks(), size.radius);
-  EXPECT_NO_THROW(draw(hooks(), size));
 }
 
 TEST(KnotDrawing, StandsOnItsFirstPostWhereTheLowerGripHoldsNoEnd) {

@@ -34,7 +34,7 @@ Points straightened(const Points& points, double share) {
 
 TEST(KnotWatch, AnOverhandIsLostOnceItIsStraightAndStaysLost) {
   const Points start = open_overhand().points;
-  KnotWatch watch({}, false, kRadius, start);
+  KnotWatch watch({}, kRadius, start);
   EXPECT_EQ(watch.follow(straightened(start, 0.05)), KnotType::kKept);
   EXPECT_EQ(watch.follow(straightened(start, 0.99)), KnotType::kChanged);
   EXPECT_EQ(watch.follow(start), KnotType::kChanged);
@@ -43,24 +43,9 @@ TEST(KnotWatch, AnOverhandIsLostOnceItIsStraightAndStaysLost) {
 /// An arch, a helix or a hairpin has no knot: whatever its ends are joined to, none comes undone.
 TEST(KnotWatch, ARodWithoutAKnotHasNoneToLose) {
   const Points knotted = open_overhand().points;
-  KnotWatch watch({}, false, kRadius, straightened(knotted, 0.99));
+  KnotWatch watch({}, kRadius, straightened(knotted, 0.99));
   EXPECT_EQ(watch.follow(knotted), KnotType::kKept);
   EXPECT_EQ(watch.follow(straightened(knotted, 0.99)), KnotType::kKept);
-}
-
-TEST(KnotWatch, AClosedRodIsJoinedWhereItsEndsMeet) {
-  Points ring(3, 101);
-  for (int i = 0; i <= 100; ++i) {
-    const double t = 2.0 * M_PI * i / 100;
-    ring.col(i) << 0.1 * (2.0 + std::cos(3 * t)) * std::cos(2 * t), 0.1 * (2.0 + std::cos(3 * t)) * std::sin(2 * t),
-        0.1 * std::sin(3 * t);
-  }
-  KnotWatch watch({}, true, kRadius, ring);
-  EXPECT_EQ(watch.follow(1.1 * ring), KnotType::kKept);
-  Points unknot = ring;
-  unknot.row(2).setLinSpaced(0.0, 0.5);
-  unknot.col(100) = unknot.col(0);
-  EXPECT_EQ(watch.follow(unknot), KnotType::kChanged);
 }
 
 /// Thin, flattened strands make coils that are shorter than round strands could: space is pressed together about one.
@@ -77,9 +62,9 @@ TEST(KnotWatch, ACoilOfSoftStrandsIsFollowedByWhatTheyLeaveOfTheirRadius) {
   }
   RodMaterial soft;
   soft.radius = kRadius;
-  EXPECT_EQ(KnotWatch(standing, false, soft.core_radius(), line.points).follow(points), KnotType::kChanged);
+  EXPECT_EQ(KnotWatch(standing, soft.core_radius(), line.points).follow(points), KnotType::kChanged);
   soft.section = CrossSection::kSoft;
-  EXPECT_EQ(KnotWatch(standing, false, soft.core_radius(), line.points).follow(points), KnotType::kKept);
+  EXPECT_EQ(KnotWatch(standing, soft.core_radius(), line.points).follow(points), KnotType::kKept);
 }
 
 TEST(KnotWatch, ATailThatSlipsOutOfItsCoilUnties) {
@@ -87,7 +72,7 @@ TEST(KnotWatch, ATailThatSlipsOutOfItsCoilUnties) {
   const int lower = line.nearest_node(line.knots[0].standing_begin);
   const int upper = line.nearest_node(line.knots[1].standing_begin);
   const double edge = (line.points.col(1) - line.points.col(0)).norm();
-  KnotWatch watch({lower, upper}, false, kRadius, line.points);
+  KnotWatch watch({lower, upper}, kRadius, line.points);
   Points points = line.points;
   points.row(0).array() += kRadius;
   EXPECT_EQ(watch.follow(points), KnotType::kKept);

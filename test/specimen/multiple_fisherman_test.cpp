@@ -124,34 +124,5 @@ TEST(MultipleFisherman, StaysTheSameKnotWhereItsWindingsLieAslant) {
   EXPECT_GT(misread_as_wound_once, 20) << "the windings do not lie aslant enough to mean anything";
 }
 
-/// The upper tail drawn back through its coil, winding by winding, and out of it: with each winding less the overhand
-/// is another one, and so is the loop.
-TEST(MultipleFisherman, IsAnotherKnotWithEachWindingThatItsTailIsPulledOutOf) {
-  const double h = 3.175e-3;
-  for (const int turns : {2, 3})
-    for (const Handedness hands : {Handedness::kSame, Handedness::kOpposite}) {
-      const Scene scene("multiple_fisherman", turns, h, hands), fewer("multiple_fisherman", turns - 1, h, hands);
-      const Centreline line = scene.centreline(), other = fewer.centreline();
-      LoopTopology topology = scene.reader(line);
-      const LoopTopology::Reading tied = topology.read(line.points, Vec3::UnitZ());
-      // As far as the reader knows, still `turns` windings.
-      const std::vector<int> standing = fewer.standing_nodes(other);
-      const LoopTopology::Reading reading =
-          LoopTopology(standing[0], standing[1], h, turns).read_as(tied, other.points, Vec3::UnitZ());
-      EXPECT_EQ(reading.overhand_determinant, (std::array<std::int64_t, 2>{2 * turns - 1, 2 * turns - 1}));
-      EXPECT_FALSE(reading.same_knot(tied));
-
-      // Out of all of them: sideways, from where the coil begins.
-      Points out = line.points;
-      const Eigen::Index from = line.nearest_node(line.knots[1].coil_middle);
-      const Vec3 sideways = (out.col(from) - out.col(line.nearest_node(line.knots[1].threaded))).normalized();
-      for (Eigen::Index i = from + 1; i < out.cols(); ++i) out.col(i) = out.col(i - 1) + 0.9 * h * sideways;
-      const LoopTopology::Reading gone = topology.read_as(tied, out, Vec3::UnitZ());
-      EXPECT_FALSE(gone.same_knot(tied));
-      EXPECT_LT(gone.overhand_determinant[1], 2 * turns + 1);
-      EXPECT_EQ(gone.overhand_determinant[0], 2 * turns + 1);
-    }
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -1,14 +1,12 @@
-// Rods that are curved or twisted at rest, against what they need to be held straight and what they become when free.
+// Rods that are curved at rest, against what they need to be held straight and what they become when free.
 
 #include "knot_utm/specimen/rest_shape.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/specimen/options.hpp"
@@ -38,7 +36,7 @@ struct Filament {
   }
   double curvature() const { return kTurn / (kEdges * edge); }
   std::unique_ptr<TimeStep> stepper() {
-    give_rest_shape(specimen, &rod, &state);
+    give_rest_shape(specimen, rod, &state);
     return TimeStep::make(rod, state, settings);
   }
   Boundary held() const {
@@ -52,10 +50,10 @@ struct Filament {
 /// Its ends would move to the side towards which it turns. A clamp bears the couple k_b kappa_0 by two forces, an edge
 /// apart; between the clamps nothing pushes it aside.
 TEST(RestShape, ARodHeldStraightNeedsTheCoupleOfItsNaturalCurvature) {
-  for (const auto& [towards, side] : {std::pair{Axis::kY, Vec3(Vec3::UnitY())}, {Axis::kZ, Vec3(Vec3::UnitZ())}}) {
+  for (const auto& [along, side] : {std::pair{0, Vec3(Vec3::UnitY())}, {2, Vec3(Vec3::UnitX())}}) {
     Filament scene;
+    if (along != 0) scene.state.position.row(0).swap(scene.state.position.row(along));
     scene.specimen.natural_curvature = scene.curvature();
-    scene.specimen.natural_towards = towards;
     const std::unique_ptr<TimeStep> stepper = scene.stepper();
     ASSERT_TRUE(stepper->step(scene.held(), 0.01).accepted());
     const Vec3 force = scene.material.bending_stiffness * scene.curvature() / scene.edge * side;
@@ -77,7 +75,6 @@ void expect_turns(const Points& x, double turn, double error) {
 TEST(RestShape, AFreeRodSpringsIntoItsCircle) {
   Filament scene;
   scene.specimen.natural_curvature = -scene.curvature();
-  scene.specimen.natural_towards = Axis::kY;
   Balance balance(scene.stepper(), scene.settings, 0.02);
   const Boundary free;
   balance.run(20.0, [&](double) -> const Boundary& { return free; });
@@ -88,55 +85,10 @@ TEST(RestShape, AFreeRodSpringsIntoItsCircle) {
   EXPECT_LT(std::abs(balance.gap()), balance.rounding());
 }
 
-/// A grip bears 2 pi rho k_t, positive at the far end of a rod that was turned to the right.
-TEST(RestShape, APreTwistedRodHeldStraightKeepsItsTorque) {
+TEST(RestShape, WithoutACurvatureThereAreNoFrames) {
   Filament scene;
-  scene.specimen.pre_twist = 1.3;
-  const std::unique_ptr<TimeStep> stepper = scene.stepper();
-  EXPECT_FALSE(stepper->state().curved_at_rest()) << "a straight rod needs no natural curvature";
-  ASSERT_TRUE(stepper->step(scene.held(), 0.01).accepted());
-  const double torque = 2.0 * M_PI * 1.3 * scene.material.twisting_stiffness;
-  EXPECT_NEAR(stepper->readings().reaction_torque(kEdges - 1), torque, 1e-9 * torque);
-  EXPECT_NEAR(stepper->readings().reaction_torque(0), -torque, 1e-9 * torque);
-}
-
-/// Let go, a filament that was curved before it was twisted turns back and lies in its plane circle again. The
-/// curvature of a node is the mean of its edges, an error of second order in the twist between them.
-TEST(RestShape, ATwistedFilamentThatIsFreeIsAPlaneCircleAgain) {
-  Filament scene;
-  scene.specimen.natural_curvature = scene.curvature();
-  scene.specimen.natural_towards = Axis::kY;
-  scene.specimen.pre_twist = 3.0;
-  const double between = 2.0 * M_PI * 3.0 * scene.edge;  // of two edges [rad]
-  Balance balance(scene.stepper(), scene.settings, 0.02);
-  const Boundary free;
-  balance.run(20.0, [&](double) -> const Boundary& { return free; });
-  const RodState& state = balance.stepper().state();
-  expect_turns(state.position, kTurn / kEdges, between * between / 8.0 * kTurn / kEdges + 1e-5);
-  EXPECT_NEAR((state.twist[kEdges - 1] - state.twist[0] + state.reference_twist.sum()) / (kEdges - 1), -between,
-              1e-3 * between);
-  const Points t = tangents(state.position);
-  const Vec3 normal = Vec3(t.col(0)).cross(Vec3(t.col(kEdges - 1))).normalized();
-  EXPECT_LT((normal.transpose() * t).cwiseAbs().maxCoeff(), 0.5 * between * kTurn / kEdges + 1e-5) << "plane";
-}
-
-TEST(RestShape, WithoutEitherThereAreNoFrames) {
-  Filament scene;
-  give_rest_shape(scene.specimen, &scene.rod, &scene.state);
+  give_rest_shape(scene.specimen, scene.rod, &scene.state);
   EXPECT_EQ(scene.state.twist.size(), 0);
-  EXPECT_EQ(scene.rod.natural_twist.size(), 0);
-}
-
-TEST(RestShape, ADirectionAlongTheFirstEdgeIsRefused) {
-  Filament scene;
-  scene.specimen.natural_curvature = 1.0;
-  scene.specimen.natural_towards = Axis::kX;
-  try {
-    give_rest_shape(scene.specimen, &scene.rod, &scene.state);
-    FAIL();
-  } catch (const InvalidInput& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("specimen.natural_towards is x, but must be a direction across"));
-  }
 }
 
 }  // namespace

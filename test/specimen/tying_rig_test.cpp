@@ -99,16 +99,6 @@ TEST(TyingRig, ClampsHoldAndGripsNeverPullHarderThanThePreload) {
   EXPECT_EQ(loop.rig->not_equilibrated(), "");
 }
 
-TEST(TyingRig, SaysWhenThePreloadWasNotReachedInTime) {
-  TyingRig::Options options;
-  options.patience = {0.01, 0.0};
-  Loop loop(options);
-  loop.rig->tie(1e-6, 0.0, loop.stepper->state().position);
-  loop.run(0.5);
-  EXPECT_THAT(loop.rig->not_tied(), testing::HasSubstr("s the ends that tie it are pulled with"));
-  EXPECT_FALSE(loop.rig->tied());
-}
-
 TEST(TyingRig, GoesOnWhereNothingComesToRestInTimeAndSaysSo) {
   TyingRig::Options options;
   options.rest.patience = 0.01;

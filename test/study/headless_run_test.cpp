@@ -67,18 +67,5 @@ TEST_F(HeadlessRun, ThatGaveUpSaysWhy) {
   EXPECT_THAT(outcome.reason, HasSubstr("the residual is largest at node "));
 }
 
-TEST_F(HeadlessRun, KeepsShapesWhereAskedAndChangesNothingElse) {
-  const auto shapes = [&] { return options.folder + "/shapes.csv"; };
-  ASSERT_TRUE(run_headless(method, options).ended);
-  EXPECT_FALSE(fs::exists(shapes()));
-  const std::string plain = curve();
-  options.folder += "_with_shapes";
-  options.shapes = true;
-  ASSERT_TRUE(run_headless(method, options).ended);
-  EXPECT_EQ(curve(), plain);
-  const std::string whole = read_whole(shapes());
-  EXPECT_GT(std::count(whole.begin(), whole.end(), '\n'), 100);
-}
-
 }  // namespace
 }  // namespace knot_utm

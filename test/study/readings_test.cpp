@@ -82,13 +82,6 @@ TEST_F(OfThePlateau, ItsSamplesMakeTheSameResultAgainAndWhatElseIsAskedFor) {
   EXPECT_EQ(further, 1);
 }
 
-TEST_F(OfThePlateau, ATestThatHasNoneGoesOnToItsOwnEnd) {
-  const Method method = shipped("tighten", {"material=pink_vps"});
-  run(method, "whole", Readings::kAll);
-  EXPECT_EQ(run(method, "early", Readings::kPlateau).ended, EndedBy::kExtension);
-  EXPECT_EQ(file("early/curve_full.csv"), file("whole/curve_full.csv"));
-}
-
 TEST_F(OfThePlateau, ASpecimenOfABatchEndsWithIt) {
   BatchOptions batch;
   batch.folder = in("batch");
@@ -114,16 +107,6 @@ TEST_F(OfThePlateau, ATestThatCanHaveNoneIsRefusedAndNothingIsWritten) {
       EXPECT_THAT(invalid.what(), HasSubstr("--readings plateau: this test has no plateau"));
     }
     EXPECT_FALSE(fs::exists(in("refused")));
-  }
-}
-
-TEST(Readings, OfAnotherWordAreRefused) {
-  EXPECT_EQ(readings_named("plateau"), Readings::kPlateau);
-  try {
-    readings_named("locks");
-    FAIL();
-  } catch (const InvalidInput& invalid) {
-    EXPECT_STREQ(invalid.what(), "--readings is locks, but must be plateau");
   }
 }
 

@@ -39,13 +39,7 @@ TEST(Specimens, OneIsDrawnAsAmongAllOthers) {
     EXPECT_EQ(one.number, number);
     EXPECT_EQ(one.drawn, all[static_cast<std::size_t>(number - 1)].drawn);
     EXPECT_EQ(method_yaml(one.method), method_yaml(all[static_cast<std::size_t>(number - 1)].method));
-    EXPECT_EQ(method_yaml(method_of_specimen(method, number)), method_yaml(one.method));
   }
-}
-
-TEST(Specimens, OneAloneHasTheValuesOfTheMethod) {
-  const Method method = straight("{count: 1, scatter: {specimen.length: {normal: 0.02}}}");
-  EXPECT_EQ(method_yaml(method_of_specimen(method, 1)), method_yaml(method));
 }
 
 /// The standard error of a standard deviation over n normal readings is its 1/sqrt(2 n)-th part, that of the mean the
@@ -138,28 +132,6 @@ TEST(KeyUnits, AreThoseOfTheMethodsKeys) {
   EXPECT_EQ(unit_of_key(method, "machine.load_cell.sampling_rate"), "Hz");
   EXPECT_EQ(unit_of_key(method, "specimen.handedness"), "");
   EXPECT_EQ(unit_of_key(method, "specimen.no_key"), "");
-}
-
-/// Strengths scatter by themselves where a material says by how much; by tension alone none does.
-TEST(Specimens, HaveStrengthsOfTheirOwnWhereTheMaterialHasAWeibullModulus) {
-  const std::string scatters = "material.breaking={law: tension_and_bending, bending_share: 0.1, weibull_modulus: 20}";
-  const auto keys = [](const std::vector<std::string>& set) {
-    std::vector<std::string> found;
-    for (const Scatter& one : load_method(kConfig + "straight.yaml", set).specimens.scatter) found.push_back(one.key);
-    return found;
-  };
-  EXPECT_THAT(keys({"specimens.count=2", "material=nylon", scatters}),
-              testing::ElementsAre("material.breaking.weaker_share"));
-  const auto of_two = [&](const std::vector<std::string>& set) {
-    std::vector<std::string> found;
-    for (const Scatter& one : load_method(kConfig + "knot.yaml", set).specimens.scatter) found.push_back(one.key);
-    return found;
-  };
-  EXPECT_THAT(of_two({"specimens.count=2", "specimen.knot=reef", "material=nylon", "other_material=nylon",
-                      "other_" + scatters}),
-              testing::Contains("other_material.breaking.weaker_share"));
-  EXPECT_THAT(keys({"specimens.count=2", "material=nylon", scatters, "material.breaking.law=tension"}),
-              testing::IsEmpty());
 }
 
 }  // namespace

@@ -80,7 +80,6 @@ struct Ring {
     const double strain = options.tension / material.stretching_stiffness;
     RodProperties rod = make_rod(material, edges.colwise().norm().transpose() / (1.0 + strain));
     state.natural_curvature.resize(2, nodes - 2);
-    rod.natural_twist = Eigen::VectorXd::Zero(nodes - 2);
     for (int i = 1; i + 1 < nodes; ++i) {
       const auto directors = [&](int edge) {
         return material_directors(edges.col(edge).normalized(), state.reference_director.col(edge), 0.0);

@@ -54,7 +54,6 @@ double force_of_overhand(const PhysicsOptions& physics) {
 TEST(LooseKnot, ForceIsNotLostInTheResidual) {
   PhysicsOptions usual, exact;
   usual.accuracy = exact.accuracy = Accuracy::kDraft;
-  usual.contact_law = exact.contact_law = ContactLaw::kEdge;
   exact.residual = 1e-7;
   const double force = force_of_overhand(exact);
   EXPECT_GT(force, 0.1);

@@ -35,9 +35,7 @@ class Candidates {
 
   /// `reach` is the distance of centrelines that must be found [m]; pairs closer than `exclusion` along the rod
   /// never count [m]. `exclusion` is that of the rod's own material, and in proportion to the radius that of another.
-  /// `extent` is the fraction of the two edges at its node that a segment covers: a half as a rule, 1 where it stands
-  /// for whole edges [-].
-  Candidates(const RodProperties& rod, double reach, double margin, double exclusion, double extent = 0.5);
+  Candidates(const RodProperties& rod, double reach, double margin, double exclusion);
 
   /// Rebuilds the list where something moved far enough; true if it did.
   bool refresh(const Points& position);
@@ -87,7 +85,7 @@ class Candidates {
   /// Whether the rod is drawn out so far that it cannot come back to itself.
   bool is_taut(const Points& position) const;
 
-  double reach_, margin_, exclusion_, other_exclusion_, extent_;
+  double reach_, margin_, exclusion_, other_exclusion_;
   int first_of_other_;         // RodProperties::first_of_other
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd size_;       // of segment i about its node [m]

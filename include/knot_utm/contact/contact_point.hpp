@@ -13,8 +13,6 @@ namespace knot_utm {
 struct PairLaws {
   NormalLaw normal;
   Friction friction;
-
-  void state(Archive& archive) { archive(normal, friction); }
 };
 
 /// Those of all pairs of materials, by ContactPoint::pair: of the first rope on itself, of that on another rope, of the
@@ -134,10 +132,8 @@ Real predicted_pressure(const Real& prediction, const Real& of_tangent) {
   return select(prediction > 0.0, prediction, of_tangent);
 }
 
-/// Fills z, mu and force of the active contacts from pressure, n, slip and weight, in a step of length dt [s].
-void evaluate_forces(const Friction& friction, double dt, std::vector<ContactPoint>& contacts);
-
-/// The same with the pressure from the overlap, by the laws of each contact's pair.
+/// Fills pressure, z, mu and force of the active contacts from overlap, n, slip and weight by the laws of each
+/// contact's pair, in a step of length dt [s].
 void evaluate_forces(const ContactLaws& laws, double dt, std::vector<ContactPoint>& contacts);
 
 /// The friction law's input for a contact that has been evaluated.

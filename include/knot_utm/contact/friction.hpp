@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -18,13 +20,24 @@ using FrictionRegistry = LawRegistry<FrictionLaws>;
 
 inline constexpr auto kFrictionLawNames = FrictionRegistry::kNames;
 
+/// By its name as in a method, which must be one of kFrictionLawNames.
+inline FrictionLaw law_named(const std::string& name) {
+  return static_cast<FrictionLaw>(std::find(kFrictionLawNames.begin(), kFrictionLawNames.end(), name) -
+                                  kFrictionLawNames.begin());
+}
+
 /// The friction of one kind of contact, by one of the laws.
 class Friction {
  public:
   Friction() = default;
   template <typename Law, typename = decltype(Law::kName)>
   Friction(const Law& law) : law_(law), on_(law.coefficient > 0.0) {}  // NOLINT(google-explicit-constructor)
-  static Friction of(const FrictionOptions& options, const FrictionScales& scales);
+  static Friction of(const FrictionOptions& options, const FrictionScales& scales) {
+    Friction out;
+    out.law_ = FrictionRegistry::of(options.law, options, scales);
+    out.on_ = out.coefficient() > 0.0;
+    return out;
+  }
 
   /// Calls use(law) with the law itself, once for all contacts, so that the law is not chosen at every contact.
   template <typename Use>
@@ -46,8 +59,6 @@ class Friction {
   double creep_speed() const {
     return visit([](const auto& law) { return law.creep_speed(); });
   }
-
-  void state(Archive& archive);
 
  private:
   FrictionLaws law_;

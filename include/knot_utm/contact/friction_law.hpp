@@ -29,7 +29,6 @@ namespace knot_utm {
 ///     traction(FrictionInput<Vector>)                 -> FrictionTraction<Vector>
 ///     tangent(FrictionInput<Vector>, Linearisation)   -> FrictionTangent<Vector>
 ///     remember(FrictionInput<Vec3>, z)                -> FrictionMemory, once the step is accepted with this z
-///     state(Archive&)                                 its parameters
 ///
 /// Traction and tangent are templates: `Vector` is Vec3 for one contact, or FourVectors for four side by side; Real is
 /// the number type that belongs to it. They make no virtual calls and allocate nothing.

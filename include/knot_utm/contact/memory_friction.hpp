@@ -45,8 +45,6 @@ struct MemoryFriction : FrictionLawDefaults {
   }
 
   FrictionMemory remember(const FrictionInput<Vec3>&, const Vec3& z) const { return {presliding * z, 0.0}; }
-
-  void state(Archive& archive) { archive(coefficient, presliding); }
 };
 
 }  // namespace knot_utm

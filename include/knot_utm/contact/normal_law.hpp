@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/lanes.hpp"
 
 namespace knot_utm {
@@ -18,14 +17,11 @@ namespace knot_utm {
 /// corner where strands just touch, symmetrically about D = 0. A contact with a pressure above K delta/2 does not
 /// depend on it.
 ///
-/// EdgeLaw (edge_law.hpp) has the same interface for one contact at a time. pressure, slope and overlap_at are
-/// templates: of a double, or of Lanes for four contacts side by side.
+/// pressure, slope and overlap_at are templates: of a double, or of Lanes for four contacts side by side.
 struct NormalLaw {
   double stiffness = 0.0;                                       ///< K [N/m^2]
   double tolerance = 0.0;                                       ///< delta [m]
   double stiffening = std::numeric_limits<double>::infinity();  ///< c [m]
-
-  void state(Archive& archive) { archive(stiffness, tolerance, stiffening); }
 
   /// Of one such strand on a body that does not give: it alone is flattened by what two would share, p(2 D).
   NormalLaw on_rigid() const { return {2.0 * stiffness, 0.5 * tolerance, 0.5 * stiffening}; }

@@ -56,8 +56,6 @@ struct PowerFriction : FrictionLawDefaults {
 
   FrictionMemory remember(const FrictionInput<Vec3>&, const Vec3& z) const { return {presliding * z, 0.0}; }
 
-  void state(Archive& archive) { archive(coefficient, presliding, exponent, reference_pressure); }
-
  private:
   /// p_0 [N/m]
   double least() const { return 1e-3 * reference_pressure; }

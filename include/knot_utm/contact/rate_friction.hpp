@@ -70,8 +70,6 @@ struct RateFriction : FrictionLawDefaults {
     return {presliding * spring.cone() * z, 0.0};
   }
 
-  void state(Archive& archive) { archive(coefficient, presliding, rate, speed); }
-
  private:
   /// What the tangential spring bears after the slip of this step.
   template <typename Real>

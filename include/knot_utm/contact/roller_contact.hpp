@@ -74,7 +74,6 @@ inline Vec3 carried_along(const ContactPoint& contact) { return contact.turned *
 class RollerContact {
  public:
   using Model = RollerModel;
-  static constexpr bool kSoftens = true;  // whether sections may give
 
   /// `farthest`: the largest motion of a node in an accepted step [m]. Segments that are further from all rollers when
   /// a step begins are left out of that step.

@@ -34,7 +34,6 @@ namespace knot_utm {
 class SmoothContact {
  public:
   using Model = ContactModel;
-  static constexpr bool kSoftens = true;  // whether sections may give
 
   /// `catch_up`: relaxation time with which omega and o follow the shape [s].
   SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,

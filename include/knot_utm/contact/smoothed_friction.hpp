@@ -64,8 +64,6 @@ struct SmoothedFriction : FrictionLawDefaults {
   FrictionMemory remember(const FrictionInput<Vec3>&, const Vec3&) const { return {}; }
   double creep_speed() const { return slip_tolerance; }
 
-  void state(Archive& archive) { archive(coefficient, slip_tolerance, least_slip); }
-
  private:
   /// |z|/|y|
   template <typename Real>

@@ -26,7 +26,7 @@ namespace knot_utm {
 /// act as forces R_a a^ on the derivative a' of the centreline (a^ = a'/|a'|^2), beside what SurfacePoint has. h_b
 /// belongs to the foot; what its slope along the strand would add to friction is left out, and counts as numerical
 /// work. Surfaces meet half way between the centrelines, whatever the stretch of either.
-/// Source: our own; the flattening by bench/rubber_cylinder.py.
+/// Source: our own; the flattening by finite elements (doc/developers/history.md).
 struct SoftPoint {
   double scale = 1.0;                   ///< k [-]
   double share_a = 0.5, share_b = 0.5;  ///< chi [-]; on a roller 1 and 0

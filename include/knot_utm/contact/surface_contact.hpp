@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
-#include "knot_utm/contact/edge_law.hpp"
 #include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
@@ -118,11 +117,6 @@ struct RollingLaws {
   bool on() const { return of[0].on() || of[1].on() || of[2].on(); }
 };
 
-/// How the feet of a contact between edges move (edge_contact.hpp): inverse of H, zero where a foot stays [1/m^2].
-struct EdgeFeet {
-  double inverse_tt = 0.0, inverse_tu = 0.0, inverse_uu = 0.0;
-};
-
 /// What the rotation of its sections adds to the slip of a contact, r - (xi + Dx_a - Dx_b) [m].
 Vec3 surface_shift(const ContactPoint& contact, const SurfacePoint& surface);
 /// Adds it to the slip r of every active contact.
@@ -150,18 +144,16 @@ void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const
 struct SurfaceModel {
   static constexpr int kShift = 0, kTurnA = 3, kTurnB = 6, kSpinA = 9, kSpinB = 10, kTurned = 11, kChanges = 12;
 
-  /// Derivatives with respect to one change, and the motion of the feet that goes with it.
+  /// Derivatives with respect to one change, and the motion of the foot that goes with it.
   struct Response {
-    Lanes force = {};     ///< -dg/dxi
-    Lanes on_a = {};      ///< -d(a^ x m)/dxi, lane 3: d(a^.m)/dxi
-    Lanes on_b = {};      ///< the same of b; on a roller lane 3: d(C.axis)/dxi
-    double foot_a = 0.0;  ///< dt/dxi, motion of the foot on a, between edges only
-    double foot_b = 0.0;  ///< du/dxi
+    Lanes force = {};   ///< -dg/dxi
+    Lanes on_a = {};    ///< -d(a^ x m)/dxi, lane 3: d(a^.m)/dxi
+    Lanes on_b = {};    ///< the same of b; on a roller lane 3: d(C.axis)/dxi
+    double foot = 0.0;  ///< du/dxi
   };
 
   double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
   double slope = 0.0;     ///< p'(D^) [N/m^2]
-  bool two_feet = false;  ///< between edges
   Lanes force = {};       ///< g with that pressure [N]
   Lanes on_a = {};        ///< a^ x m with it; lane 3: -a^.m
   Lanes on_b = {};        ///< b^ x m with it; lane 3: -b^.m, on a roller -C.axis
@@ -183,12 +175,6 @@ struct SurfaceModels {
 std::size_t linearise(const ContactLaws& laws, const RollingLaws& rolling, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       const std::vector<SoftPoint>& soft, std::size_t from, SurfaceModels& models);
-
-/// The same between edges, which have two feet each.
-std::size_t linearise(const EdgeLaw& normal, const Friction& friction, const RollingLaws& rolling, double dt,
-                      const ContactLinearisation& how, const std::vector<ContactPoint>& contacts,
-                      const std::vector<SurfacePoint>& surfaces, const std::vector<EdgeFeet>& feet, std::size_t from,
-                      SurfaceModels& models);
 
 /// Calls visit(number of the contact, its SurfaceModel) for each active contact with friction at the surface, in order.
 template <typename Contacts, typename Visit>

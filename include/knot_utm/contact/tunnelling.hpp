@@ -36,8 +36,7 @@ class TunnellingSearch {
   /// From now on the rod is cut at this edge, too, which anything may pass.
   void part(int edge) { cuts_.push_back(edge); }
 
-  /// Columns are nodes, all of them finite. A first and a last node that coincide at the start and at the end count as
-  /// one.
+  /// Columns are nodes, all of them finite.
   std::optional<Tunnelling> find(const Points& start, const Points& end);
 
  private:
@@ -72,7 +71,6 @@ class TunnellingSearch {
   const Points* start_ = nullptr;
   const Points* end_ = nullptr;
   bool bare_ends_;
-  bool closed_ = false;
   std::vector<int> cuts_;  // edges
 };
 

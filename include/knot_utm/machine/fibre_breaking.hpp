@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "knot_utm/machine/breaking_law.hpp"
-#include "knot_utm/machine/weakest_link.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/material.hpp"
@@ -37,15 +36,7 @@ struct FibreBreaking {
   static constexpr LawKey kBendingShare{
       "bending_share", 0.0, 1.0, "-", LawDefault::kNone, std::numeric_limits<double>::quiet_NaN()};
   static constexpr LawKey kCrushingShare{"crushing_share", 0.0, 100.0, "-", LawDefault::kPlain, 0.0};
-  static constexpr LawKey kWeibullModulus{"weibull_modulus",
-                                          1.0,
-                                          std::numeric_limits<double>::infinity(),
-                                          "-",
-                                          LawDefault::kPlain,
-                                          std::numeric_limits<double>::infinity()};
-  static constexpr LawKey kTestedLength{"tested_length", 1e-4, 100.0, "m", LawDefault::kPlain, 0.25};
-  static constexpr LawKey kWeakerShare{"weaker_share", 1e-6, 1.0 - 1e-6, "-", LawDefault::kPlain, 0.5};
-  static constexpr std::array kKeys{kBendingShare, kCrushingShare, kWeibullModulus, kTestedLength, kWeakerShare};
+  static constexpr std::array kKeys{kBendingShare, kCrushingShare};
   static constexpr bool kStudied = false;
   static constexpr bool kBends = true;
   static constexpr BreakLimit kLimit = BreakLimit::kStrain;
@@ -53,13 +44,11 @@ struct FibreBreaking {
   double breaking_strain = 0.0;  ///< eps_b [-]
   double share = 0.0;            ///< b [-]
   double crushing = 0.0;         ///< c eps_b/F_b [1/N]
-  WeakestLink link;
 
   static FibreBreaking of(const Material& material) {
     const auto& keys = material.breaking;
     const double strain = strain_under(material, *material.breaking_force);
-    return {strain, keys.number(kBendingShare), keys.number(kCrushingShare) * strain / *material.breaking_force,
-            WeakestLink(keys.number(kWeibullModulus), keys.number(kTestedLength), keys.number(kWeakerShare))};
+    return {strain, keys.number(kBendingShare), keys.number(kCrushingShare) * strain / *material.breaking_force};
   }
 
   double limited(const LoadedEdge& edge) const { return edge.strain + share * edge.bend + crushing * edge.pressed; }

@@ -54,9 +54,6 @@ class RopeStrengths {
   std::vector<Ropes> ropes_;
 };
 
-/// Time that a wave of tension takes along a length [m] of the rod: length sqrt(rho pi h^2/k_s) [s].
-double transit_time(const RodMaterial& material, double length);
-
 /// Whether another strand lies against an edge, nearer than 1.1 (h_a + h_b) to it and further than 5 h along the rod.
 bool lies_in_knot(const RodProperties& rod, const Points& position, int edge);
 

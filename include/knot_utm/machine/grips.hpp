@@ -61,10 +61,6 @@ class Grips {
   void hold_again() { slipping_.clear(); }
   bool slips(int node) const;
 
-  /// Driven rollers turn from the first call on; `time` in s.
-  void turn_rollers_from(double time);
-  void turn_rollers(double time, std::vector<Roller>& rollers) const;
-
   void state(Archive& archive);
 
   /// Centres of the rollers or of the post, or places of the held nodes: the ends of the specimen's length [m].
@@ -111,8 +107,6 @@ class Grips {
   Supports supports_;
   std::vector<NodeForce> weights_;
   double hung_ = 0.0;                     // part of them in the last accepted step
-  double roller_rate_ = 0.0;              // of driven ones [rad/s]
-  std::optional<double> turning_from_;    // [s]
   std::optional<SpringHold> far_middle_;  // keeps the loop from turning on the rollers; relative to half-way
   bool holds_far_side_ = false;
 };

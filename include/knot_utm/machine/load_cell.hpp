@@ -10,11 +10,10 @@ namespace knot_utm {
 
 /// The load cell in the upper grip: its reading of the true force F, tension positive [N].
 ///
-///     reading = round([(1 + g)(F_s - F_balance) + d (t - t_balance) + noise] / r) r
+///     reading = round([(1 + g)(F_s - F_balance) + noise] / r) r
 ///
-/// F_s is F limited by the cell's stop, |F_s| <= overload * capacity. g, |g| <= accuracy, is the error of its gain, d
-/// the drift of its zero [N/s], t - t_balance the time since it was balanced, or since the test began [s], and r the
-/// resolution [N]. With default options the reading is F - F_balance.
+/// F_s is F limited by the cell's stop, |F_s| <= overload * capacity. g, |g| <= accuracy, is the error of its gain, and
+/// r the resolution [N]. With default options the reading is F - F_balance.
 ///
 /// An accuracy class is a bound on the gain's error, so a cell draws g once, uniformly between the bounds. g and the
 /// normally distributed noise follow from the seed and do not depend on each other; the noise also follows from the
@@ -24,13 +23,13 @@ class LoadCell {
   /// Throws InvalidInput where a number is out of range.
   explicit LoadCell(const LoadCellOptions& options);
 
-  void balance(double true_force, double time);  ///< from now on this force reads zero
+  void balance(double true_force);  ///< from now on this force reads zero
 
   double offset() const { return balanced_; }  ///< F_balance [N]
 
   double balanced(double true_force) const { return true_force - balanced_; }  ///< the reading of a cell without errors
 
-  double read(double true_force, double time);  ///< one reading; the next one has other noise
+  double read(double true_force);  ///< one reading; the next one has other noise
 
   void state(Archive& archive);
 
@@ -38,7 +37,6 @@ class LoadCell {
   LoadCellOptions options_;
   double gain_ = 1.0;  ///< 1 + g
   double balanced_ = 0.0;
-  double balanced_at_ = 0.0;  ///< [s]
   std::mt19937_64 random_;
 };
 

@@ -12,11 +12,8 @@ enum class GripKind { kRollers, kNodes, kClamps };
 /// Whether the middle of the loop's far side is held half-way between the rollers, or the loop is free to turn on them.
 enum class FarSide { kHeld, kFree };
 
-/// Rollers stand still, turn freely with the rod, or are driven from the first pull on.
-enum class RollerRotation { kFixed, kFree, kTurned };
-
-/// Whether the test ends as the rod parts, or its two ends are followed as they recoil, for one transit of a wave.
-enum class AfterBreak { kStop, kFollow };
+/// Rollers stand still, or turn freely with the rod.
+enum class RollerRotation { kFixed, kFree };
 
 /// Properties of the load cell (load_cell.hpp).
 struct LoadCellOptions {
@@ -27,7 +24,6 @@ struct LoadCellOptions {
   double floor = 0.0;          ///< below it the accuracy does not hold [of capacity]
   double resolution = 0.0;     ///< [N]; 0: none
   double noise = 0.0;          ///< standard deviation of a reading [N]; 0: none
-  double drift = 0.0;          ///< of its zero since balance [N/s]
   double overload = std::numeric_limits<double>::infinity();  ///< load of its stop [of capacity]
   unsigned seed = 1;                                          ///< of the cell: its systematic error, and its noise
   unsigned noise_run = 0;                                     ///< the same cell has other noise in each run
@@ -40,9 +36,7 @@ struct MachineOptions {
   double roller_diameter = 0.0381;  ///< [m]
   double roller_friction = 0.0;     ///< mu of rod on roller [-]
   RollerRotation roller_rotation = RollerRotation::kFixed;
-  double roller_rate = 0.0;           ///< of rollers that are turned, about +y [rad/s]
   FarSide far_side = FarSide::kHeld;  ///< of a loop on rollers
-  AfterBreak after_break = AfterBreak::kStop;
   LoadCellOptions load_cell;
   double stiffness = std::numeric_limits<double>::infinity();  ///< frame [N/m]
   double travel = 1.0;                                         ///< the crosshead's reach; a test ends there [m]

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "knot_utm/machine/grips.hpp"
-#include "knot_utm/machine/knot_touch.hpp"
 #include "knot_utm/machine/take_up.hpp"
 #include "knot_utm/machine/tying.hpp"
 #include "knot_utm/record/program.hpp"
+#include "knot_utm/specimen/knot_readings.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 
 namespace knot_utm {

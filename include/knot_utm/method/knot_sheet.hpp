@@ -6,9 +6,9 @@ namespace knot_utm {
 
 /// What is shown of a knot before anything pulls it.
 struct KnotSheet {
-  std::string name;     ///< of its file or as a method calls it
-  std::string facts;    ///< a line each: title, use, strands, held, pulled, crossings, type, distance, bend
-  std::string picture;  ///< SVG (specimen/knot_picture.hpp)
+  std::string name;   ///< of its file or as a method calls it
+  std::string facts;  ///< a line each: title, use, strands, held, pulled, crossings, type, distance, bend
+  std::string shape;  ///< JSON, of which python/knot_utm/knot_picture.py makes a picture
 };
 
 /// Of a knot that comes with the package or of a user's file, in the rod of the default material. Its free ends and the

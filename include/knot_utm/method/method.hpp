@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/end_options.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/method/report_options.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -16,9 +15,12 @@
 
 namespace knot_utm {
 
-/// The `analysis` section of a method: which further evaluations are asked for, beyond those of every test.
-struct AnalysisOptions {
-  bool margin = false;  ///< safety margin of a knot that slides (study/find_margin.hpp)
+/// The `ends` section of a method: what ends a test before its program does. A rod that parts, the end of the
+/// crosshead's travel (`machine.travel`) and the operator end it in any case.
+struct EndOptions {
+  std::optional<double> load;                       ///< load limit [N]; unset: the cell's capacity
+  std::optional<double> time;                       ///< [s]
+  std::optional<double> break_at_fraction_of_peak;  ///< the load has fallen to this fraction of its peak [-]
 };
 
 /// How a value of the method scatters from specimen to specimen. With x0 the value in the method and d the spread:
@@ -45,15 +47,13 @@ struct SpecimensOptions {
 
 /// A test method with everything resolved: the content of a method file.
 struct Method {
-  std::string name;                     ///< name of the method file, without folder and extension
-  std::optional<double> compatibility;  ///< 1: the defaults of release 1; unset: the newest
+  std::string name;  ///< name of the method file, without folder and extension
   SpecimenOptions specimen;
   Material material;
   MachineOptions machine;
   Program program;
   EndOptions ends;
   PhysicsOptions physics;
-  AnalysisOptions analysis;
   ReportOptions report;
   Specification specification;
   SpecimensOptions specimens;

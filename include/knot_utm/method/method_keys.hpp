@@ -25,6 +25,9 @@ std::vector<KeyUnit> step_numbers(ProgramStep step, const std::string& path);
 /// such number.
 std::string unit_of_key(const Method& method, const std::string& key);
 
+/// Whether no shipped method uses a key, so that it may still change or go.
+bool is_experimental(const std::string& key);
+
 /// A key that a method may have, as a report shows it.
 struct MethodKey {
   std::string key;    ///< dotted: "machine.load_cell.noise"; of a step by its name: "program.pull.speed"
@@ -37,7 +40,7 @@ struct MethodKey {
 /// name in words, unless the table of labels in method_keys.cpp has better ones.
 std::vector<MethodKey> method_keys();
 
-/// The same as CSV: key, label, unit. The report reads it from `tensile_test --list-method-keys`.
+/// The same as CSV: key, label, unit, and whether it is experimental. The report reads it from `tensile_test --list-method-keys`.
 std::string method_keys_csv();
 
 /// What a report calls each knot, and the keys of `specimen` that it shows of it, as CSV: knot, title, keys. The

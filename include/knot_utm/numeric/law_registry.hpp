@@ -6,7 +6,6 @@
 #include <variant>
 #include <vector>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 
 namespace knot_utm {
@@ -33,7 +32,6 @@ std::string laws_with(const std::string& key, const LawEntry* laws, std::size_t 
 ///     static constexpr bool kStudied        whether the errors beside readings were studied with it
 ///                                           (machine/accuracy.hpp)
 ///     static Law of(...)                    from a method
-///     state(Archive&)                       its parameters
 template <typename Laws>
 struct LawRegistry;
 
@@ -65,17 +63,6 @@ struct LawRegistry<std::variant<Law...>> {
     std::size_t next = 0;
     static_cast<void>(((next++ == static_cast<std::size_t>(number) && (out = Law::of(method...), true)) || ...));
     return out;
-  }
-
-  /// Saves or loads which law it is, and its parameters. `what`: the kind of law, for messages.
-  static void archive(Archive& archive, const char* what, Laws& law) {
-    int number = static_cast<int>(law.index());
-    archive.number(what, number, 0, static_cast<int>(kCount) - 1);
-    if (archive.loads()) {
-      int next = 0;
-      static_cast<void>(((next++ == number && (law = Law(), true)) || ...));
-    }
-    std::visit([&](auto& of) { of.state(archive); }, law);
   }
 };
 

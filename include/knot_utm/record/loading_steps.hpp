@@ -104,15 +104,9 @@ struct RecordedPlace {
   double time = 0.0, displacement = 0.0;  ///< since the record began [s], [m]
 };
 
-/// How a user says that the raw data of a record are to be read (raw/raw_options.hpp); empty where nothing is said.
-struct RecordWords {
-  std::string columns, units, specimen, invert;
-};
-
 /// `follow`: repeats the motion of a record from its present place, until the record ends.
 struct FollowStep : Step {
   std::string record;                   ///< the file of the record
-  RecordWords words;                    ///< and how it is read
   std::vector<RecordedPlace> recorded;  ///< and what it says once it has been read, times ascending from 0
 
   FollowStep() : Step("follow", kMoves | kLoads | kPulls) {}

@@ -29,8 +29,8 @@ SampleField(const char*, const char*, const char*, Member) -> SampleField<Member
   }
 
 /// All fields of a sample, in the order of samples.csv. From these rows come samples.csv, the message with both of its
-/// conversions, and the units in curve files. A new field is a row here, a member of Sample and a line of
-/// msg/KnotState.msg; tests compare the three.
+/// conversions, and the units in curve files. A new field is a row here and a member of Sample; `scripts/tables` writes
+/// its line of msg/KnotState.msg.
 inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(sequence, "-", "of the command that this answers"), KNOT_UTM_FIELD(time, "s", "time of the test"),
     KNOT_UTM_FIELD(phase, "-", "phase of the test: idle, a step of the program, or done (tensile_test --list-phases)"),
@@ -116,6 +116,9 @@ inline Phase last_of(Phase) { return last_phase(); }
 constexpr KnotType last_of(KnotType) { return KnotType::kCrossed; }
 constexpr BenchStatus last_of(BenchStatus) { return BenchStatus::kFailed; }
 constexpr BreakPlace last_of(BreakPlace) { return BreakPlace::kGrip; }
+
+/// All fields as CSV with the columns field, type (that of the message), unit and meaning.
+std::string sample_fields_csv();
 
 /// The unit of the field of this name. A name that is none does not compile where the unit is a constant.
 constexpr const char* sample_unit(std::string_view name) {

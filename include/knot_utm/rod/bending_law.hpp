@@ -26,7 +26,6 @@ namespace knot_utm {
 ///     remember(BendingNode)                       -> BendingMemory, once the step is accepted
 ///     keep_own(BendingNode, double* own)          changes its own numbers, once the step is accepted; only where kOwn
 ///                                                 is more than 0
-///     state(Archive&)                             its parameters
 ///
 /// The state of the rod has room for the numbers of its law, archives them and hands them to it node by node; a law
 /// needs no other code for its memory. They are zero at first, do not change within a step, and so leave the moment a

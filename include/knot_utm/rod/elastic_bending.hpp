@@ -1,6 +1,5 @@
 #pragma once
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/bending_law.hpp"
 
@@ -26,8 +25,6 @@ struct ElasticBending {
             stiffness * Eigen::Matrix2d::Identity()};
   }
   BendingMemory remember(const BendingNode& node) const { return {node.natural, 0.0, respond(node).energy}; }
-
-  void state(Archive& /*archive*/) {}
 };
 
 }  // namespace knot_utm

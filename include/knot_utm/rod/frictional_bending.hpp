@@ -4,7 +4,6 @@
 #include <array>
 #include <limits>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/yielding_bend.hpp"
@@ -58,8 +57,6 @@ struct FrictionalBending {
   void keep_own(const BendingNode& node, double* own) const {
     own[0] = node.own[0] + std::max(node.tension - node.own[0], 0.0) * (node.dt / (node.dt + kCompactionTime));
   }
-
-  void state(Archive& archive) { archive(stick_ratio, curvature, by_tension); }
 
  private:
   YieldingBend at(const BendingNode& node) const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/stretching_law.hpp"
 
@@ -22,8 +21,6 @@ struct LinearStretching {
   }
 
   double strain(double k_s, double tension) const { return tension / k_s; }
-
-  void state(Archive& /*archive*/) {}
 };
 
 }  // namespace knot_utm

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 
 namespace knot_utm {
@@ -37,7 +36,6 @@ struct RodMaterial {
   double core_radius() const { return is_soft() ? radius * (1.0 - 0.5 * kDeepestSoft) : radius; }
 
   /// What a time step takes from it: radius, density and stiffnesses. Its laws have been made (RodLaws).
-  void state(Archive& archive);
 };
 
 /// Whether a rod bends like a solid one, whose k_s h^2/k_b is 4. That of ropes is in the hundreds or more.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/stretching_law.hpp"
 
@@ -44,8 +43,6 @@ struct NeoHookeanStretching {
     }
     return lambda - 1.0;
   }
-
-  void state(Archive& /*archive*/) {}
 };
 
 }  // namespace knot_utm

@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/material.hpp"
@@ -42,8 +41,6 @@ struct PlasticBending {
 
   BendingResponse respond(const BendingNode& node) const { return at(node).respond(node); }
   BendingMemory remember(const BendingNode& node) const { return at(node).remember(node); }
-
-  void state(Archive& archive) { archive(yield_curvature, hardening); }
 
  private:
   YieldingBend at(const BendingNode& node) const {

@@ -33,7 +33,6 @@ struct RodProperties {
   Eigen::VectorXd rest_length;                ///< l_j [m], N-1
   Eigen::VectorXd voronoi_length;             ///< lbar_i [m], N (half an edge at the ends)
   Eigen::VectorXd mass;                       ///< m_i [kg], N
-  Eigen::VectorXd natural_twist;              ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
   std::vector<int> cuts;                      ///< edges that are cut, ascending
 
   Eigen::Index nodes() const { return voronoi_length.size(); }
@@ -54,9 +53,6 @@ struct RodProperties {
   /// other, as people are told [m].
   double place(double arclength) const;
   double place(Eigen::Index edge, double fraction) const;
-
-  /// Saves or loads all of it; loading replaces the whole rod.
-  void state(Archive& archive);
 };
 
 /// Straight, untwisted rod of the given rest lengths, by the laws of its material: masses rho pi h^2 lbar_i. What

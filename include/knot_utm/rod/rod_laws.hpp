@@ -13,11 +13,6 @@ struct RodLaws {
 
   /// Those that a material names. Throws InvalidInput where a value of theirs is missing.
   static RodLaws of(const RodMaterial& material) { return {stretching_law_of(material), bending_law_of(material)}; }
-
-  void state(Archive& archive) {
-    StretchingRegistry::archive(archive, "stretching law", stretching);
-    BendingRegistry::archive(archive, "bending law", bending);
-  }
 };
 
 /// Whether the laws of two ropes go by the same names. Their parameters may differ.

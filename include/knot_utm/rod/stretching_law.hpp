@@ -17,7 +17,6 @@ namespace knot_utm {
 ///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing
 ///     respond(StretchedEdge)                      -> StretchingResponse
 ///     strain(k_s, T)                              -> lambda - 1 of an edge that bears T >= 0, the inverse of `respond`
-///     state(Archive&)                             its parameters
 ///
 /// With every law k_s is the stiffness dT/dlambda at rest, so that k_s can serve as the scale of the tension. An edge
 /// that has parted has k_s = 0 and bears no tension.

@@ -8,13 +8,12 @@ namespace knot_utm {
 struct RodProperties;
 struct RodState;
 
-/// Twisting at one inner node, E = k_t/(2 lbar) (m - mbar)^2.
+/// Twisting at one inner node, E = k_t/(2 lbar) m^2.
 ///
 ///   m = theta_f - theta_e + m_ref
 ///
 ///   theta_e, theta_f  angle of the material against the reference frame on the two edges  [rad]
 ///   m_ref             reference twist (frames.hpp)        [rad]
-///   mbar              natural twist                       [rad]
 ///   lbar              Voronoi length [m];  k_t twisting stiffness [N m^2]
 ///
 /// With u, v the unit tangents of e, f, chi = 1 + u . v, b = 2 u x v/chi and t = (u + v)/chi,
@@ -31,7 +30,6 @@ struct RodState;
 struct TwistingInput {
   double k_t = 0.0;             ///< [N m^2]
   double voronoi_length = 0.0;  ///< lbar [m]
-  double natural_twist = 0.0;   ///< mbar [rad]
 };
 
 double twisting_energy(const TwistingInput& input, double twist);

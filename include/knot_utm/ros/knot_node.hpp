@@ -14,14 +14,13 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/ros/show.hpp"
 
 namespace knot_utm {
 
 /// The simulation as a node. It answers each command with the state of the same sequence number and stamp. A command
 /// that it has already answered gets the same answer again, so that a lost message never repeats a step. Command 0 of a
-/// new test begins with a new specimen, which is that of the test's order (order_of_test.hpp). A command out of
+/// new test begins with a new specimen, which is that of the test's order (method_setup.hpp). A command out of
 /// order, as when the specimen was reset during a test, is answered with a failure. Only commands of the machine's node
 /// are accepted.
 class KnotNode {
@@ -38,7 +37,7 @@ class KnotNode {
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  void put_in(const TestOrder& order);  ///< puts in a new specimen; throws InvalidInput, and then the last one stays
+  void put_in(const Method& method);  ///< puts in a new specimen; throws InvalidInput, and then the last one stays
   void begin_specimen();
   void answer(const Crosshead& message);
   void refuse(const Crosshead& message, const std::string& why);
@@ -47,8 +46,7 @@ class KnotNode {
   Moment moment() const;
 
   ros::NodeHandle node_;
-  TestOrder order_;  ///< of the present specimen
-  Method method_;    ///< method of the present specimen
+  Method method_;  ///< method of the present specimen
   TestingMachine machine_;
   std::uint32_t run_ = 0;                           ///< number of the present test; 0: there is none
   std::uint64_t next_ = 0;                          ///< sequence number of the next command

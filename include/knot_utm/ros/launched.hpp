@@ -1,14 +1,9 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 
 namespace knot_utm {
-
-/// The nodes that run as processes of the roslaunch that started this one, by their names without a namespace. Empty
-/// where no roslaunch has started it.
-std::set<std::string> nodes_of_launch();
 
 /// If the roslaunch that started this process is killed, this process is interrupted as by Ctrl-C: nobody else would
 /// end it.
@@ -18,10 +13,7 @@ void end_with_launch();
 /// roslaunch itself ends only where a required node ends, and calls that a death, even after a success.
 void end_launch();
 
-/// Returns when the node of the same launch, or the launch, has ended.
-void wait_for_end_of(const char* node);
-
-/// As `end_launch`, once the window of rviz is closed, where the launch has one.
+/// As `end_launch`, once the window of the node rviz is closed, where there is one.
 void end_launch_when_rviz_is_closed();
 
 /// Writes how the test ended to the file that the launch argument `verdict` names, for scripts/tighten: in the first

@@ -5,7 +5,6 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "knot_utm/machine/grip_bodies.hpp"
@@ -73,7 +72,6 @@ struct SceneView {
   Vec3 lower_grip;                            ///< [m]
   Vec3 upper_grip;                            ///< [m]
   const Sample& sample;
-  std::string motion_pattern;
 };
 
 /// Draws pictures of a test, and of the tests that follow it.
@@ -85,11 +83,6 @@ class ScenePicture {
   void begin(const Points& points, const std::vector<int>& cuts = {});
   void color_by(ColorBy what) { color_by_ = what; }
   void show_contacts(bool shown) { show_contacts_ = shown; }
-  /// Shows what another picture shows.
-  void show_as(const ScenePicture& other) {
-    color_by_ = other.color_by_;
-    show_contacts_ = other.show_contacts_;
-  }
 
   /// The scale of the rod's colours as they are shown now.
   const ColorScale& scale() const { return color_by_ == ColorBy::kTension ? tension_ : curvature_; }

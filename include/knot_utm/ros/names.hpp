@@ -8,8 +8,6 @@ namespace knot_utm::names {
 inline constexpr char kUtmNode[] = "utm_node";
 inline constexpr char kKnotNode[] = "knot_node";
 inline constexpr char kRecorderNode[] = "recorder_node";
-inline constexpr char kExperimentNode[] = "experiment_node";
-inline constexpr char kReplayNode[] = "replay_node";
 
 // Topics
 inline constexpr char kCrosshead[] = "utm/crosshead";       ///< Crosshead, a command for the physics
@@ -21,13 +19,11 @@ inline constexpr char kClock[] = "/clock";                  ///< rosgraph_msgs/C
 inline constexpr char kKnotState[] = "knot/state";          ///< KnotState, the answer to each command
 /// KnotRecord, the complete record of a command, for the recorder
 inline constexpr char kKnotRecord[] = "knot/record";
-inline constexpr char kKnotShape[] = "knot/shape";                 ///< KnotShape, at each reading of the load cell
-inline constexpr char kSpecimen[] = "knot/specimen";               ///< SpecimenInfo, latched
-inline constexpr char kMarkers[] = "knot/markers";                 ///< visualization_msgs/MarkerArray
-inline constexpr char kColors[] = "knot/colors";                   ///< ColorBar, latched: meaning of the rod's colours
-inline constexpr char kRecorderStatus[] = "recorder/status";       ///< RecorderStatus, latched
-inline constexpr char kExperimentLoad[] = "experiment/load_cell";  ///< geometry_msgs/WrenchStamped, as measured
-inline constexpr char kExperimentCrosshead[] = "experiment/crosshead";  ///< Crosshead, as measured
+inline constexpr char kKnotShape[] = "knot/shape";            ///< KnotShape, at each reading of the load cell
+inline constexpr char kSpecimen[] = "knot/specimen";          ///< SpecimenInfo, latched
+inline constexpr char kMarkers[] = "knot/markers";            ///< visualization_msgs/MarkerArray
+inline constexpr char kColors[] = "knot/colors";              ///< ColorBar, latched: meaning of the rod's colours
+inline constexpr char kRecorderStatus[] = "recorder/status";  ///< RecorderStatus, latched
 
 // Services, all others of them std_srvs/Trigger
 inline constexpr char kStartTest[] = "utm/start_test";  ///< StartTest
@@ -40,16 +36,11 @@ inline constexpr char kReset[] = "knot/reset";
 inline constexpr char kSave[] = "recorder/save";
 
 // Actions
-inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test or a batch, until all is recorded
+inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test, until all of it is recorded
 
 // Parameters that the nodes set
-inline constexpr char kTestId[] = "test/id";  ///< set by utm_node: identifies this utm_node among all others
-/// set by utm_node: what a test is, {name: ..., method: ..., out: ..., number: 2, count: 8} (order_of_test.hpp)
+/// set by utm_node: what a test is, {name: ..., method: ..., out: ...} (method_setup.hpp)
 inline constexpr char kTestOrder[] = "test/order";
-/// set by recorder_node: the id of a batch's first test, a space, the batch's folder
-inline constexpr char kFolderOfBatch[] = "test/batch_folder";
-inline constexpr char kFolderOfTest[] = "test/folder";    ///< set by recorder_node: a test's id, a space, its folder
-inline constexpr char kRecordedTest[] = "test/recorded";  ///< set by recorder_node: the last test that it completed
 inline constexpr char kRobotDescription[] = "robot_description";  ///< set by knot_node: the machine as URDF
 
 // Parameters that the launch file sets

@@ -15,8 +15,6 @@
 
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/order_of_test.hpp"
-#include "knot_utm/ros/recorded_batch.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
 #include "knot_utm/run/samples.hpp"
@@ -26,19 +24,15 @@ namespace knot_utm {
 /// Writes every command and its answer in order, with the same code as tests without ROS. For a missing record it
 /// waits, because the machine asks for it again. A record that does not come is counted as dropped. A test goes to the
 /// given folder or, where that holds a run, to the first free one beside it with the suffix "-2", "-3" and so on. The
-/// specimens of a batch go to the folder of the batch (recorded_batch.hpp). The service recorder/save writes
-/// the results as of now, and saved.bag, the bag so far.
+/// service recorder/save writes the results as of now, and saved.bag, the bag so far.
 ///
-/// A record is acknowledged once it is in samples.csv, from which all other files are made at the end of the test. A
-/// recorder that is restarted during a test goes on in the samples.csv of that test, because the machine and the
-/// simulation keep what is not acknowledged. The files are then the same as those of one recorder.
+/// A record is acknowledged once it is in samples.csv, from which all other files are made at the end of the test. Of a
+/// recorder that dies `tensile_test --from-samples` makes them.
 class RecorderNode {
  public:
-  /// `out`: the folder that is told before the first test.
-  RecorderNode(const ros::NodeHandle& node, const std::string& out);
+  explicit RecorderNode(const ros::NodeHandle& node);
 
-  /// Runs until ROS is shut down. A test that has not ended then, or whose machine died, is closed with the reason; in
-  /// a batch it is left to be tested again.
+  /// Runs until ROS is shut down. A test that has not ended then, or whose machine died, is closed with the reason.
   /// Returns the exit code: 1 where something could not be written.
   int spin();
 
@@ -75,44 +69,25 @@ class RecorderNode {
   bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void begin_run(const Crosshead& first);
-  void begin_batch(const std::string& id);
-  void take_up_specimen();
-  bool conclude_specimen();                         ///< writes the tables of the batch; false where that failed
-  std::string id_of_test(std::uint32_t run) const;  ///< unique among all machines; empty: not known
-  /// The folder that an earlier recorder told by this parameter for this id; empty: none.
-  std::string told_folder(const char* parameter, const std::string& id) const;
-  static ClaimedFolder claim(const std::string& asked, const Method& method);
-  void go_on(const std::string& folder);
   void write(const KnotRecord& record);
-  void keep(const Record& record);
   void write_early();
   void give_up_gap();
   void finish_when_ready();
   void finish_early();
   void wait_for_messages();
   void finish_as_told(const std::string& warning);  ///< by the last status of the machine
-  void cut_off(const std::string& why);             ///< the test ended, and neither machine nor operator ended it
   void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
-  void interrupt(const std::string& why);  ///< leaves the specimen of a batch to be tested again
-  void miss_the_end();                     ///< the last records of the test will not come
+  void miss_the_end();  ///< the last records of the test will not come
   void write_results(const TestEnd& end, const std::string& warning);
   void make_files(const std::string& bag_name, ResultsOptions options);
-  void tell_master(const char* parameter, const std::string& text) const;
   void fail(const std::string& why);
-  bool is_complete() const { return run_ ? run_->complete : completed_before_; }
+  bool is_complete() const { return run_ && run_->complete; }
   void publish_status();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
   std::uint32_t run_number_ = 0;
-  std::string test_id_;                 ///< unique id of the test that is being written; empty: not known
-  TestOrder order_;                     ///< of the test that is being written
-  std::optional<RecordedBatch> batch_;  ///< empty: the test stands alone
-  std::string batch_folder_;            ///< empty: the test stands alone
-  std::string batch_id_;                ///< id of the first test of the batch
   std::unique_ptr<Run> run_;            ///< null before the first record
-  bool completed_before_ = false;       ///< an earlier recorder has completed the test
-  std::string completed_folder_;        ///< folder of that test
   TestStatus test_;                     ///< the latest
   double waited_ = 0.0;                 ///< time spent waiting for messages while this process was running [s]
   int machines_ = 0;                    ///< number of connections to the machine: two while it connects anew

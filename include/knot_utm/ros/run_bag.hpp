@@ -9,7 +9,6 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/ros/bag_panel.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
@@ -22,9 +21,9 @@ namespace knot_utm {
 /// (cell_reading), and knot/shape at sampling instants. The load cell is also read in the time step in which a rod
 /// parts, and the bag has a knot/state for that step, too.
 ///
-/// `rosbag play` and rviz can show the bag while nothing else runs. For this it contains utm/method, knot/colors and
-/// all frames on /tf, and at every reading knot/markers (ScenePicture::draw_small and BagPanel). utm/status is included
-/// without the fields that depend on wall time.
+/// `rosbag play`, rviz and panel_node can show the bag while nothing else runs. For this it contains utm/method,
+/// knot/colors and all frames on /tf, and at every reading knot/markers (ScenePicture::draw_small). utm/status is
+/// included without the fields that depend on wall time.
 class RunBag {
  public:
   /// Throws InvalidInput where the specimen does not fit the machine. All functions throw std::runtime_error where the
@@ -50,7 +49,6 @@ class RunBag {
   Grips grips_;
   MachineFrames frames_;
   ScenePicture picture_;
-  BagPanel panel_;
   bool begun_ = false;
   bool broken_ = false;
   MotionPatternTracker motion_;

@@ -7,7 +7,6 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "knot_utm/method/method.hpp"
@@ -25,7 +24,6 @@ struct Moment {
   Eigen::VectorXd tension;  ///< of each edge [N]
   Vec3 upper_grip;          ///< [m]
   Sample sample;
-  std::string motion_pattern;
 };
 
 /// What a node shows of a test: the frames on /tf and /tf_static, the pictures for rviz, and the meaning of their
@@ -47,7 +45,6 @@ class Show {
 
   void state_changed() { is_old_ = true; }  ///< to be called when there is another latest state
   void show_latest();                       ///< now, for the node may end before the next picture
-  bool somebody_looks() const { return markers_.getNumSubscribers() > 0; }
 
  private:
   void take(ViewConfig& wanted);

@@ -10,7 +10,6 @@
 #include <knot_utm/RunTestAction.h>
 #include <knot_utm/SpecimenInfo.h>
 #include <knot_utm/StartTest.h>
-#include <knot_utm/TestOutcome.h>
 #include <knot_utm/TestStatus.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
@@ -20,7 +19,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
@@ -45,11 +43,6 @@ struct UtmOptions {
 /// arrived. A command that is not answered (or, with `record`, not recorded) is sent again, so that nodes may join late
 /// and messages may be lost. If the connection to the simulation breaks, the simulation has died, and the test ends as
 /// it does where the simulation gives up. A slow simulation is waited for.
-///
-/// The specimens of a batch are tested one after the other, each when all of the one before is recorded. A batch ends
-/// early where an operator stops it, the connection to the simulation breaks, the recorder fails, or the master does
-/// not answer. Where the
-/// simulation gives up on a specimen, the next one is tested.
 class UtmNode {
  public:
   static constexpr double kStatusPeriod = 0.2;  ///< wall time between two status messages [s]
@@ -61,27 +54,14 @@ class UtmNode {
   UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options);
   ~UtmNode();
 
-  /// Runs until ROS is shut down. Ends the launch with `exit_at_end` when the test or the batch has ended, and where
-  /// the simulation has died. Returns the exit code of the node: 1 where the simulation failed on all specimens or
-  /// died, or the recorder failed.
+  /// Runs until ROS is shut down. Ends the launch with `exit_at_end` when the test has ended, and where the simulation
+  /// has died. Returns the exit code of the node: 1 where the simulation failed or died, or the recorder failed.
   int spin();
 
  private:
   using Clock = std::chrono::steady_clock;
   using Actions = actionlib::ActionServer<RunTestAction>;
   enum class State { kIdle, kRunning, kPaused, kEnded };  ///< numbered as in TestStatus
-
-  /// Tests of several specimens, one after the other. A test that stands alone is a batch of one.
-  struct Batch {
-    MethodSetup setup;                  ///< of all specimens
-    std::vector<Method> methods;        ///< of the specimens
-    std::string folder;                 ///< that will be written; empty: none
-    std::vector<TestOutcome> outcomes;  ///< of the tests that have ended and are recorded
-    std::size_t specimen = 0;           ///< index of the present one
-    int good_tests = 0;                 ///< number of tests in which the simulation did not fail
-    bool stopped = false;               ///< by an operator
-    bool cut_off = false;               ///< because the ROS master did not answer
-  };
 
   void on_specimen(const SpecimenInfo::ConstPtr& specimen);
   void on_state(const KnotState::ConstPtr& answer);
@@ -93,50 +73,41 @@ class UtmNode {
   bool on_pause(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_resume(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_step(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void on_goal(Actions::GoalHandle goal);
+  void on_cancel(const Actions::GoalHandle& goal);
 
   bool active() const { return state_ == State::kRunning || state_ == State::kPaused; }
   bool recorder_keeps_up() const;
   bool all_is_recorded() const;
   bool may_advance() const;
-  std::string start_if_possible(const StartTest::Request& request);  ///< returns why it cannot; empty: the test runs
-  Batch batch_of(const StartTest::Request& request) const;           ///< throws InvalidInput
-  bool start(std::size_t specimen);  ///< starts a test; false, and changes nothing, where the master does not answer
-  void stop();                       ///< stops the test and its batch
-  std::size_t tested() const;        ///< number of specimens of the batch that have been tested
-  bool another_follows() const;      ///< whether another test of the batch follows the present one
-  void see_to_the_next();            ///< once a test is recorded: starts the next one, or ends the batch
+  /// Starts a test, for whoever asks: the launch, the service or the action. Returns why it cannot, in one line, and
+  /// has then changed nothing; empty: the test runs.
+  std::string start(const StartTest::Request& request);
+  void begin();  ///< gives the first command of a test
   bool failed() const;
   void pause(bool paused);
   void advance();
   void send(const Command& command);
   void resend();
-  void physics_failed(const std::string& why);  ///< ends the test with this reason
-  void physics_lost();
-  void look_after_physics();
+  void physics_died();
   void end_launch_of_test();
-  std::string folder() const;
   void end();
   void publish_clock(bool at_once);
   void publish_method(const Method& method);
   void publish_status();
-  void on_goal(Actions::GoalHandle goal);
-  void on_cancel(const Actions::GoalHandle& goal);
   void report_to_goal(const TestStatus& status);
-  TestOutcome outcome() const;
   void finish_goal();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void set_pace(MachineConfig& wanted);
   double wait_time() const;  ///< wall time until the next action that no message triggers [s]
 
   ros::NodeHandle node_;
-  MethodSetup launched_;
+  TestWords launched_;
   UtmOptions options_;
-  bool has_specimen_ = false;  ///< whether the simulation holds one
-  bool physics_died_ = false;  ///< during this test
-  bool physics_gone_ = false;  ///< its process has ended
-  bool physics_seen_ = false;  ///< as a process of the launch
-  bool leaves_ = false;        ///< the launch ends; no other test begins
-  Batch batch_;
+  bool has_specimen_ = false;             ///< whether the simulation holds one
+  bool physics_died_ = false;             ///< during this test
+  bool leaves_ = false;                   ///< the launch ends; no other test begins
+  Method method_;                         ///< of this test
   std::optional<ProgramRunner> program_;  ///< program of this test
   State state_ = State::kIdle;
   std::uint32_t run_ = 0;
@@ -151,9 +122,8 @@ class UtmNode {
   std::uint64_t recorded_ = 0;        ///< all commands before this sequence number are recorded
   bool recorder_complete_ = false;
   bool recorder_failed_ = false;
-  std::string directory_;        ///< folder of the recorder's files
-  std::string batch_directory_;  ///< folder of the batch; empty: the test stands alone
-  ros::Time now_;                ///< time on /clock
+  std::string folder_;  ///< of the recorder's files or, before it has said it, the one that it will make; empty: none
+  ros::Time now_;       ///< time on /clock
 
   std::unique_ptr<ProgressLine> progress_;  ///< on the terminal of the launch
   Clock::time_point run_began_;
@@ -162,8 +132,6 @@ class UtmNode {
   Clock::time_point clock_published_;
   Clock::time_point status_published_;
   Clock::time_point diagnosed_;
-  Clock::time_point looked_;
-  Clock::time_point began_ = Clock::now();
   Clock::time_point factor_measured_;
   double factor_time_ = 0.0;  ///< test time at which the factor was last measured [s]
   double factor_;             ///< recent ratio of test time to wall time

@@ -10,8 +10,8 @@
 namespace knot_utm {
 
 /// A method with all that its test needs beside it: load_method, after which the specification has been checked, and
-/// the records that the program follows have been read. `tell` receives a line on each record: what of it was read, and
-/// from which columns. `option`: as for load_method. Throws InvalidInput.
+/// the records that the program follows have been read. `tell` receives a line where not all of a record is
+/// followed. `option`: as for load_method. Throws InvalidInput.
 Method load_test(const std::string& file, const std::vector<std::string>& overrides = {},
                  const std::function<void(const std::string& line)>& tell = nullptr,
                  const std::string& option = "--set");

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "knot_utm/raw/comparison.hpp"
+#include "knot_utm/analysis/comparison.hpp"
 
 namespace knot_utm {
 

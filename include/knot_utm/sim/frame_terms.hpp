@@ -176,7 +176,7 @@ class FrameTerms {
   std::vector<double> angle_;            // theta_j
   std::vector<double> spin_;             // d(torque)/dtheta_j of inertia, drag and r_j in this step [N m]
   std::vector<double> kept_spin_;        // I_j omega_j^n/dt [N m]
-  std::vector<double> start_twist_;      // m_ref - mbar of every node as the step began
+  std::vector<double> start_twist_;      // m_ref of every node as the step began
   std::vector<double> reference_twist_;  // m_ref of every node
   std::vector<double> torque_;           // dE/dtheta_j [N m]
   // Group g of these lists is edges 4 g to 4 g + 3, or inner nodes 4 g + 1 to 4 g + 4. Those of edges have one more.

@@ -7,7 +7,6 @@
 
 namespace knot_utm {
 
-enum class ContactLaw { kSmooth, kEdge };
 enum class TwistMode { kAuto, kOn, kOff };
 enum class FrictionAt { kSurface, kCentreline };
 enum class Accuracy { kDraft, kNormal, kFine };
@@ -18,11 +17,10 @@ struct PhysicsOptions {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< g [m/s^2]
   FrictionOptions friction;                           ///< friction.law and the keys of that law
   FrictionAt friction_at = FrictionAt::kSurface;      ///< friction.at: surface | centreline
-  PairRule pair_rule = PairRule::kSmaller;       ///< friction.pair: smaller | mean of the coefficients of two materials
-  std::optional<double> pair_friction;           ///< friction.pair as a number, which goes before the rule [-]
-  ContactLaw contact_law = ContactLaw::kSmooth;  ///< contact.law: smooth | edge
-  TwistMode twist = TwistMode::kAuto;            ///< twist: auto (where the scene can twist) | on | off
-  Accuracy accuracy = Accuracy::kNormal;         ///< accuracy: draft | normal | fine
+  PairRule pair_rule = PairRule::kSmaller;  ///< friction.pair: smaller | mean of the coefficients of two materials
+  std::optional<double> pair_friction;      ///< friction.pair as a number, which goes before the rule [-]
+  TwistMode twist = TwistMode::kAuto;       ///< twist: auto (where the scene can twist) | on | off
+  Accuracy accuracy = Accuracy::kNormal;    ///< accuracy: draft | normal | fine
   std::optional<double> drag;  ///< viscous drag per length of rod [N s/m^2]; unset: what brings it to rest (scales.hpp)
   std::optional<double> inertia;            ///< mass that is accelerated, over the rod's own [-]; unset: see scales.hpp
   std::optional<double> contact_tolerance;  ///< contact.tolerance delta [fraction of radius]

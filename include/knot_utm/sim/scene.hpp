@@ -13,23 +13,17 @@ namespace knot_utm {
 struct FixedNode {
   int node = 0;
   Vec3 position = Vec3::Zero();  ///< at the end of the step [m]
-
-  void state(Archive& archive) { archive(node, position); }
 };
 
 /// An edge whose material frame is held (only where the scene solves for twist).
 struct FixedTwist {
   int edge = 0;
   double angle = 0.0;  ///< theta at the end of the step [rad]
-
-  void state(Archive& archive) { archive(edge, angle); }
 };
 
 struct NodeForce {
   int node = 0;
   Vec3 force = Vec3::Zero();  ///< [N]
-
-  void state(Archive& archive) { archive(node, force); }
 };
 
 /// A grip that pulls a node along a fixed direction by a spring, bears tension only, and slips at a set force:
@@ -46,8 +40,6 @@ struct SlippingGrip {
     const double stretched = stiffness * (place - direction.dot(node_position));
     return stretched < 0.0 ? 0.0 : (stretched > slip_force ? slip_force : stretched);
   }
-  void state(Archive& archive) { archive(node, direction, place, stiffness, slip_force); }
-
   bool slips(const Vec3& node_position) const {
     return stiffness * (place - direction.dot(node_position)) >= slip_force;
   }
@@ -61,7 +53,6 @@ struct SpringHold {
   Mat3 stiffness = Mat3::Zero();  ///< K, symmetric, positive semidefinite [N/m]
 
   Vec3 force(const Vec3& node_position) const { return stiffness * (place - node_position); }
-  void state(Archive& archive) { archive(node, place, stiffness); }
 };
 
 /// Everything outside the rod, as it stands at the end of a step.
@@ -73,23 +64,18 @@ struct Boundary {
   std::vector<SlippingGrip> grips;
   std::vector<SpringHold> holds;
   double extra_drag = 0.0;  ///< in addition to StepSettings::drag [N s/m^2]
-
-  /// For a rod of that many nodes.
-  void state(Archive& archive, int nodes);
 };
 
 /// What a time step needs to know besides rod and boundary; constant during a run.
 struct StepSettings {
-  ContactLaw contact_law = ContactLaw::kSmooth;  ///< of strands; rollers touch the smooth centreline
-  NormalLaw pressure_law;                        ///< between strands, and on rollers
-  Friction friction;                             ///< between strands
+  NormalLaw pressure_law;  ///< between strands, and on rollers
+  Friction friction;       ///< between strands
   Friction roller_friction;
   /// Laws of the ropes behind the first one, where they are of another material (RodProperties::other_material): with
   /// the first one, among themselves, and on rollers.
   struct OtherLaws {
     PairLaws between, own, on_rollers;
     RollingResistance rolling_between, rolling_own;  ///< the latter on rollers, too
-    void state(Archive& archive);
   };
   std::optional<OtherLaws> others;
   double friction_couple = 0.0;  ///< 1: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
@@ -107,8 +93,6 @@ struct StepSettings {
   double overlap_limit = 0.0;               ///< deepest overlap of a step that may be accepted [m]
   double candidate_margin = 0.0;            ///< of the contact search [m]
   int max_iterations = 20;
-
-  void state(Archive& archive);
 };
 
 }  // namespace knot_utm

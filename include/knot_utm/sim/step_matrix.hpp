@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
-#include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/solver/block_matrix.hpp"
@@ -65,7 +64,6 @@ class StepMatrix {
 
   /// Adds the stiffness of a contact, between strands the n-th active one.
   void add(const ContactPoint& contact, const ContactModel& model, std::size_t n);
-  void add(const ContactPoint& contact, const EdgeContactModel& model, std::size_t n);
   /// The same with friction at the surfaces; `turns` as the contact was evaluated with.
   void add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
            const SectionTurns& turns, std::size_t n);
@@ -103,12 +101,10 @@ class StepMatrix {
     }
   };
 
-  /// The feet that slide as a contact moves: on a roller none, on a smooth strand that of b, between edges both.
-  enum class Feet { kNone, kOne, kTwo };
-
   /// Adds the change of a spin's lever with the length of its edge.
   void add_lengthening(int first, const double* weights, double torque, const SectionTurns& turns);
-  template <Feet kFeet>
+  /// `kStrands`: between strands, where a foot slides as the contact moves; else on a roller.
+  template <bool kStrands>
   void add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                    const SectionTurns& turns, std::size_t n);
   bool find(const std::vector<ContactPoint>& contacts);

@@ -52,11 +52,6 @@ class TimeStep {
   StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, SolveStrategy::kTangents); }
   virtual StepSummary step(const Boundary& boundary, double dt, SolveStrategy strategy) = 0;
 
-  /// The rod parts at an edge between two steps. From the next one on nothing holds its two ends together, and the
-  /// energy that was stored there is lost as `StepWork::numerical`. To be called once at most; not saved by `state`.
-  virtual void part(int edge) = 0;
-  int parted_edge() const { return parted_edge_; }  ///< -1: none has
-
   /// Between two steps the edges of a rod of one material, without cuts, get these rest lengths [m], and its nodes
   /// these places, as if it were drawn so. Contacts still count arclengths and lengths as they were when the step was
   /// made. Stretching energy that this stores or frees goes to the next step's `StepWork::numerical`.
@@ -80,7 +75,7 @@ class TimeStep {
 
   /// What the last accepted step did to everything around the rod, and where its work went.
   virtual const StepReadings& readings() const = 0;
-  /// Tension of each edge [N]; of a parted one none.
+  /// Tension of each edge [N].
   Eigen::VectorXd tension() const;
 
   /// Saves or loads the state after the last accepted step, on which the next one depends.
@@ -99,7 +94,6 @@ class TimeStep {
   StepSettings settings_;
   RodProperties made_with_;
   std::function<std::string(const Points& end, double dt)> judge_;
-  int parted_edge_ = -1;
 };
 
 }  // namespace knot_utm

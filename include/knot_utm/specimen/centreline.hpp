@@ -51,7 +51,7 @@ struct HungWeight {
   double fraction = 1.0;  ///< of the pre-load F_p [-]
 };
 
-/// What a knot's file reads of the knot, between the nodes of two landmarks (machine/knot_readings.hpp).
+/// What a knot's file reads of the knot, between the nodes of two landmarks (specimen/knot_readings.hpp).
 struct KnotReading {
   enum class Kind {
     kLoop,      ///< the rod around the first landmark that touches no strand [m]
@@ -65,8 +65,7 @@ struct KnotReading {
 /// A specimen's centreline before the test: an open polyline, and the places of its parts. Edges may be shorter in its
 /// knots. Frame: z up and along the load axis. Arclengths are those of the polyline.
 struct Centreline {
-  Points points;        ///< nodes in order along the rod [m]
-  bool closed = false;  ///< the last node lies on the first
+  Points points;  ///< nodes in order along the rod [m]
   /// The knots of a loop, for the rig that ties them: [0] the lower one at the rod's first end, [1] the upper one at
   /// its last.
   std::vector<KnotLandmarks> knots;
@@ -89,10 +88,10 @@ struct Centreline {
 /// A straight rod along z from the origin.
 Centreline straight(double length, double radius, double edge_length);
 
-/// Any polyline [m], resampled. Closed: the last point joins the first, and the last node lies on the first. `name`:
+/// Any polyline [m], resampled. `name`:
 /// what messages call the shape. Edges are shorter by `refinement` [-] from the first to the last place where the rod
 /// comes near itself, or everywhere where it never does. Throws InvalidInput (specimen.file, specimen.edge_length).
-Centreline from_points(const Points& points, bool closed, double radius, double edge_length,
+Centreline from_points(const Points& points, double radius, double edge_length,
                        const std::string& name = "the centreline", double refinement = 1.0);
 
 /// Throws InvalidInput for `key` where strands of a rod of the given radius overlap, or where it runs through itself.

@@ -88,9 +88,6 @@ class Knot {
   virtual std::vector<HeldNode> held_below(const Centreline& centreline, bool clamped) const;
   virtual std::vector<HeldNode> held_above(const Centreline& centreline, bool clamped) const;
 
-  /// The change of its keys that would keep a knot which came undone, "a larger specimen.end_to_end"; empty: none.
-  virtual std::string what_keeps_it() const { return ""; }
-
  protected:
   explicit Knot(KnotDescription about) : about_(std::move(about)) {}
 
@@ -116,9 +113,6 @@ std::vector<std::string> knot_names(const KnotDrawing* drawing);
 std::string knots_with(const std::string& key);
 std::string loops();
 std::string knots_that_can_be_tied();
-
-/// Throws InvalidInput ("specimen.closed") where the last point of the rod is to join the first one.
-void check_ends(const SpecimenOptions& specimen);
 
 /// F_p on each overhand of a loop [N]: that of the specimen, else default_preload of its material.
 double tying_load(const SpecimenOptions& specimen, const Material& material);

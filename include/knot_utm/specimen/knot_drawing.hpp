@@ -91,10 +91,6 @@ Roller roller_of(const KnotDrawing::Post& post, double radius, const Vec3& origi
 /// The least L between the grips of such a drawing [m]; the only one where posts stand for both.
 double least_end_to_end(const KnotDrawing& drawing, double radius);
 
-/// By how much the points of a strand that both grips hold lead a longer way than straight on, the most of all strands
-/// [h]: so far the grips can move before a loop that was drawn wide is tight.
-double slack_between_grips(const KnotDrawing& drawing);
-
 /// z of the drawing's origin above the lower grip [m].
 double height_of_origin(const KnotDrawing& drawing, const DrawnSize& size);
 

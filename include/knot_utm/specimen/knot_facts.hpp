@@ -7,20 +7,10 @@
 
 namespace knot_utm {
 
-/// Two axes of a picture and the direction towards the eye. Right x up = near.
-struct PictureView {
-  const char* caption = "";
-  Vec3 right, near;
-  static Vec3 up() { return Vec3::UnitZ(); }
-};
-/// From the front: x to the right, the load axis z up. From the side: y to the right.
-PictureView front_view();
-PictureView side_view();
-
 /// What can be read from a knot's shape before anything pulls it.
 struct KnotFacts {
   int strands = 0;              ///< ropes
-  int crossings = 0;            ///< as seen from the front
+  int crossings = 0;            ///< as seen from the front: x to the right, the load axis z up
   std::string type;             ///< which knot it is, in words and invariants
   double least_distance = 0.0;  ///< of two strands' centrelines; infinite where there are none [m]
   Vec3 nearest;                 ///< half-way between these two places [m]

@@ -21,13 +21,13 @@ namespace knot_utm {
 /// A rod that began without a knot keeps its type: there is none that could be lost.
 ///
 /// For a fisherman's loop the reading is that of LoopTopology. For any other rod it is the Alexander polynomial of the
-/// rod closed far beyond its ends, or by joining its ends where they coincide.
+/// rod closed far beyond its ends.
 class KnotWatch {
  public:
   /// `standing_nodes`: those of the lower and the upper knot of a fisherman's loop (LoopTopology); else empty.
-  /// `closed`: the last node lies on the first. `radius`: h [m]. `windings`: of each tail of a fisherman's loop. The
+  /// `radius`: h [m]. `windings`: of each tail of a fisherman's loop. The
   /// rod must not run through itself at the start: throws std::runtime_error.
-  KnotWatch(const std::vector<int>& standing_nodes, bool closed, double radius, const Points& start, int windings = 1);
+  KnotWatch(const std::vector<int>& standing_nodes, double radius, const Points& start, int windings = 1);
 
   /// Follows the rod to its present shape. A rod that runs through itself cannot be read; its knot counts as lost.
   KnotType follow(const Points& points);
@@ -42,7 +42,6 @@ class KnotWatch {
   LoopTopology::Reading read(const Points& points);
 
   std::optional<LoopTopology> loop_;
-  bool closed_;
   double radius_;
   Points last_;  ///< the rod at the last reading
   int readings_ = 0;

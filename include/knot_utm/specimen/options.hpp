@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -11,8 +10,6 @@ namespace knot_utm {
 /// Number of a knot in the registry (knot.hpp); the first one, fisherman, is the default.
 enum class KnotKind : std::size_t {};
 enum class Handedness { kSame, kOpposite };
-enum class Axis { kX, kY, kZ };
-inline constexpr std::array kAxisNames{"x", "y", "z"};
 struct KnotDrawing;
 
 /// The `specimen` section of a method.
@@ -22,7 +19,6 @@ struct SpecimenOptions {
   Handedness handedness = Handedness::kSame;   ///< fisherman
   int turns = 1;                               ///< overhand: how often the end goes through (1 to 4)
   std::string file;                            ///< knot: file, CSV of x,y,z [m]
-  bool closed = false;                         ///< knot: file, the last point joins the first
   double knot_distance = 0.15;                 ///< e [m], fisherman
   double end_to_end = 0.25;                    ///< L [m]
   double length = 1.0;                         ///< straight and overhand: rod length [m]
@@ -32,11 +28,8 @@ struct SpecimenOptions {
   double post_diameter = 0.0381;               ///< capstan [m]
   std::optional<double> tail_load;             ///< capstan: T1 [N]; unset: auto
   double natural_curvature = 0.0;              ///< kappa_0 (rest_shape.hpp) [1/m]
-  Axis natural_towards = Axis::kX;             ///< the side of the drawing towards which it turns at its first edge
-  double pre_twist = 0.0;                      ///< rho (rest_shape.hpp) [turns/m]
   double edge_length = 0.0032;                 ///< discretisation [m]
   std::optional<double> refinement;            ///< edges between and within knots are shorter by this; unset: auto
-  bool set_to_marks = true;  ///< mounting sets its knots to their marks (not a key); in release 1 it did not
   bool to_be_tied =
       false;  ///< the program ties it (not a key): e is that of the tied knots, and the knots are drawn closer
 };

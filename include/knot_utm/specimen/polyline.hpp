@@ -45,11 +45,10 @@ struct NearestPlaces {
 };
 
 /// The two places of a polyline that are nearest to each other among those at least `exclusion` [m] apart along it;
-/// their distance is infinite where there are none. Closed: its last point lies on its first, and the distance along it
-/// is that of the shorter way round. What lies on different sides of one of its `cuts` is always far enough apart.
-/// `radii`: of the ropes between the cuts [m]; none: all are alike. What counts then is the distance of their surfaces,
-/// and the exclusion, that of the thickest one, is in proportion to the radius.
-NearestPlaces nearest_places(const Points& points, double exclusion, bool closed = false,
-                             const std::vector<int>& cuts = {}, const std::vector<double>& radii = {});
+/// their distance is infinite where there are none. What lies on different sides of one of its `cuts` is always far
+/// enough apart. `radii`: of the ropes between the cuts [m]; none: all are alike. What counts then is the distance of
+/// their surfaces, and the exclusion, that of the thickest one, is in proportion to the radius.
+NearestPlaces nearest_places(const Points& points, double exclusion, const std::vector<int>& cuts = {},
+                             const std::vector<double>& radii = {});
 
 }  // namespace knot_utm

@@ -7,7 +7,6 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/run/cache_folder.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
 #include "knot_utm/study/readings.hpp"
@@ -19,8 +18,7 @@ struct RunOptions {
   std::string folder;      ///< folder to write to
   bool overwrite = false;  ///< overwrites the contents of `folder`, instead of using the next free folder
   bool shapes = false;     ///< also writes shapes.csv
-  /// Where tied specimens are kept and taken up (tied_specimen.hpp); empty: each test ties its own.
-  std::optional<CacheFolder> cache;
+  bool cache = false;      ///< keeps and restores tied specimens (tied_specimen.hpp); else each test ties its own
   /// Other readings than all end the test early, and leave neither shapes.csv nor a further file.
   Readings readings = Readings::kAll;
 
@@ -39,8 +37,7 @@ struct RunOptions {
 };
 
 struct HeadlessOptions : RunOptions {
-  /// Makes the writer of a further file in this folder.
-  std::function<FurtherWriter(const std::string& folder, const Method& method)> further;
+  MakeFurther further;
   /// Receives each answer of the simulated machine; `wall_time` since the test began [s].
   std::function<void(const Sample& answer, const ProgramRunner& program, double wall_time)> progress;
 };

@@ -28,8 +28,4 @@ DrawnSpecimen draw_specimen(const Method& method, int number);
 /// Draws all specimens of a method.
 std::vector<DrawnSpecimen> draw_specimens(const Method& method);
 
-/// The method by which specimen `number` is tested. One specimen alone does not scatter: it has the method's own
-/// values.
-Method method_of_specimen(const Method& method, int number);
-
 }  // namespace knot_utm

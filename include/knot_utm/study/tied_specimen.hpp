@@ -8,9 +8,7 @@
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/run/cache_folder.hpp"
 #include "knot_utm/run/record.hpp"
-#include "knot_utm/study/beginning.hpp"
 
 namespace knot_utm {
 
@@ -19,35 +17,46 @@ namespace knot_utm {
 /// where there is no such step.
 std::optional<int> step_after_tying(const Program& program);
 
-/// All that a tied specimen depends on, as text: the code that computes it, the values of specimen, material, machine
-/// and physics, and the steps of the program before `step`. Empty where the code cannot be told (build_identity).
-/// `shapes`: whether its records have the readings of the rod.
+/// All that a tied specimen depends on, as text: the program that computes it, the values of specimen, material,
+/// machine and physics, and the steps of the method before `step`. `shapes`: whether its records have the readings of
+/// the rod.
 std::string tied_from(const Method& method, int step, bool shapes);
 
-/// A specimen that is tied once and taken up by every later test that ties the same one. A cache keeps the state of the
-/// machine before the step after tying, and all records up to there. A test that takes it up has the same bytes as one
-/// that ties it, but for wall times.
+/// A specimen that is tied once and restored by every later test beside it that ties the same one. A file keeps the
+/// state of the machine before the step after tying, and all records up to there. A test that restores it has the same
+/// bytes as one that ties it, but for wall times.
+///
+/// The file stands in the hidden folder `.tied` beside the folder of the run, so in that of its sweep or batch. There
+/// are kFiles such files at most: what a specimen is tied from says which of them is its own, and the last specimen
+/// that was kept there replaces the one before. Several processes may share them, since a file appears as a whole. One
+/// that does not suit is as good as none.
 class TiedSpecimen {
  public:
-  /// That of this method; empty where it is not tied, or where nothing is known of the code. `shapes`: as above.
-  static std::optional<TiedSpecimen> of(const Method& method, bool shapes, const CacheFolder& cache);
+  static constexpr std::size_t kFiles = 32;
+
+  /// That of this method, for a run in this folder; empty where it is not tied. `shapes`: as above.
+  static std::optional<TiedSpecimen> of(const Method& method, bool shapes, const std::string& folder);
 
   int step() const { return step_; }  ///< the step after tying
+  const std::string& file() const { return file_; }
 
-  /// Brings machine and program, which have just been made from the method, to the step after tying. Empty, and they
-  /// are as they were, where the cache does not have the specimen, or has it damaged.
-  std::optional<Beginning> take_up(const Method& method, TestingMachine& bench, ProgramRunner& program) const;
+  /// Brings machine and program, which have just been made from the method, to the step after tying, and gives the
+  /// records up to there: a test that goes on from them has the same bytes as one from the start, since its program has
+  /// asked for all of them, and the state of the machine is whole. Empty, and machine and program are as they were,
+  /// where the file does not have the specimen, or has it damaged.
+  std::optional<std::vector<Record>> restore(const Method& method, TestingMachine& bench, ProgramRunner& program) const;
 
   /// Of a test that ties it: to be called with every record until it is kept.
   void add(const Record& record);
-  /// To be called between all commands: keeps it once the program has come to the step after tying.
-  void keep(TestingMachine& bench, const ProgramRunner& program);
+  /// To be called between all commands: keeps it once the program has come to the step after tying. It is written in
+  /// `folder`, which is the run's own, and then moved to its place.
+  void keep(TestingMachine& bench, const ProgramRunner& program, const std::string& folder);
 
  private:
-  TiedSpecimen(const CacheFolder& cache, int step, std::string made_from)
-      : cache_(cache), step_(step), made_from_(std::move(made_from)) {}
+  TiedSpecimen(std::string file, int step, std::string made_from)
+      : file_(std::move(file)), step_(step), made_from_(std::move(made_from)) {}
 
-  CacheFolder cache_;
+  std::string file_;
   int step_;
   std::string made_from_;
   std::vector<Record> records_;

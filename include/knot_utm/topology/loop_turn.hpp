@@ -7,7 +7,7 @@
 
 namespace knot_utm {
 
-/// How far a loop has moved around its rollers, and along their axes (y), from shape to shape.
+/// How far a loop has moved around its rollers, from shape to shape.
 ///
 /// The rod runs from one knot over the upper roller, down the far side and around the lower roller to the other knot.
 /// Half-way between its highest and its lowest node, its outer fifths aside, lies the middle of the far side. Pulling
@@ -21,13 +21,9 @@ class LoopTurn {
   /// Largest motion around the rollers since the first shape [m], within the length of an edge.
   double largest() const { return largest_; }
 
-  /// Largest motion of the loop's middle half along the rollers' axes [m].
-  double along() const { return along_; }
-
  private:
   std::optional<double> first_;  ///< arclength of the middle of the far side, from the middle of the rod [m]
   double largest_ = 0.0;
-  double first_y_ = 0.0, along_ = 0.0;
 };
 
 }  // namespace knot_utm

@@ -19,8 +19,7 @@ std::vector<std::string> speed_warnings(const Method& method);
 /// The rod in numbers that a person can check: "36.4 g/m at a diameter of 6.35 mm, E = 2.32 GPa stretched, ...".
 std::string rod_in_words(const Material& material);
 
-/// Advice for a knot that came undone: which values of the method to change so that it stays tied. One line that names
-/// the keys and their values.
+/// Advice for a knot that came undone: which values of the method to change so that it stays tied, in one line.
 std::string what_keeps_a_knot(const Method& method);
 
 }  // namespace knot_utm

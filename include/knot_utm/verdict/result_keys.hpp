@@ -41,7 +41,7 @@ class NullReason {
 
   constexpr NullReason(const char* always = "") : always_(always) {}
   constexpr NullReason(Find find) : find_(find) {}  ///< one that depends on the test
-  /// That of a reading that any pull has: where nothing was pulled, it is that.
+  /// Of a reading of every pull: "nothing was pulled", else `otherwise`.
   static constexpr NullReason of_a_pull(const char* otherwise) {
     NullReason out(otherwise);
     out.of_a_pull_ = true;
@@ -78,12 +78,11 @@ constexpr char kCertificate[] = "certificate";  ///< among the checks of the cer
 }  // namespace result_place
 
 /// All keys of result.yaml, in the order of the file. result.yaml, the keys that a specification may name, and
-/// labels and units of the report (`tensile_test --list-results`) are made from this table. Tests compare
-/// doc/results.md with it. A new key is one row of this table and one row of doc/results.md.
+/// labels and units of the report (`tensile_test --list-results`) are made from this table, and by `scripts/tables` the
+/// list in doc/results.md.
 const std::vector<ResultKey>& result_keys();
 
-/// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning: the content of
-/// report/result_keys.csv.
+/// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning.
 std::string result_keys_csv();
 
 /// The text of result.yaml. The keys have a fixed order and SI units, and null stands for a value that does not exist.

@@ -13,17 +13,6 @@
 
 namespace knot_utm {
 
-/// Safety margin of a knot that slides: the fraction by which friction or the pre-load would have to be lower for the
-/// knot to open.
-struct Margin {
-  /// Largest fraction that is tried. A knot that still holds there has a margin of at least this.
-  static constexpr double kMost = 0.75;
-
-  std::optional<double> friction;  ///< fraction of mu [-]
-  std::optional<double> preload;   ///< fraction of F_p [-]
-  std::string reason;              ///< why there is no margin; empty: there is one, or none was asked for
-};
-
 /// Facts about a run that do not follow from its samples. What follows from the samples is in `Results`.
 struct RunFacts {
   std::string reason;                 ///< why the test ended, one line; empty: as programmed
@@ -32,12 +21,10 @@ struct RunFacts {
   std::vector<std::string> warnings;
   double preload = std::numeric_limits<double>::quiet_NaN();  ///< F_p [N]; NaN: nothing was tied
   RelativeErrors errors;              ///< relative errors of the readings from mesh and tolerances [-]
-  Margin margin;                      ///< safety margin of the knot, where it was asked for
   double wall_time = 0.0;             ///< [s]
   std::uint64_t peak_memory = 0;      ///< largest memory of the process [bytes]; 0: not known
   double inertia = 1.0;               ///< accelerated mass over the rod's own mass [-]
   double weight = 0.0;                ///< weight of the rod [N]; 0: no gravity acts
-  double slid_along = 0.0;            ///< largest motion of a loop on rollers along their axes [m]
   Material material;                  ///< material of the rod
   int strands = 1;                    ///< number of strands that bear the load: two of a loop
   double buckling_factor = 0.0;       ///< Euler's load of a straight specimen times L^2/k_b [-]; 0: it is none

@@ -9,7 +9,7 @@ PREPARATION = {'', 'idle', 'tie', 'release', 'mount', 'preload', 'done'}
 BROKEN, FAILED = 3, 4  # status of a KnotState
 KEPT, CROSSED = 0, 2   # its knot_type
 PAUSED, ENDED = 2, 3               # of a TestStatus
-MANY = 8.0  # loads above this many of those of sliding hide them: these are shown again, alone
+MANY = 8.0  # loads above this many of those of sliding hide them: these get axes of their own, also in a report
 ENDS = {'break': 'broke', 'untangled': 'came undone', 'solver': 'the physics gave up',
         'operator': 'ended by the operator', 'program': 'ended with its program'}
 MOST_WAITING = 1000  # states that wait for the reading of the load cell of the same stamp, and the other way round

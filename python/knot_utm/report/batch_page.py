@@ -8,7 +8,6 @@ from collections import Counter, namedtuple
 import numpy as np
 from markupsafe import Markup
 
-from knot_utm.report.batch import read_specimens
 from knot_utm.report.certificate import certificate, Check, specification_checks
 from knot_utm.report.commands import CannotReport
 from knot_utm.report.curves import draw, load_axes, mean_curve, reach, small_loads
@@ -17,7 +16,7 @@ from knot_utm.report.method_facts import knot_and_materials, label_of, method_fa
 from knot_utm.report.page import Box, checks_table, facts, figure, files_of, head_of, Headline, no_value, render, Row, Table, verdict_box
 from knot_utm.report.quantities import (all_in_units, error_shown, GROUPS, in_units, is_number, is_rounding, percent, quantity_of, shown,
                                         units_of)
-from knot_utm.report.run import read_yaml, Run, texts_of
+from knot_utm.report.run import numbers, read_table, read_yaml, Run, texts_of
 from knot_utm.report.run_page import given_box, NOTHING, short_label
 from knot_utm.report.style import BLUE, GREY, INK, ORANGE
 
@@ -34,13 +33,45 @@ FEWEST = 60     # points of one curve
 Tested = namedtuple("Tested", "number pull largest warnings checks asked version given")
 
 
+# What stands in a row of specimens.csv before the readings, and behind what was drawn.
+OUTCOME = ("rejected", "ended_by", "motion_pattern")
+
+
+class Specimen:
+    """A row of specimens.csv. `drawn`, `readings`: by key, in SI; a reading that the test does not have is None."""
+
+    def __init__(self, number, outcome, drawn, readings):
+        self.number, self.drawn, self.readings = number, drawn, readings
+        self.rejected, self.ended_by, self.motion_pattern = outcome[0] == "true", outcome[1], outcome[2]
+
+
+def read_specimens(folder):
+    """In order."""
+    file = os.path.join(folder, "specimens.csv")
+    columns, _ = read_table(file)
+    for name in ("specimen", *OUTCOME):
+        if name not in columns:
+            raise CannotReport(f"{file}: no column {name}")
+    if not columns["specimen"]:
+        raise CannotReport(f"{file}: no specimens")
+    names = list(columns)
+    drawn, readings = names[1:names.index(OUTCOME[0])], names[names.index(OUTCOME[-1]) + 1:]
+    values = {name: numbers(file, name, columns[name]).tolist() for name in ("specimen", *drawn, *readings)}
+
+    def row(keys, i):
+        return {key: values[key][i] if is_number(values[key][i]) else None for key in keys}
+
+    return [Specimen(int(number), [columns[name][i] for name in OUTCOME], row(drawn, i), row(readings, i))
+            for i, number in enumerate(values["specimen"])]
+
+
 class Batch:
     def __init__(self, folder):
         self.folder = folder
         method, file = (os.path.join(folder, name) for name in ("method.yaml", "statistics.yaml"))
         self.method, self.report = read_yaml(method), texts_of(method, "report")
         self.units = units_of(self.report)
-        self.specimens, _ = read_specimens(folder)
+        self.specimens = read_specimens(folder)
         self.facts = read_yaml(file)
         for key in ("specimens", "rejected", "motion_pattern"):
             if key not in self.facts:

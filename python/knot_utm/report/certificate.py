@@ -1,17 +1,10 @@
 """How far a result may be trusted, and whether it is what the user asked for: each check with value, limit and verdict.
 
-The limits of trust are those at which the program itself warns (src/verdict/run_warnings.cpp, whose names they bear)."""
+The limits of trust are those at which the program itself warns (`tensile_test --list-limits`)."""
 from collections import namedtuple
 
+from knot_utm import tool
 from knot_utm.report.quantities import is_number, number, quantity_of, with_unit
-
-LIMITS = {
-    "kDeepContact": 0.05,  # contact [of the radius]
-    "kDeepSoftContact": 1.0,  # the same of sections that give
-    "kUnbalanced": 0.01,   # energies [of the largest]
-    "kForcesDiffer": 0.01,  # forces on both grips [of the largest]
-    "kUnsure": 0.2,        # plateau force [of itself]
-}
 
 # `kept`: whether the limit is. `key`: of result.yaml.
 Check = namedtuple("Check", "words key value limit kept")
@@ -28,6 +21,7 @@ def yes(words, key, is_so):
 
 def certificate(result, has_knot=True, soft=False):
     """What is known of this test."""
+    limits = {row["name"]: float(row["limit"]) for row in tool.listing("limits")}
     value, jump = result.get, is_number(result.get("jump_force"))
     true, error, moved = value("true_plateau_force"), value("plateau_force_error"), value("not_equilibrated")
     checks = [
@@ -35,13 +29,13 @@ def certificate(result, has_knot=True, soft=False):
         yes("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved") if has_knot else None),
         yes("The specimen was at rest as its pull began", "not_equilibrated", None if moved is None else not moved),
         at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"),
-                LIMITS["kDeepSoftContact" if soft else "kDeepContact"]),
+                limits["deep_soft_contact" if soft else "deep_contact"]),
         # Where there are no two knots none can jump.
         yes("No knot jumped open", "jump_force", not jump if jump or is_number(value("tied_knot_distance")) else None),
-        *(at_most(quantity_of(key).label, key, value(key), LIMITS[limit])
-          for key, limit in (("energy_balance_error", "kUnbalanced"), ("force_balance_error", "kForcesDiffer"))),
+        *(at_most(quantity_of(key).label, key, value(key), limits[limit])
+          for key, limit in (("energy_balance_error", "energies_differ"), ("force_balance_error", "forces_differ"))),
         at_most("Estimated numerical error of the plateau force, as a share of it", "plateau_force_error",
-                abs(error / true) if is_number(true) and is_number(error) and true else None, LIMITS["kUnsure"]),
+                abs(error / true) if is_number(true) and is_number(error) and true else None, limits["plateau_unsure"]),
     ]
     return [check for check in checks if check]
 

@@ -6,12 +6,12 @@ from collections import namedtuple
 import numpy as np
 from matplotlib.patches import Patch
 
+from knot_utm.panel.readings import MANY
 from knot_utm.report.quantities import with_unit
 from knot_utm.report.run import FORMING
 from knot_utm.report.style import BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, stacked, VIOLET
 
 MOST = 6000  # points of a curve that are drawn
-MANY = 8.0   # a peak above this many plateaus hides the plateau: it gets axes of its own
 FEW = 250    # readings of the cell that are drawn as points
 STEPS = 1000
 DASHED, DOTTED = (0, (4, 3)), (0, (1, 2))

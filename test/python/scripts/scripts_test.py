@@ -73,7 +73,7 @@ class Help(unittest.TestCase):
             self.assertTrue(said.stderr.strip(), name)
 
     def test_wrong_words_are_refused_in_a_line_that_says_where_all_are_told(self):
-        for name in ("fit", "knot", "rank", "refine", "sweep"):
+        for name in ("fit", "knot", "rank", "sweep"):
             for words in ((), ("--nonsense", "x")):
                 said = run(os.path.join(ROOT, "scripts", name), *words, env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1"})
                 self.assertRegex(said.stderr, rf"^{name}: .* \(\S*scripts/{name} --help\)\n$")
@@ -189,7 +189,7 @@ class Output(unittest.TestCase):
         """A table may be sent into a file."""
         prepared = {name: found[1] for name in SCRIPTS
                     if (found := re.search(r"^prepare .*\nrun_module ([\w.]+)", text("scripts", name), re.MULTILINE))}
-        self.assertLessEqual({"fit", "knot", "movie", "rank", "refine", "sweep"}, set(prepared))
+        self.assertLessEqual({"fit", "knot", "movie", "rank", "sweep"}, set(prepared))
         with tempfile.TemporaryDirectory() as folder:
             shutil.copytree(os.path.join(ROOT, "scripts"), os.path.join(folder, "scripts"))
             for file, content in (("scripts/setup", "echo installed\n"), ("scripts/build", "#!/bin/bash\necho built $*\n")):

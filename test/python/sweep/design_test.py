@@ -211,84 +211,45 @@ class Documented(unittest.TestCase):
 
 
 class Refused(Studies):
+    """The strongest of each kind: the line names file, key and value, and what is allowed."""
+
     ONE = "method: straight\nvary: {specimen.length: [0.1]}\n"
 
     def test_keys_and_values_of_a_study(self):
-        self.refuses("[]", "a study is a map")
-        self.refuses("a: 1\n" + self.ONE, "a is no key of a study")
-        self.refuses("vary: {specimen.length: [0.1]}", "method is missing")
-        self.refuses("method: strait\nvary: {specimen.length: [0.1]}", "method is strait")
-        self.refuses("method: straight", "vary is null")
-        self.refuses("method: straight\nvary: {}", "vary is {}")
-        self.refuses(self.ONE + "design: star", "design is star", "grid, one_at_a_time, list, sobol")
-        self.refuses(self.ONE + "runs: 3", "runs is 3", "no effect in a grid")
-        self.refuses(self.ONE + "seed: 3", "seed is 3", "no effect in a grid")
-        self.refuses(self.ONE + "repeat: 0", "repeat is 0", "from 1 to")
-        self.refuses(self.ONE + "repeat: true", "repeat is true")
-        self.refuses(self.ONE + "repeat: 2\nrepeat: 3", "repeat stands there twice")
-        self.refuses("method: straight\nvary: {1: [0.1]}", "1 is no key")
-        self.refuses("{", "study.yaml")
-
-    def test_cases_units_and_what_must_be_below(self):
-        self.refuses(self.ONE + "for_each: [1]", "for_each is [1]", "a map of at least one key")
-        self.refuses(self.ONE + "for_each: {specimen.length: [1]}", "vary has the key specimen.length", "for_each")
-        self.refuses(self.ONE + "for_each: {a: {from: 1, to: 2}}", "for_each.a is drawn", "needs values")
-        self.refuses(self.ONE + "design: one_at_a_time\nruns: 3", "runs is 3", "no effect in a one_at_a_time")
-        for values, *words in (("{from: 1, to: 2, steps: 2, unit: k_b/h2}", "unit is k_b/h2", "this key is in m"),
-                               ("{values: [1], unit: m}", "unit is m", "must be h, k_b/h2"), ("{values: [a], unit: h}", "values is [a]"),
-                               ("{values: [1], steps: 2}", "specimen.length.steps is no key")):
-            self.refuses(f"method: straight\nvary: {{specimen.length: {values}}}", "vary.specimen.length", *words)
-        self.refuses("method: straight\nvary: {material.radius: {values: [1], unit: h}}", "material.radius.unit is h",
-                     "follow from this")
-        self.refuses("method: straight\nfor_each: {material: [nylonn]}\nvary: {specimen.length: {values: [80], unit: h}}", "nylonn")
-        for below, *words in (("3", "below is 3"), ("{a: specimen.length}", "has the key a"),
-                              ("{specimen.length: specimen.length}", "no run is left")):
-            self.refuses(self.ONE + f"below: {below}", *words)
-
-    def test_mistyped_keys_of_the_method(self):
-        """The line names the study and not the method, which is right."""
-        for map_of, given, meant in (("vary", "specimen.lenght", "did you mean specimen.length?"),
-                                     ("for_each", "program.1.pull.sped", "did you mean program.pull.speed?"),
-                                     ("vary", "speciment.length", "did you mean specimen.length?"),
-                                     ("vary", "friction_coefficient", "did you mean material.friction_coefficient?"),
-                                     ("vary", "machine.post", "the keys of machine are grips, roller_diameter")):
-            one = f"vary: {{{given}: [0.1]}}" if map_of == "vary" else f"vary: {{specimen.length: [0.1]}}\nfor_each: {{{given}: [1]}}"
-            self.refuses(f"method: straight\n{one}", f"{self.file}: {map_of}.{given} is no key of a method; {meant}")
-
-    def test_batches(self):
-        self.refuses("method: straight\nvary: {specimens.count: [1, 2]}", "specimens.count", "give repeat")
+        many = "{from: 1, to: 2, steps: 2000}"
         write(self.file + ".method", "specimens: {count: 8}")
-        self.refuses(f"method: {self.file}.method\nvary: {{a: [1]}}", "specimens.count 8", "give repeat")
+        for text, *words in (
+                ("[]", "a study is a map"), ("{", "study.yaml"), ("a: 1\n" + self.ONE, "a is no key of a study"),
+                ("vary: {specimen.length: [0.1]}", "method is missing"), ("method: straight", "vary is null"),
+                ("method: straight\nvary: {1: [0.1]}", "1 is no key"), (self.ONE + "design: star", "design is star", "grid, one_at_a_time, list, sobol"),
+                (self.ONE + "design: one_at_a_time\nruns: 3", "runs is 3", "no effect in a one_at_a_time"), (self.ONE + "repeat: true", "repeat is true"),
+                (self.ONE + "repeat: 2\nrepeat: 3", "repeat stands there twice"),
+                (self.ONE + "for_each: {specimen.length: [1]}", "vary has the key specimen.length", "for_each"),
+                (self.ONE + "for_each: {a: {from: 1, to: 2}}", "for_each.a is drawn", "needs values"),
+                ("method: straight\nfor_each: {material: [nylonn]}\nvary: {specimen.length: {values: [80], unit: h}}", "nylonn"),
+                ("method: straight\nvary: {material.radius: {values: [1], unit: h}}", "material.radius.unit is h", "follow from this"),
+                (self.ONE + "below: {a: specimen.length}", "has the key a"), (self.ONE + "below: {specimen.length: specimen.length}", "no run is left"),
+                ("method: straight\nvary: {specimens.count: [1, 2]}", "specimens.count", "give repeat"),
+                (f"method: {self.file}.method\nvary: {{a: [1]}}", "specimens.count 8", "give repeat"),
+                ("method: straight\ndesign: list\nvary: {a: [1, 2], b: [1, 2, 3]}", "vary.b has 3 values", "have 2"),
+                ("method: straight\ndesign: list\nvary: {a: {draw: uniform, from: 1, to: 2}}", "runs is missing"),
+                (f"method: straight\nvary: {{a: {many}, b: {many}}}", "4000000 runs", "1000000"),
+                # The line names the study and not the method, which is right.
+                ("method: straight\nvary: {specimen.lenght: [0.1]}", f"{self.file}: vary.specimen.lenght is no key of a method; did you mean specimen.length?"),
+                (self.ONE + "for_each: {program.1.pull.sped: [1]}", "did you mean program.pull.speed?"),
+                ("method: straight\nvary: {machine.post: [0.1]}", "the keys of machine are grips, roller_diameter")):
+            self.refuses(text, *words)
 
     def test_values_of_a_key(self):
-        def refuses(value, *words, design=""):
-            self.refuses(f"method: straight\nvary: {{specimen.length: {value}}}\n{design}", "vary.specimen.length", *words)
-
-        refuses("0.1", "0.1", "a list of values")
-        refuses("[]", "[]", "a list of values")
-        refuses("{from: 1, to: 2, steps: 1}", "steps is 1", "from 2 to")
-        refuses("{from: 1, steps: 2}", "to is missing")
-        refuses("{from: 1, to: far, steps: 2}", "to is far", "a number")
-        refuses("{from: 0, to: 1, steps: 2, scale: log}", "from is 0", "above 0")
-        refuses("{from: 1, to: 2, steps: 2, scale: cubic}", "scale is cubic")
-        refuses("{from: 1, to: 2, step: 2}", "step is no key")
-        refuses("{from: 1, to: 2}", "give steps")
-        refuses("{draw: uniform, from: 1, to: 2}", "a grid needs values")
         sobol = "design: sobol\nruns: 4"
-        refuses("{draw: beta, from: 1, to: 2}", "draw is beta", "log_uniform", design=sobol)
-        refuses("{draw: normal, mean: 1, sd: 0}", "sd is 0", design=sobol)
-        refuses("{draw: uniform, mean: 1}", "mean is no key", design=sobol)
-        refuses("{draw: uniform, from: 2, to: 1}", "to is 1", "above from", design=sobol)
-        refuses("{draw: log_uniform, from: -1, to: 1}", "from is -1", design=sobol)
-
-    def test_numbers_of_runs(self):
-        self.refuses("method: straight\ndesign: list\nvary: {a: [1, 2], b: [1, 2, 3]}", "vary.b has 3 values", "have 2")
-        self.refuses("method: straight\ndesign: list\nruns: 3\nvary: {a: [1, 2]}", "vary.a has 2 values", "have 3")
-        self.refuses("method: straight\ndesign: list\nvary: {a: {draw: uniform, from: 1, to: 2}}", "runs is missing")
-        self.refuses("method: straight\ndesign: sobol\nvary: {a: [1, 2]}", "runs is missing")
-        many = "{from: 1, to: 2, steps: 2000}"
-        self.refuses(f"method: straight\nvary: {{a: {many}, b: {many}}}", "4000000 runs", "1000000")
-        self.refuses(f"method: straight\nvary: {{a: {many}}}\nrepeat: 1000", "repeat is 1000", "2000000 tests")
+        for value, design, *words in (
+                ("0.1", "", "0.1", "a list of values"), ("{from: 1, to: 2, steps: 1}", "", "steps is 1", "from 2 to"), ("{from: 1, steps: 2}", "", "to is missing"),
+                ("{from: 1, to: far, steps: 2}", "", "to is far", "a number"), ("{from: 0, to: 1, steps: 2, scale: log}", "", "from is 0", "above 0"),
+                ("{from: 1, to: 2, step: 2}", "", "step is no key"), ("{draw: uniform, from: 1, to: 2}", "", "a grid needs values"),
+                ("{from: 1, to: 2, steps: 2, unit: k_b/h2}", "", "unit is k_b/h2", "this key is in m"), ("{values: [1], unit: m}", "", "must be h, k_b/h2"),
+                ("{draw: beta, from: 1, to: 2}", sobol, "draw is beta", "log_uniform"), ("{draw: normal, mean: 1, sd: 0}", sobol, "sd is 0"),
+                ("{draw: uniform, from: 2, to: 1}", sobol, "to is 1", "above from")):
+            self.refuses(f"method: straight\nvary: {{specimen.length: {value}}}\n{design}", "vary.specimen.length", *words)
 
 
 class Yaml(Studies):

@@ -1,18 +1,18 @@
 #!/usr/bin/python3
-"""What the pictures of a study show and the numbers beside them say, on made-up tables, and a refinement. Skipped, with exit code
+"""What the pictures of a study show and the numbers beside them say, on made-up tables. Skipped, with exit code
 77, where a module is not installed."""
 import math
 import os
 import tempfile
 import unittest
 
-from head import ROOT, write
+from head import ROOT
 
 import numpy as np
 import pandas as pd
 from scipy import stats
 
-from knot_utm import WrongInput, axes, pattern_plots, plots, refine_command, trends
+from knot_utm import axes, pattern_plots, plots, trends
 from knot_utm.groups import dimensionless
 from knot_utm.study import load_study
 
@@ -164,24 +164,6 @@ class Patterns(unittest.TestCase):
                          {("specimen.preload [N]", "log", "material.friction_coefficient")})
         shown = sum(len(panel.collections[-1].get_offsets()) for panel in panels)
         self.assertEqual(shown, len(table))
-
-    def test_a_refinement_replaces_none_that_is_there(self):
-        with tempfile.TemporaryDirectory() as folder:
-            stem = os.path.join(folder, "refined")
-            for name in ("refined.yaml", "refined-2.yaml", "refined-3.yaml"):
-                self.assertEqual(refine_command._free(stem), os.path.join(folder, name))
-                write(os.path.join(folder, name), "")
-
-    def test_a_refinement_lies_at_the_border(self):
-        chosen = refine_command.more_points(self.map(), self.KEYS, 64, 1, {"specimen.preload": "material.stretching_stiffness"})
-        mu = chosen[self.KEYS[0]]
-        self.assertLess(np.mean(abs(mu - self.BORDER)), 0.6 * 0.15)  # 0.15: of points anywhere
-        self.assertTrue((chosen[self.KEYS[3]] < chosen[self.KEYS[1]]).all())
-        again = refine_command.more_points(self.map(), self.KEYS, 64, 1, {"specimen.preload": "material.stretching_stiffness"})
-        np.testing.assert_array_equal(mu, again[self.KEYS[0]])
-        self.assertFalse(np.array_equal(mu, refine_command.more_points(self.map(), self.KEYS, 64, 2)[self.KEYS[0]]))
-        with self.assertRaises(WrongInput):
-            refine_command.more_points(table_of(mu=[0.1, 0.2, 0.3] * 6, preload=[1.0, 2.0, 3.0] * 6), [self.KEYS[0], self.KEYS[3]], 4, 1)
 
 
 class ShippedStudies(unittest.TestCase):

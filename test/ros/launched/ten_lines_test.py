@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 
 from launched import LAST_RESORT, ROOT, children, free_port, wait_for
 
-PROGRAMS = ['knot_node', 'utm_node', 'recorder_node', 'experiment_node', 'replay_node', 'panel_node',
+PROGRAMS = ['knot_node', 'utm_node', 'recorder_node', 'panel_node',
             'tensile_test', 'compare']
 
 

@@ -70,12 +70,11 @@ class TwoLaunchesTest(unittest.TestCase):
         port = self.master()
         with Launch('method:=' + METHOD, port=port) as first:
             first.wait_for_rows(3)
-            self.assertIn('joins the ROS master at %s, which it has not started' % first.uri, first.console())
             self.assertEqual(parameter(first.uri, '/use_sim_time'), True)
             for code, lines, command in ((2, 1, SCRIPT), (1, None, None)):
                 with Launch('method:=' + METHOD, port=port, command=command) as second:
                     said = self.assert_refused(code, lines, second)
-                    for part in (METHOD, 'files in ' + first.out, '-p %d' % (port + 1), 'namespace:='):
+                    for part in (METHOD, '-p %d' % (port + 1), 'namespace:='):
                         self.assertIn(part, said)
             with Launch('method:=' + METHOD, 'namespace:=second', port=port) as second:
                 second.wait_for_rows(3)
@@ -93,30 +92,6 @@ class TwoLaunchesTest(unittest.TestCase):
             self.assertIsNone(parameter(first.uri, '/use_sim_time'))
             self.assertIsNone(parameter(first.uri, '/test/use_sim_time_found'))
 
-    def test_of_two_at_the_same_time_one_comes_first(self):
-        port = free_port()
-        with Launch('method:=' + METHOD, port=port) as one, Launch('method:=' + METHOD, port=port) as other:
-            wait_for('one that is refused', lambda: one.process.poll() or other.process.poll())
-            first, second = (other, one) if one.process.poll() else (one, other)
-            # On a busy machine the first may have got as far as its test.
-            self.assertRegex(second.console(), 'a test (is being launched|runs) already')
-            self.assertIn('-p %d' % (port + 1), second.console())
-            first.wait_for_rows(3)
-            self.assert_stops('', first)
-
-    def test_launch_that_no_master_knows_yet(self):
-        port = free_port()
-        # Stands for a roslaunch that loads its file, for as long as it is to.
-        loading = subprocess.Popen(['/usr/bin/roslaunch', '-c', 'read line', 'knot_utm', 'tighten.launch', '-p', str(port)],
-                                   executable='/bin/bash', stdin=subprocess.PIPE)
-        try:
-            with Launch('method:=' + METHOD, port=port) as second:
-                self.assertEqual(second.end(), 1, second.console())
-                self.assertIn('a test is being launched already on the ROS master at %s (process %d)' % (second.uri, loading.pid),
-                              second.console())
-        finally:
-            loading.communicate(b'')
-
     def test_roslaunch_is_killed(self):
         port = self.master()
         with xmlrpc.client.ServerProxy('http://localhost:%d' % port) as master:
@@ -132,16 +107,13 @@ class TwoLaunchesTest(unittest.TestCase):
             for pid in rosout:  # nobody else ends it
                 os.kill(pid, signal.SIGKILL)
 
-    def test_master_that_other_machines_reach(self):
-        open_to_all = self.master(ROS_HOSTNAME='')
-        for uri, why in (('http://203.0.113.7:11311', "which is not on this machine's loopback"),
-                         ('http://localhost:%d' % open_to_all, 'the ROS master can be reached from other machines')):
-            for word, code in ('network:=false', 2), ('network:=true', 0):
-                check = subprocess.run([os.path.join(ROOT, 'launch/check'), 'tighten.launch', '--', word], check=False,
-                                       env=dict(os.environ, ROS_MASTER_URI=uri), stdout=subprocess.DEVNULL,
-                                       stderr=subprocess.PIPE, universal_newlines=True, timeout=LAST_RESORT)
-                self.assertEqual((check.returncode, check.stderr.count('\n')), (code, code // 2), check.stderr)
-                self.assertIn(why if code else '', check.stderr)
+    def test_master_of_another_machine(self):
+        for word, code in ('network:=false', 2), ('network:=true', 0):
+            check = subprocess.run([os.path.join(ROOT, 'launch/check'), 'tighten.launch', '--', word], check=False,
+                                   env=dict(os.environ, ROS_MASTER_URI='http://203.0.113.7:11311'), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, universal_newlines=True, timeout=LAST_RESORT)
+            self.assertEqual((check.returncode, check.stderr.count('\n')), (code, code // 2), check.stderr)
+            self.assertIn("which is not on this machine's loopback" if code else '', check.stderr)
 
 
 if __name__ == '__main__':

@@ -8,17 +8,17 @@ import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
-from launched import LAST_RESORT, METHOD, Launch, children, wait_for
+from launched import LAST_RESORT, METHOD, Launch, wait_for
 
-# In the place of rviz a process that needs no display, and ends well when the one that it waits for does.
+# In the place of rviz a node that needs no display.
 LAUNCH = """<launch>
   <arg name="working_directory"/>
   <arg name="out"/>
   <include file="$(find knot_utm)/launch/tighten.launch" pass_all_args="true">
     <arg name="method" value="%s"/>
-    <arg name="overrides" value="'program.hold.duration=0.1'"/>
+    <arg name="overrides" value="'program.hold.duration=15'"/>
   </include>
-  <node name="rviz" pkg="knot_utm" type="late" args="1000000 true"/>
+  <node name="rviz" pkg="knot_utm" type="panel_node"/>
 </launch>
 """
 
@@ -39,8 +39,7 @@ class WindowTest(unittest.TestCase):
                                   stdout=subprocess.PIPE, universal_newlines=True, timeout=LAST_RESORT).stdout
             self.assertIn('the launch is about to end', said)
             self.assertIsNone(launch.process.poll())
-            for process in children(launch.pid('rviz')):
-                os.kill(process, signal.SIGTERM)
+            os.kill(launch.pid('rviz'), signal.SIGINT)
             self.assertEqual(launch.end(), 0)
             for word in ('has died', 'REQUIRED', 'ERROR'):
                 self.assertNotIn(word, launch.console())

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace knot_utm {
+
+/// Runs a module of the Python package knot_utm, "knot_utm.report", with these words, and returns its exit code, 1
+/// where it cannot be run. `said`: a file to which all goes that it prints; empty: the program's own output.
+inline int run_python(const std::string& module, const std::vector<std::string>& with, const std::string& said = "") {
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  std::filesystem::path packages = here.parent_path() / "python3" / "dist-packages";  // of an installation
+  if (!std::filesystem::is_directory(packages / "knot_utm" / "report", error)) packages = KNOT_UTM_PYTHON_DIR;
+  // By -s and -P, and with no other PYTHONPATH, Debian's Python finds Debian's packages, and none of the user's own.
+  std::vector<std::string> words{"/usr/bin/env", "-u", "PYTHONHOME", "PYTHONPATH=" + packages.string()};
+  words.insert(words.end(),
+               {"KNOT_UTM_TOOLS_DIR=" + here.string(), "/usr/bin/python3", "-sPB", "-W", "ignore", "-m", module});
+  words.insert(words.end(), with.begin(), with.end());
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  if (!said.empty()) {
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  }
+  pid_t child = 0;
+  int status = 0;
+  const int failed = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) return 1;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+}  // namespace knot_utm

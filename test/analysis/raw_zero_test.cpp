@@ -1,0 +1,200 @@
+// The zero of raw data: a curve that is held against itself as a machine would have recorded it differs by rounding.
+
+#include "knot_utm/analysis/raw_zero.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "knot_utm/analysis/comparison.hpp"
+
+namespace knot_utm {
+namespace {
+
+/// A pull that slides and locks, read at a rate while the crosshead moves at a speed.
+struct Pulled {
+  double speed = 3.3e-3;  ///< [m/s]
+  double rate = 3.0;      ///< [Hz]
+
+  /// As curve.csv has it: mounted elsewhere, balanced, and pulled from 14 s on.
+  std::vector<CurveRow> rows() const {
+    std::vector<CurveRow> out;
+    const auto add = [&](double time, double s, double load, Phase phase, double end_to_end) {
+      CurveRow row;
+      row.time = time;
+      row.extension = s;
+      row.load = load;
+      row.phase = phase;
+      row.end_to_end = end_to_end;
+      out.push_back(row);
+    };
+    add(13.9, 7e-4, 3.2, Phase::kMount, 0.25);
+    const auto count = static_cast<int>(0.12 / speed * rate);
+    for (int i = 0; i <= count; ++i) {
+      const double s = speed * i / rate, turn = 1e-3;
+      const double load = -0.02 + 6.0 * std::min(1.0, s / turn) + 2e5 * std::max(0.0, s - 0.08);
+      add(14.0 + i / rate, s, load, i == 0 ? Phase::kBalance : Phase::kPull, 0.25 + s);
+    }
+    return out;
+  }
+};
+
+/// Units in which a machine writes what it recorded.
+struct Units {
+  double newtons, millimetres;
+};
+const Units kUnits[] = {{1.0, 1.0}, {1e3, 1.0}, {1e-3, 1e3}};
+
+struct Offset {
+  double load, extension;  ///< [N], [m]
+};
+
+/// Rows as raw data with an offset, rounded as their units round them.
+std::vector<CurveRow> recorded(std::vector<CurveRow> rows, const Units& units, const Offset& offset) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (CurveRow& row : rows) {
+    row.extension = 1e3 * (row.extension + offset.extension) / units.millimetres * (1e-3 * units.millimetres);
+    row.load = (row.load + offset.load) / units.newtons * units.newtons;
+    row.end_to_end = row.load_lower = kNone;
+    row.phase = Phase::kPull;
+  }
+  return rows;
+}
+
+void expect_the_same(const Pull& a, const Pull& b) {
+  const Comparison found = compare(a, b);
+  ASSERT_TRUE(found.difference);
+  const double peak = *found.a.peak_force;
+  EXPECT_LT(std::abs(found.difference->largest), 1e-10 * peak);
+  EXPECT_NEAR(*found.b.peak_force, peak, 1e-10 * peak);
+  ASSERT_TRUE(found.a.plateau_force && found.b.plateau_force);
+  EXPECT_NEAR(*found.b.plateau_force, *found.a.plateau_force, 1e-9);
+  // At 20 mm/s and 3 Hz too few readings tell where it locks.
+  ASSERT_EQ(found.b.lock_extension_by_load.has_value(), found.a.lock_extension_by_load.has_value());
+  if (!found.a.lock_extension_by_load) return;
+  EXPECT_NEAR(*found.b.lock_extension_by_load, *found.a.lock_extension_by_load, 1e-12);
+}
+
+TEST(RawZero, ACurveDiffersFromItsOwnRawDataByRounding) {
+  for (const double speed : {1e-3, 3.3e-3, 2e-2})
+    for (const double rate : {3.0, 17.0, 60.0})
+      for (const Units& units : kUnits)
+        for (const Offset& offset : {Offset{0.0, 0.0}, Offset{3.0, 0.013}, Offset{-40.0, -0.3}}) {
+          SCOPED_TRACE(testing::Message()
+                       << speed << " m/s, " << rate << " Hz, " << units.newtons << " N, " << offset.load);
+          const std::vector<CurveRow> ours = Pulled{speed, rate}.rows();
+          const Pull pull = pull_of(ours);
+          // At zero.
+          std::vector<CurveRow> rows(ours.begin() + 1, ours.end());
+          std::vector<CurveRow> raw = recorded(rows, units, offset);
+          EXPECT_EQ(zero_at_rest(raw).readings, 1u);
+          expect_the_same(pull, pull_of(balanced(raw, zero_at_rest(raw, pull))));
+          // Before: it stood still.
+          for (int i = 0; i < 20; ++i) {
+            CurveRow rest = rows.front();
+            rest.time -= 0.1;
+            rows.insert(rows.begin(), rest);
+          }
+          raw = recorded(rows, units, offset);
+          EXPECT_EQ(zero_at_rest(raw).readings, 21u);
+          expect_the_same(pull, pull_of(balanced(raw, zero_at_rest(raw, pull))));
+          // Behind: it was cut.
+          for (const std::ptrdiff_t cut : {2, 9}) {
+            raw = recorded({ours.begin() + cut, ours.end()}, units, offset);
+            const auto zero = zero_of_cut(raw, (ours.begin() + cut)->extension, pull);
+            ASSERT_TRUE(zero);
+            const std::optional<CurveDifference> difference = curve_difference(pull, pull_of(balanced(raw, *zero)));
+            ASSERT_TRUE(difference);
+            EXPECT_LT(std::abs(difference->largest), 1e-10 * difference->load);
+          }
+        }
+}
+
+TEST(RawZero, ACurveOfOursThatWasCutHasItsZeroStill) {
+  const std::vector<CurveRow> ours = Pulled().rows(), cut(ours.begin() + 7, ours.end());
+  EXPECT_TRUE(has_its_zero(cut));
+  EXPECT_EQ(curve_difference(pull_of(ours), pull_of(cut))->largest, 0.0);
+  EXPECT_FALSE(has_its_zero(recorded(cut, kUnits[0], {})));
+}
+
+TEST(RawZero, ThePullOfOursBeginsAtZero) {
+  std::vector<CurveRow> ours = Pulled().rows();
+  EXPECT_EQ(pull_of(ours).front().extension, 0.0);
+  EXPECT_EQ(pull_of(ours).front().force, -0.02);
+  ours.erase(ours.begin() + 1);  // the balance lies between two readings
+  EXPECT_EQ(pull_of(ours).front().extension, 0.0);
+  EXPECT_EQ(pull_of(ours).front().force, 0.0);
+  ours.erase(ours.begin());
+  EXPECT_GT(pull_of(ours).front().extension, 0.0);
+}
+
+TEST(RawZero, NoiseOfTheRestIsAveraged) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<CurveRow> rows = Pulled{3.3e-3, 100.0}.rows();
+  rows.erase(rows.begin());
+  rows.insert(rows.begin(), 400, rows.front());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].time = 0.01 * static_cast<double>(i);
+    rows[i].load += 0.1 * normal(random);
+  }
+  const std::vector<CurveRow> raw = recorded(rows, kUnits[0], {3.0, 0.013});
+  const RawZero zero = zero_at_rest(raw);
+  EXPECT_EQ(zero.readings, 401u);
+  EXPECT_NEAR(zero.load, 3.0 - 0.02, 0.02);
+  EXPECT_NEAR(zero.extension, 0.013, 1e-9);
+}
+
+TEST(RawZero, AWayBackAtTheEndIsNoRest) {
+  std::vector<CurveRow> rows = Pulled().rows();
+  rows.erase(rows.begin());
+  CurveRow back = rows.front();
+  back.time = rows.back().time + 30.0;
+  rows.push_back(back);
+  EXPECT_EQ(zero_at_rest(recorded(rows, kUnits[0], {3.0, 0.013})).first, 0u);
+}
+
+TEST(RawZero, WhereTheOtherCurveDoesNotReachNothingIsToldOfACut) {
+  const std::vector<CurveRow> ours = Pulled().rows();
+  const std::vector<CurveRow> raw = recorded({ours.begin() + 2, ours.end()}, kUnits[0], {});
+  EXPECT_FALSE(zero_of_cut(raw, 0.2, pull_of(ours)));
+  EXPECT_FALSE(zero_of_cut(raw, -0.01, pull_of(ours)));
+}
+
+Pull line(double (*force)(double), double end, int points) {
+  Pull out;
+  for (int i = 0; i <= points; ++i) out.push_back({0.0, end * i / points, 0.0, force(end * i / points)});
+  return out;
+}
+
+TEST(CurveDifference, OfLinesIsTheirExactIntegral) {
+  // F_b - F_a = 100 s - 1 over s from 0.01 to 0.03: its mean square is 4/3, over points that do not coincide.
+  const Pull a = line([](double s) { return 1.0 + 100.0 * s; }, 0.03, 7);
+  Pull b = line([](double s) { return 200.0 * s; }, 0.05, 11);
+  b.erase(b.begin(), b.begin() + 2);
+  const auto difference = curve_difference(a, b);
+  ASSERT_TRUE(difference);
+  const double low = b.front().extension, high = 0.03;
+  EXPECT_DOUBLE_EQ(difference->common.low, low);
+  EXPECT_DOUBLE_EQ(difference->common.high, high);
+  const auto cube = [](double s) { return std::pow(100.0 * s - 1.0, 3) / 300.0; };
+  EXPECT_NEAR(difference->rms, std::sqrt((cube(high) - cube(low)) / (high - low)), 1e-12);
+  EXPECT_NEAR(difference->largest, 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(difference->largest_at, high);
+  EXPECT_NEAR(difference->load, 4.0, 1e-12);
+}
+
+TEST(CurveDifference, WithNothingInCommonThereIsNone) {
+  const Pull near = pull_of(Pulled().rows());
+  Pull far = near;
+  for (PullPoint& point : far) point.extension += 1.0;
+  EXPECT_FALSE(curve_difference(near, far));
+  EXPECT_FALSE(curve_difference(near, {}));
+}
+
+}  // namespace
+}  // namespace knot_utm

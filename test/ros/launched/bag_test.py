@@ -1,0 +1,64 @@
+#!/usr/bin/python3
+"""A recorded test is seen again without anything of this package but the panel: by `rosbag play`, as doc/ros.md says it."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path[:0] = [os.path.join(HERE, '../../../bench'), os.path.join(HERE, '..'), os.path.join(HERE, '../../../python')]
+
+from knot_utm.panel.drawing import OURS
+from launched import METHOD, ROOT, Headless, free_port, wait_for
+
+
+class BagTest(unittest.TestCase):
+
+    def begin(self, *command):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.terminate)
+        return process
+
+    def test_rosbag_play_and_the_panel(self):
+        with tempfile.TemporaryDirectory() as log, Headless(METHOD, 'program.hold.duration=5') as run:
+            port = free_port()
+            os.environ.update(ROS_MASTER_URI='http://localhost:%d' % port, ROS_LOG_DIR=log)
+            self.begin('rosmaster', '--core', '-p', str(port))
+            # Not before: they take the master's address when they are loaded.
+            import client
+            import rosbag
+            import rosgraph
+            import rospy
+            from knot_utm.msg import KnotState, TestStatus
+            from sensor_msgs.msg import Image
+            from tf2_msgs.msg import TFMessage
+            from visualization_msgs.msg import MarkerArray
+            wait_for('the master', rosgraph.is_master_online)
+            rospy.set_param('use_sim_time', True)
+            self.begin(os.path.join(ROOT, 'python/knot_utm/panel/panel_node'))
+            rospy.init_node('bag_test', disable_signals=True)
+            panels = client.Latest('view/panel', Image)
+            self.assertFalse(client.drawn(panels.wait('the empty panel', lambda _: True), OURS))
+            state, status = client.Latest('knot/state', KnotState), client.Latest('utm/status', TestStatus)
+            pictures, frames = client.Latest('knot/markers', MarkerArray), client.Latest('/tf', TFMessage)
+            play = self.begin('rosbag', 'play', '--clock', '--rate', '2', '--delay', '3', run.folder + '/test.bag')
+            panels.wait('the curve', lambda image: client.drawn(image, OURS))
+            play.wait()
+            with rosbag.Bag(run.folder + '/test.bag') as bag:
+                recorded = [message.sequence for _, message, _ in bag.read_messages(topics=['/knot/state'])]
+            wait_for('the last state', lambda: state.last.sequence == recorded[-1])
+            self.assertEqual([message.sequence for message in state.messages], recorded)
+            self.assertEqual(status.last.state, TestStatus.RUNNING)  # the bag is the same without ROS
+            self.assertEqual({marker.ns for marker in pictures.last.markers}, {'rod', 'grips'})
+            self.assertLessEqual({marker.header.frame_id for marker in pictures.last.markers},
+                                 {transform.child_frame_id for transform in frames.last.transforms})
+            with open(os.path.join(ROOT, 'config/bag.rviz'), encoding='utf-8') as file:
+                shown = file.read()
+            for topic in 'knot/markers', 'view/panel':
+                self.assertIn('Topic: ' + topic, shown)
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+"""experiment.launch: the crosshead goes as an experiment's did, the record is played beside the test, and the panel has both
+curves."""
+import csv
+import os
+import subprocess
+import sys
+import unittest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path[:0] = [os.path.join(HERE, '../../../bench'), os.path.join(HERE, '..'), os.path.join(HERE, '../../../python')]
+
+from knot_utm.panel.drawing import MEASURED, OURS
+from launched import TOOL, Headless, Launch, wait_for
+
+IMPORT = os.path.join(os.path.dirname(TOOL), 'import_instron')
+# Of a machine that went forth and back, at other speeds than any program of ours: [s], [m], [N].
+RECORD = [(0.0, 0.0, 0.0), (0.5, 0.5e-3, 147.0), (1.0, 1.1e-3, 307.0), (1.5, 1.4e-3, 399.0), (2.0, 1.3e-3, 368.0)]
+
+
+class ExperimentTest(unittest.TestCase):
+
+    def test_both_curves(self):
+        def prepare(folder):
+            with Headless('straight', 'program.pull.until={extension: 0.0005}') as run, \
+                    open(run.folder + '/curve.csv', encoding='utf-8') as curve:
+                names, units = next(curve), next(curve)
+            with open(folder + '/record.csv', 'w', encoding='utf-8') as file:
+                file.write(names + units)
+                for row in RECORD:
+                    known = dict(zip(('time', 'extension', 'load'), row), phase='pull')
+                    file.write(','.join(str(known.get(name, 'nan')) for name in names.strip().split(',')) + '\n')
+            subprocess.run([IMPORT, folder + '/record.csv', folder + '/record.bag', '--quiet'], check=True)
+
+        with Launch('data:=record.csv', 'method:=straight', 'real_time_factor:=0', 'exit_at_end:=false', 'rate:=1',
+                    "overrides:='machine.load_cell={capacity: 50e3, sampling_rate: 100}'",
+                    command=['roslaunch', 'knot_utm', 'experiment.launch'], prepare=prepare) as launch:
+            wait_for('the panel', lambda: launch.answers('panel_node'))
+            os.environ.update(launch.environment)
+            # Not before: they take the master's address when they are loaded.
+            import client
+            import rospy
+            from sensor_msgs.msg import Image
+            rospy.init_node('experiment_test', disable_signals=True)
+            panels = client.Latest('view/panel', Image)
+            panels.wait('both curves', lambda image: client.drawn(image, OURS) and client.drawn(image, MEASURED))
+            wait_for('the result', lambda: os.path.exists(launch.out + '/result.yaml'))
+            self.assertEqual(launch.result('ended_by'), 'program')
+            rows = list(csv.DictReader(launch.text('curve.csv').splitlines()))[1:]
+        # From the beginning of the record on, the crosshead is where the record has it.
+        begin = float(rows[-1]['time']) - RECORD[-1][0]
+        for time, extension, _ in RECORD:
+            ours = min(rows, key=lambda row, at=begin + time: abs(float(row['time']) - at))
+            self.assertAlmostEqual(float(ours['extension']), extension, delta=1e-9)
+
+
+if __name__ == '__main__':
+    unittest.main()

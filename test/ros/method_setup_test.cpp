@@ -1,0 +1,111 @@
+// What a test is, from the words of a launch and of a request to the order that all nodes read.
+#include "knot_utm/ros/method_setup.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <regex>
+
+#include "knot_utm/ros/urdf.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<std::string> shipped_methods() {
+  const fs::path config = fs::path(KNOT_UTM_SOURCE_DIR) / "config";
+  std::vector<std::string> found;
+  for (const fs::path& folder : {config, config / "standards", config / "validation"})
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".yaml") found.push_back(entry.path().string());
+  return found;
+}
+
+TestWords launched(std::map<std::string, std::string> more = {}) {
+  more.insert({{"method", "straight"},
+               {"shipped_methods", KNOT_UTM_SOURCE_DIR "/config"},
+               {"material", "polypropylene"},
+               {"working_directory", "/tmp"}});
+  return read_words([&](const std::string& name) { return more[name]; });
+}
+
+std::string refusal(const std::map<std::string, std::string>& more) {
+  try {
+    set_up(launched(more));
+  } catch (const InvalidInput& invalid) {
+    return invalid.what();
+  }
+  return "";
+}
+
+TEST(ARequest, LeavesWhatItDoesNotNameToTheLaunch) {
+  const TestWords words = asked_for(launched({{"preload", "30"}}), StartTest::Request());
+  EXPECT_EQ(words.method, "straight");
+  EXPECT_EQ(words.material, "polypropylene");
+  EXPECT_EQ(words.preload, "30");
+}
+
+TEST(ARequest, StandsBeforeOverridesOfTheLaunch) {
+  const TestWords before =
+      launched({{"overrides", "'material=pink_vps', 'material.radius=0.002', specimen.preload=1"}});
+  EXPECT_THAT(before.overrides, ElementsAre("material=pink_vps", "material.radius=0.002", "specimen.preload=1"));
+  StartTest::Request request;
+  request.material = "nylon";
+  request.preload = 0.1;
+  const TestWords words = asked_for(before, request);
+  EXPECT_EQ(words.material, "nylon");
+  EXPECT_EQ(words.preload, "0.1");
+  EXPECT_THAT(words.overrides, ElementsAre("material.radius=0.002"));
+  request.overrides = {"specimen.length=0.3"};
+  EXPECT_EQ(asked_for(before, request).overrides, request.overrides);
+  request.overrides = {""};
+  EXPECT_THAT(asked_for(before, request).overrides, IsEmpty());
+}
+
+TEST(Setup, WritesBelowOutUnlessAFolderIsAskedFor) {
+  EXPECT_EQ(set_up(launched()).out, "/tmp/out/straight");
+  EXPECT_EQ(set_up(launched()).method.material.name, "polypropylene");
+  EXPECT_EQ(set_up(launched({{"out", "here"}})).out, "/tmp/here");
+}
+
+TEST(Setup, RefusesInTheWordsOfALaunch) {
+  EXPECT_EQ(refusal({}), "");
+  for (const char* wrong : {"x", "'specimen.length=[1'"})
+    EXPECT_EQ(refusal({{"overrides", wrong}}).rfind("overrides: ", 0), 0u) << refusal({{"overrides", wrong}});
+  EXPECT_THROW(launched({{"overrides", "]["}}), InvalidInput);
+  EXPECT_THAT(refusal({{"overrides", "'specimens={count: 2, scatter: {specimen.length: {uniform: 0.2}}}'"}}),
+              HasSubstr("specimens.count is 2, but under ROS it must be 1"));
+  EXPECT_THAT(refusal({{"data", "nowhere.csv"}}), HasSubstr("/tmp/nowhere.csv"));
+}
+
+/// The recorder writes the method that it reads in the order, and the physics steps it: to the last bit that of the
+/// machine.
+TEST(Order, HasTheWholeMethod) {
+  for (const std::string& file : shipped_methods()) {
+    const Method method = load_method(file), read = method_of(order_of(method, "/out"));
+    EXPECT_EQ(read.name, method.name);
+    EXPECT_EQ(method_yaml(read), method_yaml(method)) << file;
+  }
+}
+
+TEST(MachineDescription, HasEveryFrameAndNoNumberThatIsNone) {
+  const auto count = [](const std::string& text, const char* what) {
+    const std::regex wanted(what);
+    return std::distance(std::sregex_iterator(text.begin(), text.end(), wanted), std::sregex_iterator());
+  };
+  for (const std::string& file : shipped_methods()) {
+    const std::string urdf = machine_urdf(load_method(file), Vec3::Zero(), Vec3(0.0, 0.0, 0.25));
+    EXPECT_EQ(count(urdf, "<link name="), 6) << file;
+    EXPECT_EQ(count(urdf, "<joint name="), 5) << file;
+    EXPECT_FALSE(std::regex_search(urdf, std::regex("nan|inf|(size|radius|length)=\"([^\"]* )?-"))) << urdf;
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm
