@@ -9,6 +9,7 @@ import xml.etree.ElementTree as xml
 from runs import FISHERMAN, Folders, read, script, write
 
 import numpy as np
+from PIL import Image
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkPolyDataConnectivityFilter
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
@@ -16,6 +17,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from knot_utm.report.colours import node_values
 from knot_utm.report.movie import OneTest
+from knot_utm.report.picture import facts_of_run
 from knot_utm.report.quantities import number
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import series_of
@@ -189,12 +191,11 @@ class Pictures(unittest.TestCase):
         self.assertIn(f"s = {number(float(extension[-1]))} mm", test.run.words_at(20.03))
 
     def test_of_a_run_carry_what_they_show(self):
-        from PIL import Image
-
         done = script("picture", broken, "--out", out("picture.png"))
         self.assertEqual(done.returncode, 0, done.stderr)
         with Image.open(out("picture.png")) as picture:
-            self.assertIn(f"{Run(broken).result['plateau_force']:.6g} N", picture.text["plateau_force"])
+            facts = facts_of_run(broken, picture.text["command"])
+            self.assertEqual(({**picture.text}, facts["command"]), (facts, f"scripts/picture {broken} --out {out('picture.png')}"))
             self.assertGreater(len(set(picture.convert("RGB").getdata())), 1000)
 
 
