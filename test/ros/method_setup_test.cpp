@@ -78,7 +78,7 @@ TEST(Setup, RefusesInTheWordsOfALaunch) {
   EXPECT_EQ(refusal({}), "");
   for (const char* wrong : {"x", "'specimen.length=[1'"})
     EXPECT_EQ(refusal({{"overrides", wrong}}).rfind("overrides: ", 0), 0u) << refusal({{"overrides", wrong}});
-  EXPECT_THROW(launched({{"overrides", "]["}}), InvalidInput);
+  EXPECT_THROW(launched({{"overrides", "["}}), InvalidInput);
   EXPECT_THAT(refusal({{"overrides", "'specimens={count: 2, scatter: {specimen.length: {uniform: 0.2}}}'"}}),
               HasSubstr("specimens.count is 2, but under ROS it must be 1"));
   EXPECT_THAT(refusal({{"data", "nowhere.csv"}}), HasSubstr("/tmp/nowhere.csv"));
