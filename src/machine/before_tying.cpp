@@ -22,6 +22,7 @@ namespace {
 constexpr double kClosed = 2.0;        // radius of a coil that lies on the strands in it [h]
 constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
 constexpr double kCoarsestEdge = 0.9;  // of a rope whose knots slide as with finer ones [h]: doc/developers/history.md
+constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which a law of tension was ever measured [-]
 // Pink VPS was tied and mounted with a linear law up to a strain of 4.8 (4.8 k_s) and with a neo-Hookean one up to 5.6
 // (2.2 k_s); at 6 and 6.8 the tail grips came to the end of their way first (config/tighten.yaml with material=pink_vps
 // and specimen.preload= at draft).
