@@ -323,7 +323,6 @@ bool SamplesReader::next(Record& record) {
       if (take_shape(kFinal)) final_shape_ = shape_.points;
       continue;
     }
-    end_.reset();  // a test that was cut off went on
     record.wall_time = row.wall_time;
     record.command = row.command;
     record.answer = std::move(row.sample);
@@ -332,7 +331,6 @@ bool SamplesReader::next(Record& record) {
     record.tension = shape ? shape_.tension : Eigen::VectorXd();
     record.readings = shape ? shape_.readings : std::nullopt;
     if (shape) final_shape_ = shape_.points;
-    last_ = record.answer;
     ++records_;
     return true;
   }
@@ -367,13 +365,6 @@ void SamplesWriter::File::cut(std::uint64_t bytes) {
 SamplesWriter::SamplesWriter(const std::string& folder)
     : rows_(samples_file(folder), "abxe"), shapes_(shapes_file(folder), "abxe") {
   rows_.append(head());
-}
-
-SamplesWriter::SamplesWriter(const std::string& folder, const SamplesReader& read)
-    : rows_(samples_file(folder), "abe"), shapes_(shapes_file(folder), "abe") {
-  rows_.cut(read.whole_bytes_);
-  shapes_.cut(read.shapes_whole_bytes_);
-  last_ = read.last_;
 }
 
 void SamplesWriter::append(const SamplesReader::Shape& shape) {

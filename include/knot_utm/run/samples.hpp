@@ -70,7 +70,6 @@ class SamplesReader {
   std::uint64_t bytes_ = 0, whole_bytes_ = 0, shapes_whole_bytes_ = 0;
   std::uint64_t records_ = 0;
   std::optional<TestEnd> end_;
-  Sample last_;  ///< the last answer
   Points final_shape_;
   Shape shape_;
   std::uint64_t shape_bytes_ = 0;  ///< length of `shape_` in the file, where it was read and not yet taken; else 0
@@ -82,8 +81,6 @@ class SamplesWriter {
  public:
   /// Begins the files of a new run, of which none may be there.
   explicit SamplesWriter(const std::string& folder);
-  /// Goes on behind what a reader of the same folder has read, and cuts off what is torn.
-  SamplesWriter(const std::string& folder, const SamplesReader& read);
 
   void append(const Record& record);
   /// Says how the test ended. `final_shape`: the rod then; no columns: it is not known.
