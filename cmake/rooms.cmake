@@ -9,7 +9,7 @@ set(cold_targets)
 set(sanitized_targets)
 set(sanitized_objects)
 # What no time step goes through.
-set(cold_rooms record topology specimen machine analysis method verdict run study)
+set(cold_rooms words record program topology specimen breaking settings grips tying machine analysis method verdict run study)
 foreach(line ${room_lines})
   string(REGEX MATCHALL "[a-z]+" uses "${line}")
   list(POP_FRONT uses room)

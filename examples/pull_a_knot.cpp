@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "knot_utm/analysis/results.hpp"
-#include "knot_utm/machine/options.hpp"
-#include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/shipped.hpp"
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/program/run_test.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/load_test.hpp"
+#include "knot_utm/specimen/machine_options.hpp"
 
 int main(int argc, char** argv) try {
   const std::string file = knot_utm::find_method(argc > 1 ? argv[1] : "tighten", "", {KNOT_UTM_METHODS});

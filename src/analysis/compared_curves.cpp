@@ -3,8 +3,9 @@
 #include <utility>
 
 #include "knot_utm/analysis/comparison.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

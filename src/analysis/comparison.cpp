@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/numeric/yaml_lines.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/words/number.hpp"
+#include "knot_utm/words/yaml_lines.hpp"
 
 namespace knot_utm {
 namespace {

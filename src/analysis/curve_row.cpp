@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

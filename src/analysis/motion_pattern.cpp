@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/record/phase.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "pull_integrals.hpp"
 

@@ -6,7 +6,7 @@
 #include "knot_utm/analysis/curve_row.hpp"
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/analysis/statistics.hpp"
-#include "knot_utm/record/phase.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "pull_integrals.hpp"
 
 namespace knot_utm {

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

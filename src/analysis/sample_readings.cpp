@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

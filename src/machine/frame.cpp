@@ -6,8 +6,8 @@
 #include <string>
 
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/material.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

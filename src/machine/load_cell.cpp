@@ -6,8 +6,8 @@
 #include <locale>
 #include <sstream>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/random.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

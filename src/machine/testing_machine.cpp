@@ -6,17 +6,17 @@
 #include <optional>
 #include <utility>
 
-#include "knot_utm/machine/accuracy.hpp"
-#include "knot_utm/machine/break_watch.hpp"
+#include "knot_utm/breaking/break_watch.hpp"
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/machine/frame.hpp"
-#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/load_cell.hpp"
-#include "knot_utm/machine/specimen_centreline.hpp"
-#include "knot_utm/machine/step_settings.hpp"
-#include "knot_utm/machine/tying.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/settings/accuracy.hpp"
+#include "knot_utm/settings/specimen_centreline.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -24,6 +24,7 @@
 #include "knot_utm/specimen/knot_watch.hpp"
 #include "knot_utm/specimen/rest_shape.hpp"
 #include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/tying/tying.hpp"
 
 namespace knot_utm {
 
@@ -39,6 +40,18 @@ constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth
 
 constexpr double kNearBreak = 1e-3;    // steps are no shorter for a break that is near [longest step]
 constexpr double kLeastPassed = 1e-2;  // by which the grip may pass the balance of forces [k_b/h^2]
+
+}  // namespace
+
+namespace {
+
+/// `grip`: how far the upper grip has moved [m].
+BreakPlace place_of_break(const TimeStep& stepper, const Grips& grips, double grip, int edge) {
+  const Points& position = stepper.state().position;
+  if (lies_in_knot(stepper.rod(), position, edge)) return BreakPlace::kKnot;
+  const Vec3 middle = 0.5 * (position.col(edge) + position.col(edge + 1));
+  return grips.hold(grip, middle, stepper.rod().material_at(edge).radius) ? BreakPlace::kGrip : BreakPlace::kStrand;
+}
 
 }  // namespace
 

@@ -6,9 +6,9 @@
 #include <system_error>
 
 #include "knot_utm/method/shipped.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/known_names.hpp"
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/known_names.hpp"
+#include "knot_utm/words/number.hpp"
 #include "yaml_text.hpp"
 
 namespace knot_utm {

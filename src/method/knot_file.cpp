@@ -5,11 +5,12 @@
 #include <set>
 #include <utility>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/known_names.hpp"
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/per_knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/known_names.hpp"
+#include "knot_utm/words/number.hpp"
 #include "method_reader.hpp"
 #include "yaml_text.hpp"
 

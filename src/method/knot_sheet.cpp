@@ -7,13 +7,14 @@
 #include <sstream>
 #include <vector>
 
-#include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/pieces.hpp"
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/knot_facts.hpp"
+#include "knot_utm/words/known_names.hpp"
 
 namespace knot_utm {
 namespace {

@@ -6,7 +6,8 @@
 #include <optional>
 
 #include "knot_utm/method/method_keys.hpp"
-#include "knot_utm/record/loading_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/scales.hpp"

@@ -4,13 +4,13 @@
 #include <limits>
 #include <string>
 
+#include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/contact/friction.hpp"
-#include "knot_utm/machine/breaking_laws.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/numeric/fields.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/words/fields.hpp"
 
 /// All keys of a method with their ranges, section by section. Each step of the program has its own (Step::keys).
 namespace knot_utm::fields {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "method_reader.hpp"
 #include "yaml_text.hpp"
 

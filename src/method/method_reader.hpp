@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/known_names.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/material.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/known_names.hpp"
+#include "knot_utm/words/number.hpp"
 #include "method_fields.hpp"
 
 namespace knot_utm::fields {

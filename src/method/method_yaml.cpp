@@ -1,5 +1,5 @@
 // The method written as YAML.
-#include "knot_utm/machine/grips.hpp"
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_overrides.hpp"

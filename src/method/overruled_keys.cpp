@@ -4,12 +4,12 @@
 #include <functional>
 #include <optional>
 
+#include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/contact/friction.hpp"
-#include "knot_utm/machine/breaking_laws.hpp"
-#include "knot_utm/machine/step_settings.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/settings/step_settings.hpp"
+#include "knot_utm/words/number.hpp"
 #include "method_overrides.hpp"
 
 namespace knot_utm {

@@ -9,10 +9,10 @@
 #include <system_error>
 
 #include "knot_utm/method/knot_file.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/known_names.hpp"
 
 namespace knot_utm {
 namespace {

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "knot_utm/machine/before_tying.hpp"
-#include "knot_utm/machine/breaking_laws.hpp"
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/breaking/breaking_laws.hpp"
+#include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/tying/before_tying.hpp"
+#include "knot_utm/words/number.hpp"
 #include "method_reader.hpp"
 
 namespace knot_utm {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <map>
 
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/method_setup.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

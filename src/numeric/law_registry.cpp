@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/words/known_names.hpp"
 
 namespace knot_utm {
 

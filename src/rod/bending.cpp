@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/elastic_bending.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/rod_laws.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

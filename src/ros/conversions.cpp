@@ -6,6 +6,7 @@
 #include <string>
 #include <type_traits>
 
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/ros/names.hpp"
 

@@ -12,10 +12,10 @@
 #include <system_error>
 #include <utility>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

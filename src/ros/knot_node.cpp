@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 
-#include "knot_utm/machine/grips.hpp"
-#include "knot_utm/machine/tied_loop.hpp"
+#include "knot_utm/grips/grips.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/ros/ask_master.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/urdf.hpp"
+#include "knot_utm/tying/tied_loop.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
 
 namespace knot_utm {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

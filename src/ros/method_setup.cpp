@@ -11,8 +11,7 @@
 #include <utility>
 
 #include "knot_utm/method/shipped.hpp"
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/loading_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/ros/ask_master.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/loopback.hpp"
@@ -20,6 +19,7 @@
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/study/specimens.hpp"
 #include "knot_utm/verdict/run_facts.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -6,9 +6,10 @@
 
 #include <cmath>
 
-#include "knot_utm/machine/tied_loop.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/tying/tied_loop.hpp"
 
 namespace knot_utm {
 namespace {

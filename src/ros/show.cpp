@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

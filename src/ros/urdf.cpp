@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/machine/grip_bodies.hpp"
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/program.hpp"
+#include "knot_utm/grips/grip_bodies.hpp"
+#include "knot_utm/program/program.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

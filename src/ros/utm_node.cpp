@@ -9,7 +9,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/launched.hpp"
@@ -18,6 +17,7 @@
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/progress_line.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/settings/accuracy.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "wall_time.hpp"
 

@@ -1,10 +1,11 @@
 // What the machine tells of itself: its status, the action's feedback and result, its health.
 #include <limits>
 
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/words/number.hpp"
 #include "wall_time.hpp"
 
 namespace knot_utm {

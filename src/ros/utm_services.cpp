@@ -1,6 +1,6 @@
 // What the operator asks of the machine.
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/ros/utm_node.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

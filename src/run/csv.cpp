@@ -7,12 +7,13 @@
 #include <string_view>
 #include <utility>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/pieces.hpp"
-#include "knot_utm/numeric/text_rows.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/run/cannot_write.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
+#include "knot_utm/words/text_rows.hpp"
 
 namespace knot_utm {
 namespace {

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <system_error>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/known_names.hpp"
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/loading_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/verdict/verdict.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/known_names.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

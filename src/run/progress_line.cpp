@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

@@ -12,13 +12,13 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/record/loading_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/run/cannot_write.hpp"
 #include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/samples.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

@@ -5,19 +5,20 @@
 #include <filesystem>
 
 #include "knot_utm/contact/centreline_curve.hpp"
-#include "knot_utm/machine/before_tying.hpp"
-#include "knot_utm/machine/grips.hpp"
-#include "knot_utm/machine/specimen_centreline.hpp"
-#include "knot_utm/machine/tied_loop.hpp"
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/numeric/pieces.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/topology/knot_hole.hpp"
+#include "knot_utm/tying/before_tying.hpp"
+#include "knot_utm/tying/tied_loop.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

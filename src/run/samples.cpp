@@ -14,10 +14,11 @@
 #include <type_traits>
 #include <utility>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/run/cannot_write.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -12,10 +12,10 @@
 #include <optional>
 #include <vector>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -5,10 +5,10 @@
 #include "increment.hpp"
 #include "increment_solver.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

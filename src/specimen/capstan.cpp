@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/limit_text.hpp"
 #include "shape_checks.hpp"
 
 namespace knot_utm {

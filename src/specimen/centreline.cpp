@@ -7,9 +7,9 @@
 
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/specimen/polyline.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/limit_text.hpp"
 #include "shape_checks.hpp"
 
 namespace knot_utm {

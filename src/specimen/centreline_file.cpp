@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/text_rows.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/text_rows.hpp"
 
 namespace knot_utm {
 namespace {

@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

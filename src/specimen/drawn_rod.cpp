@@ -1,11 +1,11 @@
 #include <filesystem>
 #include <system_error>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

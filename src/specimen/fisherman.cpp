@@ -5,14 +5,13 @@
 #include <string>
 #include <utility>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/limit_text.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
-#include "knot_utm/specimen/tying_rig.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/limit_text.hpp"
+#include "knot_utm/words/number.hpp"
 #include "path.hpp"
 #include "shape_checks.hpp"
 
@@ -382,8 +381,7 @@ class FishermanKnot : public Knot {
     shape.knot_distance = specimen.knot_distance;
     shape.windings = windings(specimen);
     if (specimen.to_be_tied && mounting.rollers)
-      shape.straight =
-          TyingRig::straight_strand(material.radius, runs_out(shape.windings, shape.looseness, material.radius));
+      shape.straight = straight_strand(material.radius, runs_out(shape.windings, shape.looseness, material.radius));
     shape.outward_shift = specimen.to_be_tied ? outward_shift(specimen, material, shape.windings) : 0.0;
     shape.end_to_end = specimen.end_to_end;
     shape.roller_radius = 0.5 * mounting.roller_diameter;

@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/known_names.hpp"
 
 namespace knot_utm {
 

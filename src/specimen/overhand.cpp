@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/limit_text.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/limit_text.hpp"
+#include "knot_utm/words/number.hpp"
 #include "path.hpp"
 #include "shape_checks.hpp"
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <sstream>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/limit_text.hpp"
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/limit_text.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 

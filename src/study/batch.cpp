@@ -14,15 +14,15 @@
 #include <thread>
 
 #include "knot_utm/analysis/statistics.hpp"
-#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/method/method_keys.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/known_names.hpp"
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/specimens.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/known_names.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 

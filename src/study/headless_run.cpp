@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/program/run_test.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
@@ -18,6 +17,7 @@
 #include "knot_utm/study/tied_specimen.hpp"
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

@@ -1,9 +1,9 @@
 #include "knot_utm/study/readings.hpp"
 
-#include "knot_utm/machine/accuracy.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/loading_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
+#include "knot_utm/settings/accuracy.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/random.hpp"
 #include "knot_utm/run/load_test.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 

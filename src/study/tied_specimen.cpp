@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/record/phase.hpp"
-#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"

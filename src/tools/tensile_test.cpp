@@ -12,8 +12,7 @@
 #include "knot_utm/method/knot_sheet.hpp"
 #include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/method/shipped.hpp"
-#include "knot_utm/numeric/known_names.hpp"
-#include "knot_utm/record/phase.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/command_hint.hpp"
@@ -27,6 +26,7 @@
 #include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
 #include "knot_utm/verdict/trust_limits.hpp"
+#include "knot_utm/words/known_names.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
 #endif

@@ -3,12 +3,13 @@
 #include <cmath>
 #include <utility>
 
-#include "knot_utm/machine/before_tying.hpp"
-#include "knot_utm/machine/grips.hpp"
-#include "knot_utm/machine/step_settings.hpp"
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/grips/grips.hpp"
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/program/preparing_steps.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/tying/before_tying.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

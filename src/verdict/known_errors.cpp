@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "knot_utm/machine/breaking_laws.hpp"
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {
@@ -22,7 +22,7 @@ constexpr double kMeaningless = 0.5;  // an error that is more than this of the 
 /// as much as the lock may be off, or where there is none by a fraction of the part [-].
 double change_along_the_curve(const Results& results, const RelativeErrors& errors) {
   constexpr double kOfLock = 2.0,
-                   kFurther = 0.3;  // chosen with the constants of relative_errors (machine/measured.hpp)
+                   kFurther = 0.3;  // chosen with the constants of relative_errors (settings/measured.hpp)
   const std::optional<LockedPart>& part = results.curve.locked;
   if (!part || !(part->width > 0.0) || part->stiffness == 0.0) return 0.0;
   const bool locks = results.lock_extension && errors.lock_extension;

@@ -1,9 +1,9 @@
 #include "null_reasons.hpp"
 
-#include "knot_utm/machine/breaking_laws.hpp"
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/verdict/known_errors.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

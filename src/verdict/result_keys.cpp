@@ -4,11 +4,11 @@
 #include <cmath>
 #include <iterator>
 
-#include "knot_utm/machine/breaking_laws.hpp"
+#include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/machine/load_cell.hpp"
-#include "knot_utm/numeric/yaml_lines.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
+#include "knot_utm/words/yaml_lines.hpp"
 #include "null_reasons.hpp"
 
 namespace knot_utm {

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "knot_utm/machine/load_cell.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -79,7 +79,7 @@ class Shipped(unittest.TestCase):
             self.assertIn(f"(auto: {bends.TYING_SPEED:g} radii/s;", page.read())
 
     def test_what_is_halved_is_what_is_shipped(self):
-        with open(os.path.join(ROOT, "src/machine/measured.hpp"), encoding="utf-8") as source:
+        with open(os.path.join(ROOT, "src/settings/measured.hpp"), encoding="utf-8") as source:
             text = source.read()
         for material, name in (("nylon", "kRollingNormal"), ("pink_vps", "kStretchingNormal")):
             step, residual, contact_tolerance, presliding, _ = map(float, re.search(name + r"\{(.*?)\}", text).group(1).split(","))

@@ -8,8 +8,8 @@
 #include "contact/candidate_pairs.hpp"
 #include "contact/nodal_forces.hpp"
 #include "knot_utm/contact/centreline_curve.hpp"
-#include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "rod/finite_difference.hpp"
 

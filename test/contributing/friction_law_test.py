@@ -107,7 +107,7 @@ class FrictionLaw(unittest.TestCase):
                 new.write(changed(old.read(), diff))
             with open(f"{folder}/main.cpp", "w", encoding="utf-8") as program:
                 program.write(PROGRAM)
-            numeric = [f"src/numeric/{file}" for file in sorted(os.listdir(f"{folder}/src/numeric")) if file.endswith(".cpp")]
+            numeric = [f"src/{room}/{file}" for room in ("words", "numeric") for file in sorted(os.listdir(f"{folder}/src/{room}")) if file.endswith(".cpp")]
             built = subprocess.run([COMPILER, *FLAGS, "main.cpp", *numeric, "-lz", "-o", "main"], cwd=folder,
                                    capture_output=True, text=True, check=False)
             self.assertEqual(built.returncode, 0, built.stderr)

@@ -117,7 +117,7 @@ class Measured(unittest.TestCase):
                 self.assertTrue(found, f"{file} has no {name}")
                 if value:
                     self.assertEqual(float(found.group(1)), float(value), name)
-        names = set(re.findall(r"\b(k[A-Z]\w+)(?= = |{)", text("src/machine/measured.hpp")))
+        names = set(re.findall(r"\b(k[A-Z]\w+)(?= = |{)", text("src/settings/measured.hpp")))
         self.assertEqual(names - {name for row in listed for name in re.findall(r"`(k\w+)`", row[0])}, set())
 
 

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "fuzz/target.hpp"
-#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/record/loading_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

@@ -6,12 +6,13 @@
 #include "fuzz/memory_file.hpp"
 #include "fuzz/target.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/program.hpp"
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/program/program.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/polyline.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 

@@ -10,11 +10,11 @@
 #include <string>
 
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "overhand_specimen.hpp"
 #include "rod/materials.hpp"
 

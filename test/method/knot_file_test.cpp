@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

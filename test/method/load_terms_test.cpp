@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/record/loading_steps.hpp"
-#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
+#include "knot_utm/program/preparing_steps.hpp"
 
 namespace knot_utm {
 namespace {

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/record/command.hpp"
-#include "knot_utm/record/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {

@@ -9,7 +9,7 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/method/shipped.hpp"
-#include "knot_utm/record/loading_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/specimen/knot.hpp"

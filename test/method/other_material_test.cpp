@@ -5,18 +5,18 @@
 
 #include <algorithm>
 
-#include "knot_utm/machine/breaking_laws.hpp"
-#include "knot_utm/machine/fracture.hpp"
-#include "knot_utm/machine/specimen_centreline.hpp"
-#include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/breaking/breaking_laws.hpp"
+#include "knot_utm/breaking/fracture.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/settings/specimen_centreline.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

@@ -4,18 +4,18 @@
 
 #include <cmath>
 
-#include "knot_utm/machine/program_runner.hpp"
-#include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/numeric/number.hpp"
-#include "knot_utm/record/loading_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {

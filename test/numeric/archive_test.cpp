@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

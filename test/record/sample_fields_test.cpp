@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/per_knot.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/material.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "rod/own_laws.hpp"
 
 namespace knot_utm {

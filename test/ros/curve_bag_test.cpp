@@ -11,13 +11,13 @@
 #include <csignal>
 #include <filesystem>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/run_bag.hpp"
 #include "knot_utm/run/cannot_write.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
 

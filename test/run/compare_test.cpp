@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/words/number.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
 

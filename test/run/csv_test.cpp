@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <sstream>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

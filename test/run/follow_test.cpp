@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/record/loading_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
 

@@ -8,12 +8,12 @@
 #include <fstream>
 
 #include "knot_utm/contact/centreline_curve.hpp"
-#include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/program/run_test.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/topology/knot_hole.hpp"
-#include "machine/fake_bench.hpp"
+#include "program/fake_bench.hpp"
 #include "run/own_folder.hpp"
 
 namespace knot_utm {

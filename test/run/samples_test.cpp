@@ -12,9 +12,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "run/own_folder.hpp"
 
 namespace knot_utm {
@@ -39,6 +40,8 @@ class Samples : public MadeFolder {
       using Value = std::remove_reference_t<decltype(value)>;
       if constexpr (std::is_same_v<Value, double>)
         value = number();
+      else if constexpr (std::is_same_v<Value, Phase>)
+        value = static_cast<Phase>(random_() % (1 + static_cast<unsigned>(last_phase())));
       else if constexpr (std::is_enum_v<Value>)
         value = static_cast<Value>(static_cast<int>(random_() % (1 + static_cast<unsigned>(last_of(Value())))));
       else if constexpr (std::is_same_v<Value, PerKnot>)

@@ -9,8 +9,8 @@
 #include <filesystem>
 
 #include "knot_utm/method/shipped.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
 

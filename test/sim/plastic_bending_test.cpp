@@ -6,9 +6,9 @@
 #include <cmath>
 #include <memory>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "rod/own_laws.hpp"
 #include "sim/balance.hpp"
 #include "sim/scenes.hpp"

@@ -8,13 +8,13 @@
 #include <cmath>
 
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "reference.hpp"
 #include "rod/materials.hpp"
 

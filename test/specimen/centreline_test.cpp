@@ -10,11 +10,11 @@
 #include <limits>
 #include <string>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/polyline.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

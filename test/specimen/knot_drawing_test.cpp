@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/polyline.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <vector>
 
-#include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
-#include "knot_utm/specimen/tying_rig.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
 #include "knot_utm/topology/overhand_strand.hpp"
+#include "knot_utm/tying/tying_rig.hpp"
 
 namespace knot_utm {
 namespace {

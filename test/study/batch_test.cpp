@@ -9,9 +9,9 @@
 #include <fstream>
 
 #include "knot_utm/analysis/statistics.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/specimens.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "run/own_folder.hpp"
 
 namespace knot_utm {

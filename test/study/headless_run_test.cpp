@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "run/own_folder.hpp"
 
 namespace knot_utm {

@@ -8,7 +8,7 @@
 
 #include "knot_utm/analysis/statistics.hpp"
 #include "knot_utm/method/method_keys.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/record/loading_steps.hpp"
-#include "knot_utm/record/preparing_steps.hpp"
+#include "knot_utm/program/loading_steps.hpp"
+#include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/headless_run.hpp"

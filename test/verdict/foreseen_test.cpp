@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/words/number.hpp"
 #include "run/command.hpp"
 
 namespace knot_utm {

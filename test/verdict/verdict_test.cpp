@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

@@ -37,7 +37,7 @@ namespace knot_utm {
 struct FrictionLawDefaults {
   /// Speed with which contacts at rest creep under any load; 0: they hold [m/s].
   double creep_speed() const { return 0.0; }
-  /// Whether the errors beside readings were studied with this law (machine/accuracy.hpp).
+  /// Whether the errors beside readings were studied with this law (settings/accuracy.hpp).
   static constexpr bool kStudied = false;
 };
 

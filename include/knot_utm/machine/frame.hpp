@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knot_utm/machine/options.hpp"
+#include "knot_utm/specimen/machine_options.hpp"
 
 namespace knot_utm {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <random>
 
-#include "knot_utm/machine/options.hpp"
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/specimen/machine_options.hpp"
 
 namespace knot_utm {
 

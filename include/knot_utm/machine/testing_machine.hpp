@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/options.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/contact_force.hpp"
 #include "knot_utm/sim/options.hpp"
+#include "knot_utm/specimen/machine_options.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/options.hpp"
 #include "knot_utm/method/report_options.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/record/program.hpp"
+#include "knot_utm/program/program.hpp"
 #include "knot_utm/sim/options.hpp"
+#include "knot_utm/specimen/machine_options.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/options.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

@@ -30,7 +30,7 @@ std::string laws_with(const std::string& key, const LawEntry* laws, std::size_t 
 ///     static constexpr const char* kName    is what a method calls it
 ///     static constexpr std::array kKeys     its own keys (LawKey), or NoKeys
 ///     static constexpr bool kStudied        whether the errors beside readings were studied with it
-///                                           (machine/accuracy.hpp)
+///                                           (settings/accuracy.hpp)
 ///     static Law of(...)                    from a method
 template <typename Laws>
 struct LawRegistry;

@@ -1,29 +1,12 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace knot_utm {
 
-/// The phases of a test: idle, done, and the steps that a program may have (program.hpp). Those that other code asks
-/// for have a name here; every other step has the next number behind them.
+/// The phases of a test: idle, done, and the steps that a program may have (program/program.hpp). Those that other code
+/// asks for have a name here; every other step has the next number behind them.
 enum class Phase { kIdle, kTie, kRelease, kMount, kPreload, kBalance, kPull, kHold, kCycle, kReturn, kFollow, kDone };
 
-const char* phase_name(Phase phase);                        ///< in methods, messages and curve files
-std::optional<Phase> phase_named(const std::string& name);  ///< empty where no phase has this name
-Phase last_phase();                                         ///< the one with the largest number
-std::vector<Phase> all_phases();                            ///< in the order of their numbers
-
-/// What the rest of the package needs to know of a phase; a step names its own (Step::Trait). The report reads them
-/// from `tensile_test --list-phases`.
-bool prepares(Phase phase);
-bool forms(Phase phase);
-bool ends_by_itself(Phase phase);
-bool rests(Phase phase);
-bool moves(Phase phase);
-bool loads(Phase phase);
-bool pulls(Phase phase);
-bool can_break(Phase phase);
+/// A saved state may have no higher one. Which of them are steps, program/phases.hpp says.
+inline constexpr Phase kHighestPhase{63};
 
 }  // namespace knot_utm

@@ -112,7 +112,7 @@ template <typename Field>
 using ValueOf = std::remove_reference_t<decltype(std::declval<const Field&>().of(std::declval<Sample&>()))>;
 
 /// The last values of the enumerations in a sample, all of which begin with 0.
-inline Phase last_of(Phase) { return last_phase(); }
+constexpr Phase last_of(Phase) { return kHighestPhase; }
 constexpr KnotType last_of(KnotType) { return KnotType::kCrossed; }
 constexpr BenchStatus last_of(BenchStatus) { return BenchStatus::kFailed; }
 constexpr BreakPlace last_of(BreakPlace) { return BreakPlace::kGrip; }

@@ -19,7 +19,7 @@ namespace knot_utm {
 ///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing
 ///     static constexpr std::array kKeys           its keys in `material` (LawKey), or NoKeys
 ///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
-///                                                 (machine/accuracy.hpp)
+///                                                 (settings/accuracy.hpp)
 ///     static constexpr bool kRemembers            whether its internal variable changes in a step
 ///     static constexpr int kOwn                   how many numbers besides it the law remembers of every node
 ///     respond(BendingNode)                        -> BendingResponse

@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/yielding_bend.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

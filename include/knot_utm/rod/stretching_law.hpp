@@ -13,7 +13,7 @@ namespace knot_utm {
 ///     static constexpr const char* kName          the name that methods use (material.stretching_law)
 ///     static constexpr std::array kKeys           its keys in `material` (LawKey), or NoKeys
 ///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
-///                                                 (machine/accuracy.hpp)
+///                                                 (settings/accuracy.hpp)
 ///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing
 ///     respond(StretchedEdge)                      -> StretchingResponse
 ///     strain(k_s, T)                              -> lambda - 1 of an edge that bears T >= 0, the inverse of `respond`

@@ -3,7 +3,7 @@
 #include <knot_utm/ColorBar.h>
 #include <std_msgs/ColorRGBA.h>
 
-#include "knot_utm/machine/options.hpp"
+#include "knot_utm/specimen/machine_options.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
-#include "knot_utm/machine/grips.hpp"
-#include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/run/record.hpp"
+#include "knot_utm/settings/specimen_centreline.hpp"
 
 namespace knot_utm {
 

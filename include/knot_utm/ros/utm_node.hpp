@@ -20,7 +20,7 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 

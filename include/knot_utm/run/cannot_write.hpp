@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

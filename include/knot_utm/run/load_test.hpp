@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/program/program_runner.hpp"
 
 namespace knot_utm {
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/program/program_runner.hpp"
 
 namespace knot_utm {
 

@@ -85,6 +85,16 @@ struct Centreline {
   int windings() const;                      ///< of the coil of each knot; 1 where no knot is known
 };
 
+/// The strand that a coil holds, outwards from the middle of the drawn coil: the knot is threaded so far, and is
+/// straight so much further, by when clamps are clear of all bends [h].
+inline constexpr double kThreadedBeyondKnot = 18.0;  // outwards: the knot ends 8 further out
+inline constexpr double kStraightBeyondClamp = 3.0;
+
+/// Both together [m]; `runs_out` as in KnotLandmarks.
+inline double straight_strand(double radius, double runs_out = 0.0) {
+  return (kThreadedBeyondKnot + kStraightBeyondClamp) * radius + runs_out;
+}
+
 /// A straight rod along z from the origin.
 Centreline straight(double length, double radius, double edge_length);
 

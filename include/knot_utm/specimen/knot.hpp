@@ -28,7 +28,7 @@ struct Supports {
   std::vector<NodeForce> loads;  ///< dead loads
 };
 
-/// The study from which the errors of a knot's readings are known (machine/accuracy.hpp).
+/// The study from which the errors of a knot's readings are known (settings/accuracy.hpp).
 enum class ErrorStudy { kNone, kStraight, kFisherman, kDrawnKnot };
 
 /// Properties of a knot that do not depend on its keys.

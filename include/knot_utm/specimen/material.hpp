@@ -11,7 +11,7 @@
 
 namespace knot_utm {
 
-/// Number of a breaking law in its registry (machine/breaking_laws.hpp).
+/// Number of a breaking law in its registry (breaking/breaking_laws.hpp).
 enum class BreakingLaw : std::size_t {};
 
 /// The `material` section of a method: what the rod is made of, and how it rubs, is tied and parts.

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "knot_utm/analysis/results.hpp"
-#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
 #include "knot_utm/study/readings.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "knot_utm/analysis/plateau_watch.hpp"
-#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/run/record.hpp"
 
 namespace knot_utm {

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/run/record.hpp"
 
 namespace knot_utm {

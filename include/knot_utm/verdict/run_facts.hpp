@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/accuracy.hpp"
-#include "knot_utm/machine/options.hpp"
 #include "knot_utm/method/report_options.hpp"
+#include "knot_utm/settings/accuracy.hpp"
+#include "knot_utm/specimen/machine_options.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "knot_utm/method/report_options.hpp"
-#include "knot_utm/numeric/yaml_lines.hpp"
+#include "knot_utm/words/yaml_lines.hpp"
 
 namespace knot_utm {
 

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+
+#include "knot_utm/program/program.hpp"
+
+namespace knot_utm {
+
+/// A step that the machine does by itself, until it answers that it is done.
+class BenchStep : public Step {
+ public:
+  EndedBy ended(const Sample& now, CrossheadCourse& course) override;
+
+ protected:
+  using Step::Step;
+};
+
+/// `tie`: the rig pulls the tails at `speed`; the crosshead stands.
+struct TieStep : BenchStep {
+  TieStep() : BenchStep("tie", kPrepares | kForms | kEndsByItself) { speed = 0.01; }
+  void keys(fields::Fields& f, double way) override;
+  void check(const StepPlace& place) const override;
+  double usual_duration(const CrossheadCourse&) const override { return 10.0; }
+};
+
+/// `release`: the tails are let go in `duration`; the crosshead stands.
+struct ReleaseStep : BenchStep {
+  ReleaseStep() : BenchStep("release", kPrepares | kForms | kEndsByItself) { duration = 3.0; }
+  void keys(fields::Fields& f, double way) override;
+  void check(const StepPlace& place) const override;
+};
+
+/// `mount`: a loop is put on the rollers, and the crosshead moves outwards at `speed` to take up its slack.
+struct MountStep : BenchStep {
+  MountStep() : BenchStep("mount", kPrepares | kEndsByItself | kMoves) {}
+  void keys(fields::Fields& f, double way) override;
+  void check(const StepPlace& place) const override;
+  void steer(const Sample& now, CrossheadCourse& course) override;
+  double usual_duration(const CrossheadCourse&) const override { return kUsualDistance / speed; }
+};
+
+/// `preload`: moves outwards at `speed`, or so that the load grows at `load_rate`, until the load is `load`; then
+/// balances, standing still for one command, if `balance` says so.
+struct PreloadStep : Step {
+  double load = 0.0;                ///< [N]
+  std::optional<double> load_rate;  ///< of load instead of extension [N/s]
+  bool balance = true;
+
+  PreloadStep() : Step("preload", kPrepares | kMoves | kLoads | kCanBreak) {}
+  void keys(fields::Fields& f, double way) override;
+  void begin(const Sample&, CrossheadCourse&) override { balancing_ = false; }
+  void steer(const Sample& now, CrossheadCourse& course) override;
+  EndedBy ended(const Sample& now, CrossheadCourse& course) override;
+  double usual_duration(const CrossheadCourse&) const override { return kUsualDistance / speed; }
+
+ private:
+  bool balancing_ = false;  // the load is reached
+};
+
+/// `balance`: stands still for one command, which zeroes load cell and extension.
+struct BalanceStep : Step {
+  BalanceStep() : Step("balance", kPrepares) {}
+  void begin(const Sample& now, CrossheadCourse& course) override;
+  EndedBy ended(const Sample&, CrossheadCourse&) override { return EndedBy::kProgram; }
+  double usual_duration(const CrossheadCourse& course) const override;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "knot_utm/program/break_detector.hpp"
+#include "knot_utm/program/course.hpp"
+#include "knot_utm/program/program.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/ended_by.hpp"
+
+namespace knot_utm {
+
+struct Sample;
+
+/// The test program as a state machine: it gets samples and gives commands, and depends on nothing else.
+///
+/// Commands come at a fixed period, 1/(k f) with f the cell's sampling rate and k the smallest whole number for
+/// which the period is no longer than `longest_period`; every k-th command is a sampling instant of the cell. Command
+/// n has time n/(k f), computed from whole numbers. Command 0 has time 0, phase idle and step -1: it asks for the
+/// reading before anything moves. The first step begins with command 1.
+///
+/// Each step says what the crosshead does in it, and when it ends (program/program.hpp).
+/// Loads are true balanced forces (balanced_load), not readings. LoadControl keeps, follows and meets them with a
+/// crosshead that is never faster than `speed`. A load is met within 0.1 % of it (of the range of a cycle), unless the
+/// specimen stiffens within one command.
+///
+/// The test ends when the last step has ended. It ends earlier if the rod parts, the load falls as Limits::breaks says
+/// (judged in steps that can break, while the crosshead does not return), the bench fails, a true force or a reading
+/// exceeds Limits::load, the crosshead reaches the end of its travel, the grips meet, or by the time limit or the
+/// operator. It also ends if the knot comes undone before the first step that pulls it, once three answers in a row say
+/// so. A program that neither mounts nor pulls is not ended by that, so that the knot can be watched.
+class ProgramRunner {
+ public:
+  struct Limits {
+    double load = 50e3;                                     ///< ends the test: the cell's capacity, or less [N]
+    double travel = 1.0;                                    ///< ends the test: |displacement| [m]
+    double least_distance = 0.0;                            ///< ends the test: the grips are nearer than that [m]
+    double time = std::numeric_limits<double>::infinity();  ///< ends the test [s]
+    BreakDetection breaks;
+  };
+
+  /// Sampling rate [Hz], longest period [s]. Throws std::invalid_argument for an empty program, or for a rate or period
+  /// that is not positive.
+  ProgramRunner(Program program, double sampling_rate, double longest_period, Limits limits);
+
+  Command last() const { return course_.last(); }  ///< the command that waits for its answer; at first command 0
+
+  /// The next command after `sample`, the answer to the last command. Once the test has ended, the last command again
+  /// with phase done. Throws std::invalid_argument for the answer to another command.
+  Command next(const Sample& sample);
+
+  void stop();     ///< operator: the test ends now
+  void balance();  ///< operator: the next command balances
+  /// The plateau of the pull is settled: the test ends now, which is no failure. `where`: one line about it.
+  void plateau_settled(std::string where);
+  /// The bench is lost: the test has ended by the solver, whatever command came before.
+  void fail(std::string why);
+
+  bool ended() const { return ended_by_ != EndedBy::kNotYet; }
+  EndedBy ended_by() const { return ended_by_; }
+  /// Whether the test failed: the simulation gave up, the knot came undone before it was pulled, or the rod parted
+  /// before it was loaded.
+  bool failed() const;
+  /// How the reason ends where a rod parted before it was loaded.
+  static constexpr const char* kTooEarly = ", before it was pulled";
+  const std::string& reason() const { return reason_; }  ///< one line where the test did not end as programmed
+
+  Phase phase() const;                                ///< of the last command; done once the test has ended
+  double period() const { return course_.period(); }  ///< of commands [s]
+  double progress() const;                            ///< 0..1, fraction of the programmed time that has passed
+  double time_left() const;                           ///< programmed time that is left, estimated [s]
+
+ private:
+  void end(EndedBy by, std::string reason);
+  bool end_by_alarm(const Sample& sample);
+  bool only_ties() const;
+  bool parts_too_early() const;
+  bool is_undone(const Sample& sample) const;
+  std::string break_seen(const Sample& sample);
+  Command command(std::uint64_t sequence) const;
+
+  Program program_;
+  Limits limits_;
+  std::uint64_t commands_per_reading_ = 1;
+  std::size_t step_ = 0;
+  int undone_answers_ = 0;  ///< answers in a row that say the knot is undone, before the pull
+  CrossheadCourse course_;
+  BreakDetector break_detector_;
+  EndedBy ended_by_ = EndedBy::kNotYet;
+  std::string reason_;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "knot_utm/grips/grips.hpp"
+#include "knot_utm/program/program.hpp"
+#include "knot_utm/specimen/knot_readings.hpp"
+#include "knot_utm/tying/take_up.hpp"
+#include "knot_utm/tying/tying.hpp"
+#include "knot_utm/tying/tying_rig.hpp"
+
+namespace knot_utm {
+
+struct Material;
+
+/// e to which a step of the program sets the knots of a loop that it ties [m]; 0: none does.
+double marks_of(const SpecimenOptions& specimen, const Program& program);
+
+/// A loop on the machine with its two knots. The rig ties and releases them, the loop is put on the grips, its slack is
+/// taken up, and the knots are read. As it is put on, the knots are set to their marks (doc/model.md, section 9). Where
+/// the program ties nothing, the rig is idle, and the knots are read as well.
+class TiedLoop final : public Tying {
+ public:
+  /// `creep_speed`: speed with which nodes of a rod at rest may creep under its friction [m/s]. `stepper` and `grips`
+  /// must outlive this object. The centreline has two knots.
+  TiedLoop(const SpecimenOptions& specimen, const Material& material, const Centreline& centreline, double creep_speed,
+           TimeStep& stepper, Grips& grips);
+
+  void enter(const Command& command, const Place& now) override;
+  void follow(Phase phase, const Place& now, double dt) override;
+  void leave(Phase phase, const Place& now) override;
+  void hold(Boundary& boundary, double from, double to) const override;
+  double extra_drag(double to) const override { return rig_.extra_drag(to); }
+  double left_to_put_on(double time) const override { return rig_.left_to_put_on(time); }
+  /// None off the rollers, and all of it once they have taken the loop.
+  double weight_borne(double time) const override {
+    return rig_.has_been_put_on() ? 1.0 - rig_.left_to_put_on(time) : 0.0;
+  }
+  double held_length(double from, double to) const override;
+  double mounting_velocity(double speed) const override;
+  bool done(Phase phase) const override;
+  const std::string& gave_up() const override { return not_mounted_.empty() ? rig_.not_tied() : not_mounted_; }
+  const std::string& not_equilibrated() const override { return rig_.not_equilibrated(); }
+  std::vector<int> standing_nodes() const override { return rig_.standing_nodes(); }
+  void read(Sample& sample) const override;
+  void state(Archive& archive) override;
+
+ private:
+  void put_on(const Place& now);
+  bool set_to_marks(const Place& now);
+  bool setting() const { return set_end_ > 0.0; }
+  void follow_mounting(const Place& now, bool puts_on);
+  void begin_to_take_up(const Place& now);
+  double load_on_both() const;
+  double knot_distance() const;
+
+  TimeStep& stepper_;
+  Grips& grips_;
+  double radius_;
+  bool sets_to_marks_;
+  double knot_distance_, end_to_end_;   // e and L as the pull is to begin [m]
+  double set_end_ = 0.0;                // when a taut loop is at its marks; 0: nothing is being set [s]
+  double set_speed_ = 0.0;              // of the crosshead meanwhile [m/s]
+  double apart_ = 0.0, further_ = 0.0;  // by which e and L are to grow until then [m]
+  double speed_ = 0.0;                  // of the step that mounts [m/s]
+  double tied_distance_ = 0.0;          // e as the loop is put on [m]
+  int sets_ = 0;                        // of the taut loop
+  bool at_marks_ = false;               // as near as it comes
+  TyingRig rig_;
+  KnotTouch touch_;
+  TakeUp take_up_;
+  std::string not_mounted_;
+};
+
+}  // namespace knot_utm

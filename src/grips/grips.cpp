@@ -1,0 +1,292 @@
+#include "knot_utm/grips/grips.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/specimen/material.hpp"
+#include "knot_utm/specimen/scales.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kSlack = 0.6;        // by which the rollers stand closer than taut, until mounting [h]
+constexpr double kClearance = 0.5;    // by which pins are narrower, so that the loop goes over them [h]
+constexpr double kGap = 0.2;          // between them and the loop then, at least [h]
+constexpr double kAlongAxis = 0.999;  // cosine of the angle by which a strand leaves a clamp that turns, 2.6 degrees
+constexpr double kHeld = 100.0;       // stiffness of what holds the far side, or guides what slips [k_b/h^3]
+
+}  // namespace
+
+Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, const Centreline& centreline,
+             const Material& material) {
+  const double radius = material.radius;
+  const double held = kHeld * material.bending_stiffness / (radius * radius * radius);
+  if (rollers_hold(specimen, machine)) {
+    Roller roller;
+    roller.axis = Vec3::UnitY();
+    roller.radius = 0.5 * machine.roller_diameter;
+    roller.centre = Vec3::Zero();
+    // A ring as heavy as the rod would be all around the roller: nothing that a slow test feels.
+    if (machine.roller_rotation == RollerRotation::kFree)
+      roller.inertia = specimen_scales(material).mass * 2.0 * M_PI * std::pow(roller.radius, 3);
+    rollers_.push_back(roller);
+    narrower_ = roller.radius + radius - centreline.loop.radius;
+    clearance_ = kClearance * radius;
+    roller.centre = Vec3(0.0, 0.0, specimen.end_to_end - kSlack * radius);
+    rollers_.push_back(roller);
+    if (machine.far_side == FarSide::kFree) return;
+    SpringHold middle;
+    middle.node = centreline.nearest_node(0.5 * (centreline.loop.far_begin + centreline.loop.far_end));
+    middle.stiffness(2, 2) = held;
+    far_middle_ = middle;
+    holds_far_side_ = !specimen.to_be_tied;
+    return;
+  }
+  const Knot& knot = knot_of(specimen);
+  const bool clamped = clamps_hold(specimen, machine);
+  guides_(0, 0) = guides_(1, 1) = held;
+  auto hold = [&](std::vector<FixedNode>& nodes, const std::vector<HeldNode>& ends) {
+    for (const HeldNode& at : ends) {
+      nodes.push_back({at.node, centreline.points.col(at.node)});
+      if (!clamped) continue;
+      nodes.push_back({at.next, centreline.points.col(at.next)});
+      held_frames_.push_back({at.edge(), 0.0});
+    }
+  };
+  supports_ = knot.supports(specimen, material);
+  for (const HungWeight& weight : centreline.weights)
+    weights_.push_back({weight.node, -weight.fraction * tying_load(specimen, material) * Vec3::UnitZ()});
+  if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
+  if (supports_.pins.empty()) hold(upper_nodes_, knot.held_above(centreline, clamped));
+  const auto half_edge = [&](int edge) {
+    const bool there = edge >= 0 && edge + 1 < centreline.points.cols() &&
+                       std::find(centreline.cuts.begin(), centreline.cuts.end(), edge) == centreline.cuts.end();
+    return there ? 0.5 * (centreline.points.col(edge + 1) - centreline.points.col(edge)).norm() : 0.0;
+  };
+  for (const FixedNode& node : upper_nodes_) length_held_ += half_edge(node.node - 1) + half_edge(node.node);
+  if (!knot_utm::clamp_turns(specimen, machine)) return;
+  const std::size_t strands = upper_nodes_.size() / 2;
+  for (auto frame = held_frames_.end() - static_cast<std::ptrdiff_t>(strands); frame != held_frames_.end(); ++frame) {
+    const double along = (centreline.points.col(frame->edge + 1) - centreline.points.col(frame->edge)).normalized()[2];
+    if (std::abs(along) > kAlongAxis) turns_by_.push_back(along > 0.0 ? 1.0 : -1.0);
+  }
+  if (turns_by_.size() < strands) turns_by_.clear();
+  for (const FixedNode& node : upper_nodes_) turns_around_ += node.position / static_cast<double>(upper_nodes_.size());
+}
+
+bool Grips::hold(double displacement, const Vec3& point, double radius) const {
+  Boundary boundary;
+  set(displacement, 0.0, boundary);
+  for (const Roller& roller : boundary.rollers)
+    if (beside(roller, point).x.norm() < roller.radius + 2.0 * radius) return true;
+  return std::any_of(boundary.fixed_nodes.begin(), boundary.fixed_nodes.end(),
+                     [&](const FixedNode& node) { return (node.position - point).norm() < 2.0 * radius; });
+}
+
+void Grips::turn_clamp(double turn, Boundary& boundary) const {
+  if (!clamp_turns() || turn == 0.0 || !slipping_.empty()) return;
+  auto frame = boundary.fixed_twists.end() - static_cast<std::ptrdiff_t>(turns_by_.size());
+  for (const double by : turns_by_) (frame++)->angle += by * turn;
+  if (turns_by_.size() == 1) return;
+  const Eigen::AngleAxisd turned(turn, Vec3::UnitZ());
+  for (auto node = boundary.fixed_nodes.end() - static_cast<std::ptrdiff_t>(upper_nodes_.size());
+       node != boundary.fixed_nodes.end(); ++node)
+    node->position = turns_around_ + turned * (node->position - turns_around_);
+}
+
+double Grips::torque(const TimeStep& step) const {
+  if (!clamp_turns() || step.state().twist.size() == 0) return Sample::kNone;
+  double sum = 0.0;
+  auto frame = held_frames_.end() - static_cast<std::ptrdiff_t>(turns_by_.size());
+  for (const double by : turns_by_) sum += by * step.readings().reaction_torque((frame++)->edge);
+  if (turns_by_.size() == 1) return sum;
+  for (const FixedNode& node : upper_nodes_)
+    sum += (step.state().position.col(node.node) - turns_around_).cross(step.readings().reaction(node.node))[2];
+  return sum;
+}
+
+void Grips::set(double displacement, double left, Boundary& boundary) const {
+  boundary.rollers = rollers_;
+  if (on_rollers()) {
+    boundary.rollers[1].centre[2] += displacement;
+    if (left > 0.0) narrow(left, boundary.rollers);
+  }
+  boundary.rollers.insert(boundary.rollers.end(), supports_.posts.begin(), supports_.posts.end());
+  for (Roller pin : supports_.pins) {
+    pin.centre[2] += displacement;
+    boundary.rollers.push_back(pin);
+  }
+  boundary.forces = supports_.loads;
+  boundary.holds.clear();
+  if (holds_far_side_) {
+    boundary.holds.push_back(*far_middle_);
+    boundary.holds.back().place[2] += half_way(displacement);
+  }
+  boundary.fixed_twists = held_frames_;
+  boundary.fixed_nodes = lower_nodes_;
+  for (FixedNode node : upper_nodes_) {
+    node.position[2] += displacement;
+    if (slips(node.node))
+      boundary.holds.push_back({node.node, node.position, guides_});
+    else
+      boundary.fixed_nodes.push_back(node);
+  }
+}
+
+void Grips::hang(double part, Boundary& boundary) const {
+  for (const NodeForce& weight : weights_) boundary.forces.push_back({weight.node, part * weight.force});
+}
+
+bool Grips::slips(int node) const { return std::find(slipping_.begin(), slipping_.end(), node) != slipping_.end(); }
+
+void Grips::let_slip(int node, int next) {
+  for (const FixedNode& held : upper_nodes_)
+    if ((held.node == node || held.node == next) && !slips(held.node)) slipping_.push_back(held.node);
+}
+
+void Grips::follow_slipping(const Points& position, double displacement, double pulled_with) {
+  pulled_with_ = pulled_with;
+  for (FixedNode& held : upper_nodes_)
+    if (slips(held.node)) held.position[2] = position(2, held.node) - displacement;
+}
+
+double Grips::half_way(double displacement) const { return 0.5 * (lower()[2] + upper(displacement)[2]); }
+
+void Grips::hold_far_side(const Points& position, double displacement) {
+  if (!far_middle_) return;
+  far_middle_->place[2] = position(2, far_middle_->node) - half_way(displacement);
+  holds_far_side_ = true;
+}
+
+/// To pins in the loop as it was drawn, by a fraction of what they widen: its near side is where it will be, its half
+/// circles are narrower and further out by as much as keeps its length.
+void Grips::narrow(double left, std::vector<Roller>& rollers) const {
+  if (!pins_.empty()) {
+    for (std::size_t i = 0; i < pins_.size(); ++i) widen(pins_[i], left, rollers[i]);
+    return;
+  }
+  for (Roller& roller : rollers) {
+    roller.radius -= left * (narrower_ + clearance_);
+    roller.centre[0] += left * narrower_;
+  }
+  rollers[0].centre[2] += left * (lift_ - 0.5 * M_PI * narrower_);
+  rollers[1].centre[2] += left * 0.5 * M_PI * narrower_;
+}
+
+bool Grips::put_on(const Points& loop, double displacement, double radius) {
+  if (!on_rollers()) return true;
+  const std::vector<Roller> apart = rollers_;
+  if (comes_near(loop, displacement, radius)) return true;
+  rollers_ = apart;
+  lift_ = 0.0;
+  return put_on_pins(loop, displacement, radius);
+}
+
+/// Whether the loop then lies around both pins.
+bool Grips::comes_near(const Points& loop, double displacement, double radius) {
+  const double step = 0.5 * kGap * radius, most = 0.25 * end_to_end(displacement);
+  Boundary pins;
+  const auto touches = [&](std::size_t pin) {
+    set(displacement, 1.0, pins);
+    const Roller& roller = pins.rollers[pin];
+    const Points away = loop.colwise() - roller.centre;
+    const double nearest2 = (away.colwise().squaredNorm() - (roller.axis.transpose() * away).cwiseAbs2()).minCoeff();
+    return std::sqrt(nearest2) < roller.radius + (1.0 + kGap) * radius;
+  };
+  while (lift_ < most && touches(0)) lift_ += step;
+  rollers_[1].centre[2] -= lift_;
+  for (double drop = 0.0; drop < most && touches(1); drop += step) rollers_[1].centre[2] -= step;
+  return !touches(0) && !touches(1);
+}
+
+/// The upper roller comes so near that the loop, which is as long around the pins, is not longer around the rollers.
+bool Grips::put_on_pins(const Points& loop, double displacement, double radius) {
+  const double widest = rollers_[0].radius - narrower_ - clearance_;
+  std::vector<Pin> pins = pins_in(loop, widest, (1.0 + kGap) * radius);
+  if (pins.empty()) return false;
+  const double apart = pins[1].place[2] - pins[0].place[2],
+               wider = rollers_[0].radius + rollers_[1].radius - pins[0].radius - pins[1].radius,
+               left = apart - 0.5 * M_PI * wider;
+  if (left < rollers_[0].radius + rollers_[1].radius + 2.0 * radius) return false;
+  rollers_[1].centre[2] = rollers_[0].centre[2] + left - displacement;
+  pins_ = std::move(pins);
+  return true;
+}
+
+Vec3 Grips::lower() const {
+  if (on_posts()) return supports_.posts.front().centre;
+  return on_rollers() ? rollers_[0].centre : lower_nodes_.front().position;
+}
+
+Vec3 Grips::upper(double displacement) const {
+  const Vec3 start = on_rollers() ? rollers_[1].centre
+                     : on_pins()  ? supports_.pins.front().centre
+                                  : upper_nodes_.front().position;
+  return start + Vec3(0.0, 0.0, displacement);
+}
+
+double Grips::end_to_end(double displacement) const {
+  if (on_rollers()) return rollers_[1].centre[2] + displacement - rollers_[0].centre[2];
+  if (on_posts() || on_pins()) return upper(displacement)[2] - lower()[2];
+  return (upper(displacement) - lower()).norm();
+}
+
+double Grips::length_moved(double radius) const {
+  if (on_rollers()) return M_PI * (rollers_[1].radius + radius);
+  double length = length_held_;
+  for (const Roller& pin : supports_.pins) length += M_PI * (pin.radius + radius);
+  return length;
+}
+
+template <typename RollerForce, typename Reaction>
+double Grips::sum_upper(double pulled_with, RollerForce roller_force, Reaction reaction) const {
+  if (on_rollers()) return -roller_force(1)[2];
+  double sum = pulled_with;
+  for (const FixedNode& node : upper_nodes_)
+    if (!slips(node.node)) sum += reaction(node.node)[2];
+  const int posts = static_cast<int>(supports_.posts.size()), pins = static_cast<int>(supports_.pins.size());
+  for (int i = posts; i < posts + pins; ++i) sum -= roller_force(i)[2];
+  return sum;
+}
+
+double Grips::force_upper(const TimeStep& step) const {
+  const StepReadings& readings = step.readings();
+  return sum_upper(
+      pulled_with_, [&](int i) { return readings.roller_force(i); }, [&](int i) { return readings.reaction(i); });
+}
+
+double Grips::tried_force_upper(const TimeStep& step) const {
+  return sum_upper(
+      slipping_.empty() ? 0.0 : pulled_with_, [&](int i) { return step.tried_roller_force(i); },
+      [&](int i) { return step.tried_reaction(i); });
+}
+
+double Grips::force_lower(const TimeStep& step) const {
+  if (on_rollers()) return step.readings().roller_force(0)[2];
+  double sum = 0.0;
+  const int posts = static_cast<int>(supports_.posts.size());
+  for (int i = 0; i < posts; ++i) sum += step.readings().roller_force(i)[2];
+  for (const NodeForce& load : supports_.loads) sum -= load.force[2];
+  for (const NodeForce& weight : weights_) sum -= hung_ * weight.force[2];
+  for (const FixedNode& node : lower_nodes_) sum -= step.readings().reaction(node.node)[2];
+  return sum;
+}
+
+void Grips::state(Archive& archive) {
+  archive.section("GRP5");  // "GRP4" had rollers that were driven, "GRP3" had no ends that slip, and no weights
+  archive(lift_, holds_far_side_);
+  archive.list(pins_);
+  archive.require(pins_.empty() || pins_.size() == rollers_.size(), "pins of the rollers",
+                  std::to_string(pins_.size()));
+  if (far_middle_) archive(far_middle_->place);
+  for (Roller& roller : rollers_) archive(roller);
+  for (FixedNode& node : upper_nodes_) archive(node.position);
+  archive.list(slipping_);
+  archive(pulled_with_, hung_);
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,88 @@
+#include "knot_utm/program/course.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/record/sample.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kMetExtension = 1e-9;  // nearer to an extension it is met [m]
+constexpr double kMetByAFrame = 1e-3;   // on a compliant frame [of what one period moves]
+constexpr double kRigid = 1.0 - 1e-6;   // gain of a frame that gives nothing
+constexpr double kLeastGain = 1e-3;     // of a frame that gives nearly all
+
+}  // namespace
+
+bool CrossheadCourse::over(double time) const {
+  // The slack is for times that are a multiple of the period.
+  return static_cast<double>(last_.sequence - begin_) >= time * command_rate_ - 1e-6;
+}
+
+void CrossheadCourse::move(const Sample& now, double velocity) {
+  leg_.begin = last_.sequence;
+  // Where the machine says when a step is done, it may move the crosshead by itself, and says where it is.
+  leg_.displacement = ends_by_itself(last_.phase) ? now.displacement : last_.displacement;
+  leg_.velocity = velocity;
+}
+
+double CrossheadCourse::velocity_to_extension(double left, double fastest) const {
+  const double most = fastest * period();
+  return std::clamp(left / gain_.value, -most, most) / period();
+}
+
+double CrossheadCourse::met_extension(double fastest) const {
+  return gain_.value > kRigid ? kMetExtension : kMetByAFrame * fastest * period();
+}
+
+double CrossheadCourse::speed_to_load(const Sample& now, double load, double fastest, bool creeps) {
+  return load_control_.meeting(now, load, period(), fastest, creeps);
+}
+
+double CrossheadCourse::velocity_at_load(const Sample& now, double fastest) {
+  return load_control_.following(now, wanted_load, period(), fastest);
+}
+
+double CrossheadCourse::velocity_at_load_rate(const Sample& now, double rate, double fastest, double end) {
+  if (leg_.velocity >= fastest) wanted_load = balanced_load(now);
+  wanted_load += rate * period();
+  return load_control_.following(now, std::min(wanted_load, end), period(), fastest);
+}
+
+void CrossheadCourse::begin_step(const Sample& now) {
+  begin_ = last_.sequence;
+  begin_load_ = wanted_load = balanced_load(now);
+  begin_turn_ = last_.turn;
+  load_control_.begin();
+  move(now, 0.0);
+  turn(0.0);
+}
+
+bool CrossheadCourse::take(const Sample& now) {
+  const double moved = now.displacement - gain_.displacement, shift = now.balance_offset - balance_offset_;
+  if (std::abs(moved) > kMetExtension && !last_.balance)
+    gain_.value = std::clamp((now.extension - gain_.extension) / moved, kLeastGain, 1.0);
+  gain_.extension = now.extension;
+  gain_.displacement = now.displacement;
+  balance_offset_ = now.balance_offset;
+  wanted_load -= shift;
+  begin_load_ -= shift;
+  load_control_.shift(shift);
+  return shift != 0.0;
+}
+
+void CrossheadCourse::fill(Command& command) const {
+  command.velocity = leg_.velocity;
+  command.displacement = leg_.displacement + leg_.velocity * seconds(command.sequence - leg_.begin);
+  command.turn = turn_leg_.turn + turn_leg_.rate * seconds(command.sequence - turn_leg_.begin);
+  command.balance = balance_next_;
+}
+
+void CrossheadCourse::accept(const Command& command) {
+  last_ = command;
+  balance_next_ = false;
+}
+
+}  // namespace knot_utm

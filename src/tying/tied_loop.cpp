@@ -1,0 +1,188 @@
+#include "knot_utm/tying/tied_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/program/preparing_steps.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/material.hpp"
+#include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/tying/before_tying.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kGripStretch = 2.4;    // of a tail's grip when it slips [h]
+constexpr double kTautLoad = 0.03;      // of a loop whose slack is taken up [k_b/h^2]
+constexpr double kNear = 0.005;         // of e and L, nearer to which they are met
+constexpr int kMostSets = 4;            // of a taut loop to its marks
+constexpr double kSetTime = 1.0 / 3.0;  // in which that is done, at least [s]
+constexpr double kSliding = 4.0;        // times the crosshead's speed: that of the knots' marks meanwhile
+constexpr double kEndOfSetting = 1e-9;  // when no time is left of it [s]
+constexpr double kFarthest = 0.4;  // of e, further than which no release moves knots that hold: tight silicone by 0.27
+constexpr double kOpenCoil = 3.0;  // radius from which a coil, 2 (R + h) wide, reaches into the straight strands [h]
+constexpr double kOpened = 0.05;   // of e, as where the motion pattern says so (motion_pattern.cpp)
+constexpr const char* kNoRoom =
+    "mount: the loop as it was tied and released leaves no room for the rollers; choose a larger specimen.end_to_end, "
+    "a smaller specimen.preload or a smaller machine.roller_diameter";
+
+TyingRig::Options tying_options(const SpecimenOptions& specimen, const Material& material, double creep_speed) {
+  TyingRig::Options out;
+  out.preload = tying_load(specimen, material);
+  out.rest.speed = std::max(specimen_scales(material).rest_speed, creep_speed);
+  out.grip_stiffness = out.preload / (kGripStretch * material.radius);
+  return out;
+}
+
+}  // namespace
+
+TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, const Centreline& centreline,
+                   double creep_speed, TimeStep& stepper, Grips& grips)
+    : stepper_(stepper),
+      grips_(grips),
+      radius_(material.radius),
+      sets_to_marks_(coil_radius(material, tying_load(specimen, material)) < kOpenCoil * material.radius),
+      knot_distance_(specimen.knot_distance),
+      end_to_end_(specimen.end_to_end),
+      rig_(centreline, stepper.rod(), tying_options(specimen, material, creep_speed)),
+      touch_(rig_.standing_nodes(), material.core_radius(), centreline.windings()),
+      take_up_(kTautLoad * specimen_scales(material).force, material.radius) {}
+
+void TiedLoop::enter(const Command& command, const Place& now) {
+  const Phase phase = command.phase;
+  if (phase == Phase::kTie) rig_.tie(command.speed, now.time, stepper_.state().position);
+  if (phase == Phase::kRelease) {
+    rig_.release(command.duration, now.time);
+  } else if (rig_.tied()) {
+    rig_.let_go(stepper_, now.time);
+  } else if (rig_.released() && !rests(phase)) {
+    put_on(now);
+  } else if (rig_.guides() && phase != Phase::kMount) {
+    rig_.take_guides_off(stepper_, now.time);
+  }
+  if (phase != Phase::kMount) return;
+  speed_ = command.speed;
+  at_marks_ = false;
+  begin_to_take_up(now);
+}
+
+void TiedLoop::put_on(const Place& now) {
+  tied_distance_ = knot_distance();
+  rig_.put_on(stepper_, now.time);
+  const auto loop = stepper_.state().position.middleCols(rig_.loop_begin(), rig_.loop_end() - rig_.loop_begin() + 1);
+  if (!grips_.put_on(loop, now.grip, radius_)) not_mounted_ = kNoRoom;
+}
+
+/// Straight strands become longer or shorter until e and L are met, as if the loop had been drawn so: neither affects
+/// how a knot is tied and let go. Knots that have come nearer by themselves have opened, and stay.
+bool TiedLoop::set_to_marks(const Place& now) {
+  const double distance = knot_distance(), apart = knot_distance_ - distance;
+  const double further = grips_.on_rollers() ? end_to_end_ - grips_.end_to_end(now.grip) : 0.0;
+  const bool opened = distance < (1.0 - kOpened) * (sets_ == 0 ? tied_distance_ : knot_distance_) ||
+                      std::abs(apart) > kFarthest * knot_distance_;
+  const bool near = std::abs(apart) < kNear * knot_distance_ && std::abs(further) < kNear * end_to_end_;
+  if (!sets_to_marks_ || opened || near || sets_ == kMostSets) return false;
+  ++sets_;
+  set_end_ = now.time + std::max({kSetTime, std::abs(further) / speed_, std::abs(apart) / (kSliding * speed_)});
+  set_speed_ = further / (set_end_ - now.time);
+  apart_ = apart;
+  further_ = further;
+  return true;
+}
+
+void TiedLoop::leave(Phase phase, const Place& now) {
+  // What the knots and the load do while they are let go is not the slack's.
+  if (rig_.released() && phase != Phase::kRelease && !rests(phase)) put_on(now);
+  if (rig_.guides() && phase != Phase::kMount) rig_.take_guides_off(stepper_, now.time);
+}
+
+void TiedLoop::follow(Phase phase, const Place& now, double dt) {
+  const bool puts_on = rig_.puts_on();
+  rig_.follow(stepper_, now.time, dt);
+  if (setting()) {
+    const double left = set_end_ - now.time, part = left > kEndOfSetting ? dt / (left + dt) : 1.0;
+    const TyingRig::Laid laid =
+        rig_.longer(part * apart_, part * (2.0 * further_ - apart_), stepper_.rod(), stepper_.state());
+    stepper_.lay(laid.rest_length, laid.position);
+    apart_ -= part * apart_;
+    further_ -= part * further_;
+    if (part == 1.0) set_end_ = 0.0;
+  }
+  // From here on weight, if there is any, would carry the slack loop round.
+  if (puts_on && rig_.guides()) grips_.hold_far_side(stepper_.state().position, now.grip);
+  if (phase == Phase::kMount && rig_.guides()) follow_mounting(now, puts_on);
+  touch_.follow(stepper_);
+}
+
+void TiedLoop::follow_mounting(const Place& now, bool puts_on) {
+  if (puts_on || setting()) return begin_to_take_up(now);
+  take_up_.follow(load_on_both(), now.displacement, knot_distance());
+  at_marks_ = take_up_.done() && !set_to_marks(now);
+}
+
+void TiedLoop::begin_to_take_up(const Place& now) { take_up_.begin(load_on_both(), now.displacement, knot_distance()); }
+
+void TiedLoop::hold(Boundary& boundary, double from, double to) const {
+  if (rig_.off_rollers()) {
+    boundary.rollers.clear();
+    boundary.holds.clear();
+  }
+  for (Roller& roller : boundary.rollers) {
+    roller.first_node = rig_.loop_begin();
+    roller.last_node = rig_.loop_end();
+  }
+  if (rig_.stage() != TyingRig::Stage::kIdle) rig_.hold(boundary, from, to);
+}
+
+double TiedLoop::held_length(double from, double to) const {
+  double length = grips_.end_to_end(0.0);
+  // Off the rollers nothing bears on the grip.
+  if (rig_.stage() == TyingRig::Stage::kIdle || rig_.off_rollers()) return length;
+  Boundary held;
+  rig_.hold(held, from, to);
+  for (const FixedNode& node : held.fixed_nodes) length = std::min(length, grips_.upper(0.0)[2] - node.position[2]);
+  return length;
+}
+
+double TiedLoop::mounting_velocity(double speed) const {
+  // It stands while the loop is put on.
+  if (!rig_.guides()) return 0.0;
+  return setting() ? set_speed_ : speed * take_up_.velocity();
+}
+
+bool TiedLoop::done(Phase phase) const {
+  return forms(phase) ? rig_.tied() || rig_.released() : rig_.guides() && at_marks_;
+}
+
+double TiedLoop::load_on_both() const { return std::min(grips_.force_upper(stepper_), grips_.force_lower(stepper_)); }
+
+double TiedLoop::knot_distance() const {
+  const RodProperties& rod = stepper_.rod();
+  const RodState& state = stepper_.state();
+  return (rig_.knot_middle(0, rod, state) - rig_.knot_middle(1, rod, state)).norm();
+}
+
+void TiedLoop::read(Sample& sample) const {
+  for (std::size_t k = 0; k < sample.tail_force.size(); ++k) {
+    sample.tail_force[k] = rig_.tail_force(static_cast<int>(k));
+    sample.excess_length[k] = rig_.excess_length(static_cast<int>(k), stepper_.state());
+  }
+  sample.knot_distance = knot_distance();
+  sample.knots_force = touch_.between_knots();
+  sample.knot_on_roller = touch_.on_rollers();
+}
+
+void TiedLoop::state(Archive& archive) {
+  archive.section("LOOP");
+  archive(rig_, touch_, take_up_, set_end_, set_speed_, apart_, further_, speed_, tied_distance_, sets_, at_marks_);
+}
+
+double marks_of(const SpecimenOptions& specimen, const Program& program) {
+  return specimen.to_be_tied && has_step<MountStep>(program) ? specimen.knot_distance : 0.0;
+}
+
+}  // namespace knot_utm

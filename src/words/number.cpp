@@ -1,0 +1,57 @@
+#include "knot_utm/words/number.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace knot_utm {
+
+std::string format_number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
+  std::array<char, 32> text{};
+  const std::to_chars_result end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return std::string(text.data(), end.ptr);
+}
+
+std::string format_yaml_number(double value) {
+  std::string text = format_number(value);
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
+  const std::size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) text.insert(exponent, ".0");
+  return text;
+}
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return format_number(value);
+  if (value == 0.0) value = 0.0;  // never "-0"
+  std::array<char, 32> text{};
+  const std::to_chars_result end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
+  const std::string short_text(text.data(), end.ptr);
+  // "1970" is read more easily than "1.97e+03".
+  const double rounded = parse_number(short_text).value_or(value);
+  const bool plain = std::abs(rounded) >= 1e3 && std::abs(rounded) < 1e6;
+  if (!plain) return short_text;
+  const std::to_chars_result fixed =
+      std::to_chars(text.data(), text.data() + text.size(), rounded, std::chars_format::fixed);
+  return std::string(text.data(), fixed.ptr);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (text == ".inf" || text == ".Inf" || text == "+.inf" || text == "inf") return kInfinity;
+  if (text == "-.inf" || text == "-.Inf" || text == "-inf") return -kInfinity;
+  if (text == "nan" || text == ".nan" || text == ".NaN") return std::numeric_limits<double>::quiet_NaN();
+  if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
+  // from_chars would also take "infinity" and "nan(...)", which nobody means.
+  if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return std::nullopt;
+  double value = 0.0;
+  const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace knot_utm
