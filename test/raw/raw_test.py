@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""What testing machines export, read by knot_utm.importing. test/raw/raw_data has files as machines and languages write them, their
-headers found in public programs and manuals, their numbers our own; test/raw/files those that users had trouble with. The texts in
-here follow what public programs that read such exports say of their form."""
+"""What testing machines export, read by knot_utm.importing. raw_data.txt has files as machines and languages write them, their headers
+found in public programs and manuals, their numbers our own, and those that users had trouble with: each after a line "@ name encoding
+line-end". The texts in here follow what public programs that read such exports say of their form."""
 import math
 import os
 import subprocess
@@ -72,7 +72,7 @@ CASES = [
     ("swiss.csv", {}, (10, (0, 0, 1000.5), (4.5, 2.25, 1004.5)), "10 readings"),
     ("unicode_minus.csv", {}, (10, (0, 0, -2.875), (4.5, 2.25, 1.625)), "10 readings"),
     ("spike.csv", {}, (60, (0, 0, 0), (6, 10, 14)), "row 20, whose extension of 5.4 mm lies far off"),
-    ("../raw_data/own_names.csv", {"columns": "time=Zeitpunkt,extension=Weg, oben,load=Messwert 2"},
+    ("own_names.csv", {"columns": "time=Zeitpunkt,extension=Weg, oben,load=Messwert 2"},
      (2, (0, 1.25, 3.5), (0.5, 2.25, 4.5)), "2 readings")]
 REFUSED = [
     ("side_by_side.csv", {}, "the file holds 2 specimens, side by side: choose one by --specimen 1 to 2"),
@@ -84,12 +84,12 @@ REFUSED = [
     ("no_time.csv", {"needs_time": True}, 'row 1 is "Extension (mm),Load (N)" and does not name time, whose known names'),
     ("book.xlsx", {}, "the file is a workbook (xlsx, ods) or another zip archive, and no text: save"),
     ("cr_only.csv", {}, "end with a carriage return alone, as on old Macs"),
-    ("../raw_data/no_unit.csv", {}, "the unit of column Load is missing: give mN, cN, N, daN, kN, gf (g), kgf (kg, kp), lbf (lb), "),
-    ("../raw_data/unknown_unit.csv", {}, "the unit of column Load is MPa, but must be mN, cN, N, daN"),
-    ("../raw_data/cut_off.csv", {}, 'row 8: Load is "", but must be a number with "." before its decimals'),
-    ("../raw_data/goes_back.csv", {}, "row 8: Time goes back to 0.3"),
-    ("../raw_data/no_names.csv", {}, "no row names the columns extension and load; --columns takes other names, or numbers"),
-    ("../raw_data/empty", {}, "the file is empty"), ("not_there.csv", {}, "not_there.csv: no such file")]
+    ("no_unit.csv", {}, "the unit of column Load is missing: give mN, cN, N, daN, kN, gf (g), kgf (kg, kp), lbf (lb), "),
+    ("unknown_unit.csv", {}, "the unit of column Load is MPa, but must be mN, cN, N, daN"),
+    ("cut_off.csv", {}, 'row 8: Load is "", but must be a number with "." before its decimals'),
+    ("goes_back.csv", {}, "row 8: Time goes back to 0.3"),
+    ("no_names.csv", {}, "no row names the columns extension and load; --columns takes other names, or numbers"),
+    ("empty", {}, "the file is empty"), ("not_there.csv", {}, "not_there.csv: no such file")]
 HEAD, ROW = "Time;Extension;Load\ns;mm;N\n", "Time (s),Extension (mm),Load (N)\n"
 TABLE = "Time,Extension,Load\n(s),(mm),(N)\n0,0,0\n"
 TWO = "0,1,1.5\n1,2,2.5\n"  # readings (0, 1, 1.5) and (1, 2, 2.5)
@@ -143,6 +143,23 @@ PAIRS = [(BELOW, (1, 0.04, 0.7)),
              "Time s (1)\tDisp mm (1)\tForce N (1)\tTime s (2)\tDisp mm (2)\tForce N (2)\n"))]
 
 
+def raw_files():
+    """The bytes of each file, by its name."""
+    with open(os.path.join(HERE, "raw_data.txt"), encoding="utf-8") as file:
+        entries = file.read()[2:].split("\n@ ")
+    files = {"empty": b"", "book.xlsx": b"PK\x03\x04\x14\x00\x06\x00"}
+    for entry in entries:
+        head, text = entry.split("\n", 1)
+        name, encoding, end, *mark = head.split()
+        text = (text.rstrip("\n") + "\n").replace("\n", {"lf": "\n", "crlf": "\r\n"}[end])
+        files[name] = (("\ufeff" if mark else "") + text).encode(encoding)
+    padded = files.pop("padded.csv")
+    return {**files, "ctrl_z.csv": padded + b"\x1a", "nul_end.csv": padded + bytes(512), "cr_only.csv": padded.replace(b"\n", b"\r")}
+
+
+FILES = raw_files()
+
+
 class Raw(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -157,6 +174,10 @@ class Raw(unittest.TestCase):
     def read(self, file, columns="", units="", needs_time=False, **options):
         return read_record(file, Reading(*(parsed_columns(text, option) if text else ("", "", "") for text, option in
                                            ((columns, "--columns"), (units, "--units"))), needs_time=needs_time, **options))
+
+    def kept(self, name):
+        """The path of one of FILES, or of none."""
+        return self.written(FILES[name], name) if name in FILES else os.path.join(self.folder, name)
 
     def of_text(self, text, **options):
         return self.read(self.written(text), **options)
@@ -178,7 +199,7 @@ class Raw(unittest.TestCase):
     def test_files_of_bluehill_give_the_same_readings(self):
         for name in BLUEHILL_FILES.split():
             with self.subTest(name):
-                record = self.read(os.path.join(HERE, "raw_data", name + ".csv"), needs_time=True)
+                record = self.read(self.kept(name + ".csv"), needs_time=True)
                 self.assertEqual(len(readings_of(record)), len(BLUEHILL))
                 for row, (time, extension, load) in zip(readings_of(record), BLUEHILL):
                     self.assertEqual(row[0], time)
@@ -190,20 +211,20 @@ class Raw(unittest.TestCase):
     def test_files_are_read_without_being_told_how(self):
         for name, wanted in EXPORTS.items():
             with self.subTest(name):
-                self.assert_readings(self.read(os.path.join(HERE, "raw_data", name + ".csv"), needs_time=True), *wanted)
+                self.assert_readings(self.read(self.kept(name + ".csv"), needs_time=True), *wanted)
 
     def test_every_case_is_read_and_told(self):
         for name, options, wanted, told in CASES:
             with self.subTest(name, **options):
-                record = self.read(os.path.join(HERE, "files", name), **options)
+                record = self.read(self.kept(name), **options)
                 self.assert_readings(record, *wanted)
                 self.assertIn(told, "\n".join(record.notes))
 
     def test_a_refusal_names_file_and_remedy(self):
         for name, options, why in REFUSED:
             with self.subTest(name, **options):
-                said = self.refusal(os.path.join(HERE, "files", name), **options)
-                self.assertIn(os.path.basename(name), said)
+                said = self.refusal(self.kept(name), **options)
+                self.assertIn(name, said)
                 self.assertIn(why, said)
         for text, options, why in TEXTS_REFUSED:
             with self.subTest(text, **options):
@@ -272,8 +293,7 @@ class Raw(unittest.TestCase):
                 parsed_columns(wrong, "--columns")
 
     def test_a_curve_that_a_spreadsheet_saved_is_the_curve(self):
-        with open(os.path.join(HERE, "files/excel_bom.csv"), "rb") as file:
-            text = file.read()
+        text = FILES["excel_bom.csv"]
         european = text.translate(bytes.maketrans(b",.", b";,")) + b";;;;;;\r\n"
         for content in (text, european):
             record = self.of_text(content)

@@ -131,10 +131,11 @@ TEST_F(Follow, ARecordWithTwoZerosOrATimeThatGoesBackIsRefused) {
 }
 
 TEST_F(Follow, WhatIsNotImportedIsRefused) {
-  const Answer answer = test("[{follow: {record: " KNOT_UTM_SOURCE_DIR "/test/raw/raw_data/english.csv}}]", "raw");
+  std::ofstream(in("export.csv")) << "Time,Extension,Load\n(s),(mm),(N)\n0,0,0\n0.1,0.33,1.25\n";
+  const Answer answer = test("[{follow: {record: " + in("export.csv") + "}}]", "raw");
   EXPECT_EQ(answer.code, 2);
   EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
-  EXPECT_THAT(answer.text, HasSubstr("english.csv: the file is no curve.csv; import_instron makes one of"));
+  EXPECT_THAT(answer.text, HasSubstr("export.csv: the file is no curve.csv; import_instron makes one of"));
   EXPECT_EQ(test("[{follow: {record: source, units: load=N}}]", "raw").code, 2) << "no such key";
   EXPECT_FALSE(fs::exists(in("raw")));
   for (const char* folder : {"batch/specimen_001", "batch/specimen_002"}) {
