@@ -44,8 +44,7 @@ endforeach()
 foreach(room method verdict run study) # some run the programs
   add_dependencies(test_${room} compare tensile_test)
 endforeach()
-knot_utm_tests(rooms_test quick test/rooms_test.cpp)
-add_custom_target(core_tests DEPENDS ${room_tests} rooms_test)
+add_custom_target(core_tests DEPENDS ${room_tests})
 
 # What stands on lanes, for processors without AVX2.
 if(KNOT_UTM_X86_64_V3)
@@ -86,9 +85,9 @@ function(knot_utm_python_tests label)
   endforeach()
 endfunction()
 
-# What scripts/bench and scripts/stress make of their runs, the scripts themselves, the
+# What scripts/bench makes of its runs, the scripts themselves, the
 # documents against the code, and the panel beside the picture in rviz.
-knot_utm_python_tests(quick bits_test.py bench/bench_test.py bench/counted_work_test.py bench/stress_test.py python/scripts/scripts_test.py doc/doc_test.py
+knot_utm_python_tests(quick bits_test.py rooms_test.py bench/bench_test.py bench/counted_work_test.py python/scripts/scripts_test.py doc/doc_test.py
                       raw/raw_test.py python/panel/panel_test.py)
 # Studies and fits: their parts, what the scripts make of small ones, the same from Python, and as jobs on this machine and of Slurm.
 # The report: what is made of a run, and what a browser and a printer make of that. README's numbers and lines, and the examples.

@@ -7,7 +7,7 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "rod/own_laws.hpp"
-#include "sim/capstan.hpp"
+#include "sim/scenes.hpp"
 
 namespace {
 std::size_t allocations = 0;
@@ -130,21 +130,6 @@ INSTANTIATE_TEST_SUITE_P(Twist, WarmStep,
                                          Kind{"OnWithFrictionAtTheSurface", true, 1.0},
                                          Kind{"OnWithFrictionAmongFibres", true, 1.0, 0.01}),
                          [](const auto& kind) { return kind.param.name; });
-
-TEST(WarmStep, OnAFreeRollerTakesNothingFromTheHeap) {
-  Capstan scene(10.0, {});
-  scene.boundary.rollers[0].inertia = 1e-3;
-  scene.pull_by(0.5, 0.01);
-  const double dt = 0.1;
-  std::size_t taken = 0;
-  for (int i = 0; i < 20; ++i) {
-    scene.boundary.fixed_nodes[0].position += Capstan::kSpeed * dt * scene.pull;
-    const std::size_t before = allocations;
-    ASSERT_TRUE(scene.stepper->step(scene.boundary, dt).accepted());
-    if (i > 0) taken += allocations - before;  // the first one is longer than those that warmed it
-  }
-  EXPECT_EQ(taken, 0U);
-}
 
 }  // namespace
 }  // namespace knot_utm

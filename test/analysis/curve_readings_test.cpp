@@ -2,11 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 #include <random>
 
+#include "knot_utm/analysis/cycles.hpp"
+#include "knot_utm/analysis/pull_readings.hpp"
+#include "knot_utm/analysis/results.hpp"
+#include "knot_utm/analysis/sample_readings.hpp"
+#include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
@@ -68,18 +74,6 @@ TEST(CurveReadings, AForceThatFallsAllTheWayHasNoPlateau) {
   EXPECT_EQ(readings.no_lock_by_load, "there is no plateau");
   EXPECT_FALSE(readings.plateau_force || readings.plateau_force_low || readings.breakaway_force);
   EXPECT_NE(readings.no_plateau.find("not level"), std::string::npos) << readings.no_plateau;
-}
-
-TEST(CurveReadings, ALevelThatIsLostAtOnceIsNone) {
-  const auto dropping = [](double share) {
-    return pull([share](double s) { return sliding(s) - (s > 0.05 && s < 0.08 ? share * 6.0 : 0.0); });
-  };
-  EXPECT_TRUE(curve_readings(dropping(0.3)).plateau_force);
-  const CurveReadings readings = curve_readings(dropping(0.6));
-  EXPECT_FALSE(readings.plateau_force);
-  EXPECT_NE(readings.no_plateau.find("falls at once by 76 % of its mean"), std::string::npos) << readings.no_plateau;
-  EXPECT_NEAR(*readings.largest_drop, 3.6, 1e-9);
-  EXPECT_NEAR(*readings.largest_drop_at, 0.05, 1e-3 + 4e-3);
 }
 
 /// e of knots that slide up to s = 0.08 m, less what a knot lets out at s = 0.03 m.
@@ -169,25 +163,6 @@ TEST(CurveReadings, ACellsNoiseIsNothingThatTheKnotsDid) {
   EXPECT_NEAR(*readings.lock_extension_by_load, 0.08 + 6.0 / 2e5, 1e-9);
 }
 
-TEST(CurveReadings, ALockBetweenReadingsFarApartIsNone) {
-  const CurveReadings near = curve_readings(pull(sliding, 0.12, 30));  // 4 mm
-  EXPECT_TRUE(near.lock_extension_by_load) << near.no_lock_by_load;
-  EXPECT_TRUE(near.largest_drop);
-  const CurveReadings far = curve_readings(pull(sliding, 0.12, 24));  // 5 mm
-  EXPECT_FALSE(far.lock_extension_by_load);
-  EXPECT_EQ(far.no_lock_by_load, "the readings around it are 0.062 of the way apart, where 0.05 is close enough");
-  EXPECT_FALSE(far.largest_drop || far.largest_drop_at);
-  EXPECT_TRUE(far.plateau_force && far.locked_stiffness);
-}
-
-TEST(CurveReadings, AMeanOverKnotsThatHoldIsNone) {
-  const CurveReadings readings = curve_readings(with_knots(pull(sliding), 0.0, -1.0));
-  EXPECT_NEAR(*readings.rises_at, 0.08 + 6.0 / 2e5, 1e-9);
-  EXPECT_FALSE(readings.lock_extension_by_load) << "what did not slide does not lock";
-  EXPECT_FALSE(readings.plateau_force);
-  EXPECT_NE(readings.no_plateau.find("de/ds is -1.00"), std::string::npos) << readings.no_plateau;
-}
-
 TEST(CurveReadings, ALoopBetweenHeldNodesHasNoPlateauHoweverItsKnotsMove) {
   for (const double rate : {-0.97, 0.04, -2.0})
     EXPECT_EQ(curve_readings(with_knots(pull(sliding), 0.0, rate), false).no_plateau,
@@ -234,11 +209,244 @@ TEST(CurveReadings, TheLargestDropIsThatOfAllPairs) {
   }
 }
 
-TEST(CurveReadings, OfNothingThereAreNone) {
-  EXPECT_FALSE(curve_readings({}).peak_force);
-  const CurveReadings one = curve_readings({{0.0, 0.0, Sample::kNone, 1.0}});
-  EXPECT_EQ(one.peak_force, 1.0);
-  EXPECT_FALSE(one.plateau_force || one.lock_extension_by_load || one.locked_stiffness);
+Pull to_a_tenth(const std::function<double(double)>& force) { return pull(force, 0.1, 1000); }
+
+/// The pull goes to s = 0.1. A force that rises by a from its middle on to its end differs by a/2 from quarter to
+/// quarter.
+TEST(PullReadings, SteadyForceIsTheMeanOfASecondHalfThatIsLevel) {
+  const auto rising = [](double rise) {
+    return to_a_tenth([rise](double s) { return s < 0.05 ? 200.0 * s : 10.0 + rise * (s - 0.05) / 0.05; });
+  };
+  EXPECT_NEAR(*steady_force(rising(0.0)), 10.0, 1e-9);
+  EXPECT_NEAR(*steady_force(rising(0.3)), 10.15, 1e-9);
+  EXPECT_FALSE(steady_force(rising(0.6)));
+  EXPECT_FALSE(steady_force(to_a_tenth([](double s) { return 160.0 * s; })));
+  EXPECT_FALSE(steady_force({}));
+  EXPECT_FALSE(steady_force({{0.0, 0.1}}));
+}
+
+/// F = a s^2: s at a share of the peak is the root of it, and a tenth's least-squares slope is that in its middle.
+TEST(PullReadings, OfAParabolaTheyAreItsClosedForms) {
+  constexpr double kFactor = 3e4, kEnd = 0.1, kPeak = kFactor * kEnd * kEnd;
+  const Pull parabola = to_a_tenth([](double s) { return kFactor * s * s; });
+  const double step = kEnd / 1000.0;
+  // A curve drawn straight from point to point is too high by no more than F'' step^2/8.
+  const double drawn = 2.0 * kFactor * step * step / 8.0;
+  EXPECT_NEAR(energy_to_peak(parabola), kFactor * std::pow(kEnd, 3) / 3.0, drawn * kEnd);
+  const double chord = 0.4 * kPeak / (kEnd * (std::sqrt(0.5) - std::sqrt(0.1)));
+  EXPECT_NEAR(*chord_stiffness(parabola), chord, chord * 10.0 * drawn / kPeak);
+  EXPECT_NEAR(*secant_stiffness(parabola), kFactor * kEnd, 1e-9);
+  EXPECT_NEAR(*tangent_stiffness(parabola), 2.0 * kFactor * 0.95 * kEnd, 3.0 * drawn / (0.1 * kEnd));
+}
+
+/// 6 N that slide, 2e5 N/m behind s = 0.08 m, and a breakaway above a tenth of the peak.
+TEST(PullReadings, OfAKnotThatLocksTheChordIsThatOfTheLock) {
+  const auto force = [](double s) {
+    return 6.0 * std::min(1.0, s / 1e-3) + 1000.0 * std::exp(-std::pow((s - 0.01) / 1e-3, 2)) +
+           2e5 * std::max(0.0, s - 0.08);
+  };
+  const Pull knot = to_a_tenth(force);
+  EXPECT_NEAR(*chord_stiffness(knot), 2e5, 1e-6);
+  EXPECT_NEAR(*secant_stiffness(knot), force(0.1) / 0.1, 1e-6);
+  EXPECT_NEAR(*tangent_stiffness(knot), 2e5, 1e-4);
+}
+
+TEST(PullReadings, TheEnergyGoesOnBehindThePeakTheStiffnessesDoNot) {
+  const Pull tent = pull([](double s) { return s < 0.06 ? 100.0 * s : 6.0 - 1e3 * (s - 0.06); }, 0.062, 620);
+  EXPECT_NEAR(energy_to_peak(tent), 0.5 * 0.06 * 6.0, 1e-12);
+  EXPECT_NEAR(energy(tent), 0.5 * 0.06 * 6.0 + 0.002 * (6.0 + 4.0) / 2.0, 1e-12);
+  EXPECT_NEAR(*secant_stiffness(tent), 100.0, 1e-9);
+  EXPECT_NEAR(*tangent_stiffness(tent), 100.0, 1e-9);
+}
+
+/// The same as that of each part by itself, whose sums begin with it.
+TEST(PullReadings, TheSteepestTenthIsThatOfAllParts) {
+  const Pull wild =
+      to_a_tenth([](double s) { return 1e3 * s + 20.0 * std::sin(300.0 * s) + 2e5 * std::max(0.0, s - 0.07); });
+  double steepest = 0.0;
+  for (std::size_t i = 0; i + 100 < wild.size(); ++i) {  // least squares of straight pieces, s from the part's middle
+    double moment = 0.0, middle = wild[i].extension + 0.005;
+    for (std::size_t k = i; k < i + 100; ++k) {
+      const double a = wild[k].extension - middle, b = wild[k + 1].extension - middle;
+      const double fa = wild[k].force, fb = wild[k + 1].force;
+      moment += (b - a) * (2.0 * a * fa + a * fb + b * fa + 2.0 * b * fb) / 6.0;
+    }
+    steepest = std::max(steepest, 12.0 * moment / std::pow(0.01, 3));
+  }
+  EXPECT_NEAR(*tangent_stiffness(wild), steepest, 1e-9 * steepest);  // sums of a thousand points, 1e3 times the part's
+}
+
+/// Straight from each place to the next, in 200 steps; F by s and which way it goes.
+Path path(const std::vector<double>& places, const std::function<double(double s, bool out)>& force) {
+  constexpr int kSteps = 200;
+  Path out;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double from = places[i - 1], to = places[i];
+    for (int k = i == 1 ? 0 : 1; k <= kSteps; ++k) {
+      const double s = from + (to - from) * k / kSteps;
+      out.push_back({s, force(s, to > from), s});
+    }
+  }
+  return out;
+}
+
+/// A spring with dry friction beside it: 2 N more on the way out, 2 N less on the way back.
+double rubbing_spring(double s, bool out) { return 200.0 * s + (out ? 2.0 : -2.0); }
+
+TEST(ClosedCycles, OfDryFrictionTheAreaIsTwiceItsForceTimesTheWay) {
+  const Path to_and_fro = path({0.0, 0.1, 0.0, 0.1, 0.0}, rubbing_spring);
+  const std::vector<Cycle> cycles = closed_cycles(to_and_fro);
+  ASSERT_EQ(cycles.size(), 2u);
+  // Where it turns F falls within one step, along which the curve is straight.
+  const double corner = 2.0 * 2.0 * 0.1 / 200.0;
+  for (const Cycle& cycle : cycles) EXPECT_NEAR(cycle.hysteresis, 2.0 * 2.0 * 0.1, 1.01 * corner);
+  EXPECT_EQ(cycles[0].end, cycles[1].begin);
+}
+
+TEST(ClosedCycles, TheWayToWhereTheyBeginAndWhatWasCutOffAreNone) {
+  const std::vector<Cycle> cycles = closed_cycles(path({0.0, 0.1, 0.05, 0.1, 0.05, 0.1, 0.07}, rubbing_spring));
+  ASSERT_EQ(cycles.size(), 1u);
+  EXPECT_NEAR(cycles[0].hysteresis, 2.0 * 2.0 * 0.05, 1.01 * 2.0 * 2.0 * 0.05 / 200.0);
+  EXPECT_EQ(cycles[0].begin, 400u);
+  EXPECT_EQ(cycles[0].end, 800u);
+  EXPECT_TRUE(closed_cycles(path({0.0, 0.1, 0.05}, rubbing_spring)).empty());
+  EXPECT_TRUE(closed_cycles(path({0.1, 0.0, 0.1}, rubbing_spring)).empty()) << "back and out";
+}
+
+/// Between two loads: F comes back where s does not. The end is joined to the beginning at that load.
+TEST(ClosedCycles, BetweenLoadsTheyCreepAndAreClosedAllTheSame) {
+  Path creeping = {{0.0, 0.0}, {0.1, 10.0}, {0.05, 0.0}, {0.12, 10.0}, {0.08, 0.0}, {0.14, 10.0}, {0.11, 0.0}};
+  for (PathPoint& point : creeping) point.crosshead = point.extension;
+  const std::vector<Cycle> cycles = closed_cycles(creeping);
+  ASSERT_EQ(cycles.size(), 3u);
+  EXPECT_NEAR(cycles[0].hysteresis, 5.0 * (0.1 - 0.05), 1e-12);
+  EXPECT_NEAR(cycles[1].hysteresis, 5.0 * (0.07 - 0.04), 1e-12);
+  EXPECT_NEAR(cycles[2].hysteresis, 5.0 * (0.06 - 0.03), 1e-12);
+}
+
+/// The slack of a knot is taken up in the step that cycles: its cycles are a hundredth of that way.
+TEST(ClosedCycles, SlackThatTheFirstOfThemTakesUpHidesNone) {
+  const std::vector<double> places = {0.0, 0.1, 0.099, 0.1, 0.099, 0.1, 0.099};
+  const auto knot = [](double s, bool out) { return std::max(0.0, 1e4 * (s - 0.0985)) + (out ? 2.0 : 0.0); };
+  const std::vector<Cycle> cycles = closed_cycles(path(places, knot));
+  ASSERT_EQ(cycles.size(), 2u) << "but not the way to where they begin";
+  for (const Cycle& cycle : cycles) EXPECT_NEAR(cycle.hysteresis, 2.0 * 1e-3, 1.01 * 2.0 * 1e-3 / 200.0);
+}
+
+constexpr double kGauge = 0.5;     // [m]
+constexpr double kReach = 0.01;    // [m]
+constexpr double kSpring = 200.0;  // [N/m]
+
+/// A specimen that is cycled between loads, and how much of its extension stays behind.
+class Cycled {
+ public:
+  Cycled() { add(Phase::kBalance, 0.0); }
+
+  void add(Phase phase, double extension) {
+    Sample sample;
+    sample.time = static_cast<double>(samples.size());
+    sample.phase = phase;
+    sample.extension = sample.displacement = extension;
+    sample.end_to_end = kGauge + extension;
+    sample.force_upper = sample.force_lower = sample.load = kSpring * (extension - left);
+    samples.push_back(sample);
+  }
+  void move(Phase phase, double from, double to) {
+    constexpr int kSteps = 50;
+    for (int i = 1; i <= kSteps; ++i) add(phase, from + (to - from) * i / kSteps);
+  }
+  Results results() const { return analyse(samples, samples, EndedBy::kProgram, false); }
+
+  double left = 0.0;  ///< [m]
+  std::vector<Sample> samples;
+};
+
+/// What yields keeps a part of its extension, and is stretched the less by the same load afterwards.
+TEST(Elongations, OfASpecimenThatBedsInAPartStaysAndIsNotElastic) {
+  constexpr double kLeft = 0.004;
+  Cycled rope;
+  for (int i = 0; i < 3; ++i) {
+    rope.move(Phase::kCycle, rope.left, kReach + kLeft * (i == 2));
+    rope.left = kLeft * (i == 2);
+    rope.move(Phase::kCycle, kReach + rope.left, rope.left);
+  }
+  const Results results = rope.results();
+  ASSERT_TRUE(results.elongations);
+  EXPECT_NEAR(results.elongations->total, (kReach + kLeft) / kGauge, 1e-15);
+  EXPECT_NEAR(results.elongations->residual, kLeft / kGauge, 1e-15);
+  EXPECT_NEAR(results.elongations->elastic, kReach / kGauge, 1e-15);
+  EXPECT_NEAR(results.elongations->working, kReach / (kGauge + kLeft), 1e-15);
+  EXPECT_NEAR(results.elongations->elastic + results.elongations->residual, results.elongations->total, 1e-15);
+}
+
+/// A reference tension stretches a specimen before anything is measured, and is not balanced.
+TEST(Elongations, AreOverTheLengthThatIsFirstPulled) {
+  constexpr double kBefore = 0.002;
+  Cycled spring;
+  spring.move(Phase::kPreload, 0.0, kBefore);
+  spring.move(Phase::kCycle, kBefore, kReach);
+  spring.move(Phase::kCycle, kReach, kBefore);
+  spring.move(Phase::kPull, kBefore, 2.0 * kReach);
+  spring.samples.back().status = BenchStatus::kBroken;
+  const Results results = spring.results();
+  ASSERT_TRUE(results.elongations && results.gauge_length && results.elongation_at_break);
+  const double gauge = kGauge + kBefore;
+  EXPECT_NEAR(*results.gauge_length, gauge, 1e-15);
+  EXPECT_NEAR(results.elongations->total, (kReach - kBefore) / gauge, 1e-15);
+  EXPECT_NEAR(results.elongations->residual, 0.0, 1e-15);
+  EXPECT_NEAR(*results.elongation_at_break, (2.0 * kReach - kBefore) / gauge, 1e-15);
+}
+
+constexpr double kForce = 5.0, kDrag = 0.1, kHolder = 0.01, kNumerical = 0.2, kSpeed = 2e-3;  // [N], [m/s]
+
+/// A steady pull for ten seconds, after a mount that drags more. What moves gains and loses an energy by turns.
+std::vector<Sample> pulled(double gained) {
+  std::vector<Sample> out;
+  for (int k = 0; k <= 120; ++k) {
+    Sample sample;
+    sample.time = 0.1 * k;
+    const double since = sample.time - 2.0;
+    sample.phase = since > 1e-9 ? Phase::kPull : Phase::kMount;
+    sample.extension = kSpeed * since;
+    sample.force_upper = kForce;
+    sample.force_lower = kForce - kDrag - kHolder * k;
+    sample.kinetic_energy = k % 2 == 0 ? 0.0 : gained;
+    sample.numerical_dissipation = -kNumerical * kSpeed * sample.time;
+    sample.grip_work = kForce * kSpeed * sample.time;
+    const double drag = since > 0.0 ? kDrag : 40.0 * kDrag;
+    sample.friction_loss = 3.0 * sample.time;
+    sample.plastic_loss = 2.0 * sample.time;  // is no drag
+    sample.dissipation = sample.friction_loss + sample.plastic_loss + drag * kSpeed * since;
+    out.push_back(sample);
+  }
+  return out;
+}
+
+TEST(RateShares, ADragThatIsSteadyIsItsShareOfTheForce) {
+  const RateShares shares = rate_shares(pulled(0.0), {}, {});
+  EXPECT_NEAR(*shares.drag, kDrag / kForce, 1e-9);
+  EXPECT_NEAR(*shares.inertia, 0.0, 1e-9);  // what holds the loop elsewhere is none
+  EXPECT_NEAR(*shares.numerical, kNumerical / kForce, 1e-9);
+}
+
+TEST(RateShares, MassThatGainsAndLosesSpeedIsInertia) {
+  constexpr double kWay = 0.1 * kSpeed;
+  EXPECT_NEAR(*rate_shares(pulled(1e-4), {}, {}).inertia, 1e-4 / kWay / kForce, 1e-9);
+}
+
+TEST(RateShares, EndWhereTheKnotsLockAndWhereTheyComeUndoneOrTheRodParts) {
+  std::vector<Sample> samples = pulled(0.0);
+  for (std::size_t k = 40; k < samples.size(); ++k) {
+    samples[k].kinetic_energy = 1e3 * static_cast<double>(k);
+    samples[k].dissipation += 1e3 * static_cast<double>(k);
+  }
+  EXPECT_GT(*rate_shares(samples, {}, {}).drag, 1.0);
+  const double lock = 0.5 * (samples[38].extension + samples[39].extension);
+  EXPECT_NEAR(*rate_shares(samples, lock, {}).drag, kDrag / kForce, 1e-9);
+  EXPECT_NEAR(*rate_shares(samples, {}, samples[40].time).drag, kDrag / kForce, 1e-9);
+  EXPECT_NEAR(*rate_shares(samples, {}, samples[40].time).inertia, 0.0, 1e-9);
+  samples[40].status = BenchStatus::kBroken;
+  EXPECT_NEAR(*rate_shares(samples, {}, {}).drag, kDrag / kForce, 1e-9);
 }
 
 }  // namespace

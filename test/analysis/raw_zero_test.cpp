@@ -1,5 +1,4 @@
 // The zero of raw data: a curve that is held against itself as a machine would have recorded it differs by rounding.
-
 #include "knot_utm/analysis/raw_zero.hpp"
 
 #include <gmock/gmock.h>
@@ -10,10 +9,15 @@
 #include <limits>
 #include <random>
 
+#include "complaint.hpp"
 #include "knot_utm/analysis/comparison.hpp"
+#include "knot_utm/analysis/statistics.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {
+
+using testing::HasSubstr;
 
 /// A pull that slides and locks, read at a rate while the crosshead moves at a speed.
 struct Pulled {
@@ -158,13 +162,6 @@ TEST(RawZero, AWayBackAtTheEndIsNoRest) {
   EXPECT_EQ(zero_at_rest(recorded(rows, kUnits[0], {3.0, 0.013})).first, 0u);
 }
 
-TEST(RawZero, WhereTheOtherCurveDoesNotReachNothingIsToldOfACut) {
-  const std::vector<CurveRow> ours = Pulled().rows();
-  const std::vector<CurveRow> raw = recorded({ours.begin() + 2, ours.end()}, kUnits[0], {});
-  EXPECT_FALSE(zero_of_cut(raw, 0.2, pull_of(ours)));
-  EXPECT_FALSE(zero_of_cut(raw, -0.01, pull_of(ours)));
-}
-
 Pull line(double (*force)(double), double end, int points) {
   Pull out;
   for (int i = 0; i <= points; ++i) out.push_back({0.0, end * i / points, 0.0, force(end * i / points)});
@@ -188,12 +185,115 @@ TEST(CurveDifference, OfLinesIsTheirExactIntegral) {
   EXPECT_NEAR(difference->load, 4.0, 1e-12);
 }
 
-TEST(CurveDifference, WithNothingInCommonThereIsNone) {
-  const Pull near = pull_of(Pulled().rows());
-  Pull far = near;
-  for (PullPoint& point : far) point.extension += 1.0;
-  EXPECT_FALSE(curve_difference(near, far));
-  EXPECT_FALSE(curve_difference(near, {}));
+/// 10 N/mm from an extension on [m], `offset` [N] off. What knows L is a curve of ours.
+CurveOfFile curve(const std::string& file, double length, double from = 0.0, double offset = 0.0) {
+  CurveOfFile out{file, {}};
+  for (int i = 0; i <= 10; ++i) {
+    CurveRow row;
+    row.time = i;
+    row.extension = from + 1e-3 * i;
+    row.load = offset + 10.0 * i;
+    row.end_to_end = length + row.extension;
+    row.phase = Phase::kPull;
+    out.rows.push_back(row);
+  }
+  return out;
+}
+CurveOfFile ours(double from = 0.0) { return curve("ours.csv", 0.2, from); }
+CurveOfFile raw(double from = 0.0, double offset = 0.0) {
+  return curve("raw.csv", std::numeric_limits<double>::quiet_NaN(), from, offset);
+}
+
+struct Told {
+  std::vector<std::string> lines;
+  ComparedCurves compare(const CurveOfFile& a, const CurveOfFile& b, const ZeroWanted& zero = {}) {
+    return compare_curves(a, b, zero, [&](const std::string& line) { lines.push_back(line); });
+  }
+};
+
+/// Where the other curve does not begin at 0 N, the raw data get its load; what is said is what the file itself has.
+TEST(ComparedCurves, SayTheZeroOfEachFileFromItsOwnReadings) {
+  Told told;
+  CurveOfFile offset = ours();
+  for (CurveRow& row : offset.rows) row.load += 0.25;
+  CurveOfFile resting = raw(0.01, 5.0);
+  CurveRow rest = resting.rows.front();
+  for (const double more : {1.0, -1.0}) {
+    rest.time -= 1.0;
+    rest.load = 5.0 + more;
+    resting.rows.insert(resting.rows.begin(), rest);
+  }
+  const ComparedCurves compared = told.compare(offset, resting, {true, std::nullopt});
+  EXPECT_NEAR(compared.comparison.difference->largest, 0.0, 1e-9);
+  EXPECT_THAT(told.lines,
+              testing::Contains(HasSubstr("raw.csv: zero is 5 N at 0.01 m, the mean of its 3 readings before the "
+                                          "crosshead moves; its load there becomes 0.25 N")));
+  const std::string yaml = comparison_yaml(compared.comparison, "ours.csv", "raw.csv");
+  EXPECT_THAT(yaml, HasSubstr("zero_a: own\n"));
+  EXPECT_THAT(yaml, HasSubstr("zero_b: {extension: 0.01, load: 5, readings: 3, load_there: 0.25}\n"));
+  const ComparedCurves as_they_are = told.compare(offset, offset);
+  EXPECT_THAT(comparison_yaml(as_they_are.comparison, "a", "b"), testing::Not(HasSubstr("zero_")));
+  const ComparedCurves both = told.compare(resting, raw(0.01, 7.0), {true, std::nullopt});
+  EXPECT_EQ(both.comparison.zeros->a->load, 5.0);
+  EXPECT_EQ(both.comparison.zeros->b->load, 7.0);
+}
+
+TEST(ComparedCurves, AreRefusedWhereTheyCannotBeCompared) {
+  Told told;
+  EXPECT_THROW(told.compare(ours(), ours(1.0)), InvalidInput);
+  CurveOfFile few = ours(), lost = ours();
+  few.rows.resize(1);
+  EXPECT_THROW(told.compare(few, ours()), InvalidInput);
+  CurveOfFile still = raw();
+  for (CurveRow& row : still.rows) row.extension = 0.01;
+  EXPECT_THAT(complaint_of([&] { told.compare(still, ours()); }),
+              HasSubstr("raw.csv: nothing is pulled: no reading has a larger extension than the first"));
+  lost.rows[3].load = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(told.compare(ours(), lost), InvalidInput);
+}
+
+/// Three digits behind the point as tables print them (ISO 2602, table 1).
+TEST(Statistics, StudentsPointIsThatOfTheTables) {
+  EXPECT_NEAR(student_95(1), 12.706, 5e-4);
+  EXPECT_NEAR(student_95(4), 2.776, 5e-4);
+  EXPECT_NEAR(student_95(9), 2.262, 5e-4);
+  EXPECT_NEAR(student_95(120), 1.980, 5e-4);
+}
+
+TEST(Statistics, FiveReadings) {
+  const Statistics s = statistics_of({2.0, 4.0, 4.0, 5.0, 10.0});
+  EXPECT_EQ(s.n, 5u);
+  EXPECT_DOUBLE_EQ(*s.mean, 5.0);
+  EXPECT_DOUBLE_EQ(*s.sd, 3.0);  // 9 + 1 + 1 + 0 + 25 = 36 over 4
+  EXPECT_DOUBLE_EQ(*s.cv, 0.6);
+  EXPECT_DOUBLE_EQ(*s.minimum, 2.0);
+  EXPECT_DOUBLE_EQ(*s.maximum, 10.0);
+  EXPECT_NEAR(*s.high - *s.mean, 2.776 * 3.0 / std::sqrt(5.0), 1e-3);
+  EXPECT_NEAR(*s.mean - *s.low, *s.high - *s.mean, 1e-12);
+}
+
+TEST(Statistics, WhatTooFewReadingsDoNotTellIsNotSaid) {
+  const Statistics none = statistics_of({});
+  EXPECT_FALSE(none.mean || none.sd || none.minimum);
+  const Statistics one = statistics_of({3.0});
+  EXPECT_EQ(*one.mean, 3.0);
+  EXPECT_FALSE(one.sd || one.cv || one.low || one.high);
+  const Statistics about_zero = statistics_of({-1.0, 1.0});
+  EXPECT_TRUE(about_zero.sd);
+  EXPECT_FALSE(about_zero.cv);
+}
+
+TEST(Statistics, WhatIsConstantButForRoundingHasNoSpread) {
+  for (const std::vector<double>& same : {std::vector<double>{31.000374, 31.000419, 31.000331},
+                                          {-0.25, -0.25 * (1.0 + 1e-15)},
+                                          {1e-15, -3e-14},
+                                          {0.0, 0.0}}) {
+    const Statistics s = statistics_of(same);
+    EXPECT_FALSE(s.sd || s.cv || s.low || s.high) << same.front();
+    EXPECT_EQ(s.n, same.size());
+    EXPECT_EQ(*s.maximum, *std::max_element(same.begin(), same.end()));
+  }
+  EXPECT_TRUE(statistics_of({31.0, 31.01}).sd);
 }
 
 }  // namespace

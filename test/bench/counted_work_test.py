@@ -27,33 +27,5 @@ class CountedWork(unittest.TestCase):
         self.assertFalse(lines, "\n" + "\n".join(lines) + f"\nWhere this is meant, `{counted.RENEW}` renews the table.")
 
 
-class Departures(unittest.TestCase):
-    def departures(self, iterations, scatter=0.001, exit_code=0):
-        each = []
-        for value in iterations:
-            run = runs.Run("/nowhere", 1.0, exit_code, "")
-            run.result = {"newton_iterations": value, "steps": 10, "rejected_steps": 1}
-            each.append(run)
-        row = {counted.ITERATIONS: "1000", counted.SCATTER: str(scatter), counted.STEPS: "10", counted.REJECTED: "1"}
-        return counted.departures({"rope": counted.Held(row)}, {"rope": counted.Count(each)})
-
-    def test_more_and_fewer_iterations_fail_and_a_mean_within_three_per_cent_passes(self):
-        self.assertEqual(self.departures([1029, 971, 1040, 960]), [])
-        for value in (1031, 969):
-            self.assertEqual(len(self.departures([value])), 1)
-
-    def test_a_test_that_scatters_has_a_wider_bound_and_a_narrower_one_with_more_starts(self):
-        self.assertEqual(self.departures([1070], 0.02), [])
-        self.assertEqual(len(self.departures([1070] * 12, 0.02)), 1)
-
-    def test_a_run_that_failed_fails_and_so_does_a_test_without_a_row(self):
-        self.assertIn("a run failed", self.departures([1000], exit_code=1)[0])
-        self.assertIn("a run failed", self.departures([1000, None])[0])
-        count = counted.Count([runs.Run("/nowhere", 1.0, 0, "")])
-        count.iterations = [1000]
-        self.assertIn("no such test", counted.departures({}, {"rope": count})[0])
-        self.assertIn("no test has", counted.departures(counted.held(), {})[0])
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -117,12 +117,6 @@ TEST(BreakWatch, NoStepLeadsToAMultipleOfTheStrength) {
   EXPECT_THAT(BreakWatch(kShortest, at(0.9)).refuse(at(1.5), 1.6e-7), IsEmpty()) << "a knot that lets go";
 }
 
-TEST(BreakWatch, AShapeThatWasDrawnBeyondItsStrengthPartsAtOnce) {
-  BreakWatch watch(kShortest, at(3.0));
-  EXPECT_THAT(watch.refuse(at(2.9), 0.3), IsEmpty());
-  EXPECT_TRUE(watch.judge(at(2.9), 0.3));
-}
-
 TEST(BreakWatch, TheNextStepEndsWhereTheRodParts) {
   BreakWatch watch(kShortest, at(0.0));
   ASSERT_FALSE(watch.judge(at(0.4), 0.2));

@@ -6,6 +6,12 @@
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/contact/memory_friction.hpp"
+#include "knot_utm/contact/power_friction.hpp"
+#include "knot_utm/contact/rate_friction.hpp"
+#include "reference.hpp"
+#include "sim/capstan.hpp"
+#include "sim/scenes.hpp"
 
 namespace knot_utm {
 namespace {
@@ -141,6 +147,121 @@ TEST(MemoryFriction, RemembersWhatItsSpringHolds) {
   const double rounding = 1e-15 * kPresliding;
   EXPECT_LT((friction.remember(input(half), friction.traction(input(half)).z).slip - half).norm(), rounding);
   EXPECT_LT((friction.remember(input(far), friction.traction(input(far)).z).slip - far / 3.0).norm(), rounding);
+}
+
+constexpr double kShortPresliding = 1e-6, kReference = 50.0;
+
+FrictionInput<Vec3> sliding(double pressure) {
+  return {pressure, 10.0 * kShortPresliding * Vec3::UnitX(), Vec3::Zero(), Vec3::UnitX(), 0.0, 0.1};
+}
+
+double traction(const PowerFriction& law, double pressure) {
+  const FrictionTraction<Vec3> t = law.traction(sliding(pressure));
+  return pressure * t.coefficient * t.z.norm();
+}
+
+TEST(PowerFriction, GrowsWithAPowerOfThePressure) {
+  for (const double n : {0.6, 0.8, 1.0}) {
+    const PowerFriction law{kMu, kShortPresliding, n, kReference};
+    for (const double pressure : {kReference, 10.0 * kReference, 1e3 * kReference}) {
+      // p_0 is a thousandth of p_r: it changes t by less than (1 - n)/1000 of it.
+      const double expected = kMu * kReference * std::pow(pressure / kReference, n);
+      EXPECT_NEAR(traction(law, pressure), expected, (1.0 - n + 1e-9) * 1e-3 * expected) << n << " " << pressure;
+    }
+  }
+}
+
+/// As Newton's method has it where strands were drawn apart (ContactModel): a straight line from zero on.
+TEST(PowerFriction, GoesOnInAStraightLineBelowZero) {
+  const PowerFriction law{kMu, kShortPresliding, 0.8, kReference};
+  const FrictionTangent<Vec3> at_zero = law.tangent(sliding(0.0), Linearisation::kTangent);
+  for (const double pressure : {-1e-9, -0.04, -1.0, -1e4})
+    for (const Linearisation how : {Linearisation::kTangent, Linearisation::kSecant}) {
+      const FrictionTangent<Vec3> below = law.tangent(sliding(pressure), how);
+      EXPECT_EQ(below.coefficient, at_zero.coefficient);
+      EXPECT_EQ(below.by_pressure, at_zero.by_pressure);
+      EXPECT_EQ(law.traction(sliding(pressure)).coefficient, at_zero.coefficient);
+    }
+  constexpr double kChange = 1e-7;
+  const double slope = (traction(law, kChange) - traction(law, -kChange)) / (2.0 * kChange);
+  EXPECT_NEAR(slope, at_zero.by_pressure.norm(), 1e-5 * slope);
+}
+
+/// With dT/dphi = mu p_r rho (T/(p_r rho))^n around a shaft of radius rho,
+///     T2^(1-n) = T1^(1-n) + (1 - n) mu (p_r rho)^(1-n) phi.
+TEST(PowerFriction, HowellsCapstan) {
+  constexpr double kTension = 1000.0, kExponent = 0.8;  // of a rod that the tension bends as if it were a thread
+  Capstan::Options options;
+  options.roller_friction = PowerFriction{Capstan::kMu, options.presliding, kExponent, kTension};
+  Capstan scene(kTension, options);
+  const double expected = std::pow(1.0 + (1.0 - kExponent) * Capstan::kMu * 2.0 * M_PI, 1.0 / (1.0 - kExponent));
+  EXPECT_LT(expected, 0.8 * std::exp(Capstan::kMu * 2.0 * M_PI)) << "Coulomb's law must be told from it";
+  hold_against("Howell's capstan, n = 0.8: T2/T1", expected, scene.ratio(), 0.01);
+}
+
+constexpr double kRopeMu = 0.46, kRate = 0.05, kSpeed = 1e-4;
+
+FrictionInput<Vec3> dragged(double slip, double remembered = 0.0, double dt = kStep) {
+  return {100.0, slip * Vec3::UnitX(), remembered * Vec3::UnitX(), Vec3::UnitX(), 0.0, dt};
+}
+
+/// A contact that is dragged on at a speed comes to bear mu_0 (1 + a ln(1 + v/v_0)), whatever the length of the steps.
+TEST(RateFriction, GrowsWithTheLogarithmOfTheSpeed) {
+  const RateFriction law{kRopeMu, kShortPresliding, kRate, kSpeed};
+  for (const double dt : {1e-3, 0.1, 10.0})
+    for (const double speed : {0.1 * kSpeed, kSpeed, 30.0 * kSpeed, 1e5 * kSpeed}) {
+      FrictionMemory memory;
+      double coefficient = 0.0;
+      for (int step = 0; step < 4000; ++step) {
+        const FrictionInput<Vec3> in = dragged(memory.slip.x() + speed * dt, memory.slip.x(), dt);
+        const FrictionTraction<Vec3> t = law.traction(in);
+        coefficient = t.coefficient * t.z.norm();
+        memory = law.remember(in, t.z);
+      }
+      const double expected = kRopeMu * (1.0 + kRate * std::log1p(speed / kSpeed));
+      EXPECT_NEAR(coefficient, expected, 1e-12 * expected) << dt << " " << speed;
+    }
+}
+
+/// A contact that stops after sliding gives up what it bears beyond mu_0: de/dt = -(v_0/xi_s) (exp((e - 1)/a) - 1).
+/// With x = exp(-(e - 1)/a), that is dx/dt = (v_0/(a xi_s)) (1 - x).
+TEST(RateFriction, RelaxesOnceItStops) {
+  const RateFriction law{kRopeMu, kShortPresliding, kRate, kSpeed};
+  const double beyond = 0.2, duration = 2.0 * kRate * kShortPresliding / kSpeed, dt = duration / 20000;
+  FrictionMemory memory;
+  memory.slip = (1.0 + beyond) * kShortPresliding * Vec3::UnitX();
+  for (int step = 0; step < 20000; ++step) {
+    const FrictionInput<Vec3> in = dragged(memory.slip.x(), memory.slip.x(), dt);
+    memory = law.remember(in, law.traction(in).z);
+  }
+  const double left =
+      1.0 - (1.0 - std::exp(-beyond / kRate)) * std::exp(-duration * kSpeed / (kRate * kShortPresliding));
+  EXPECT_NEAR(memory.slip.norm() / kShortPresliding, 1.0 - kRate * std::log(left), 1e-4 * beyond);
+}
+
+/// A rod on an incline that bears less than mu_0 stays. Steeper, it creeps at v_0 (exp((tan alpha/mu_0 - 1)/a) - 1).
+TEST(RateFriction, CreepsOnAnIncline) {
+  const double presliding = 1e-4 * braided_rope().radius;
+  for (const double load : {0.95, 1.05, 1.2}) {
+    OnAnIncline scene(std::atan(load * kRopeMu), Vec3::UnitX(), 24, RateFriction{kRopeMu, presliding, kRate, kSpeed});
+    const std::unique_ptr<TimeStep> stepper = TimeStep::make(scene.rod, scene.state, scene.settings);
+    const auto place = [&] { return stepper->state().position.row(0).mean(); };
+    StepControl::Options options;
+    options.longest = 0.05;
+    options.motion = 10.0;
+    double time = 0.0;
+    const auto boundary = [&](double) -> const Boundary& { return scene.boundary; };
+    run_to(5.0, *stepper, time, options, boundary);
+    const double from = place();
+    run_to(15.0, *stepper, time, options, boundary);
+    const double expected = load > 1.0 ? kSpeed * std::expm1((load - 1.0) / kRate) : 0.0,
+                 speed = (place() - from) / 10.0;
+    if (load > 1.0)
+      hold_against(formatted("creep by friction of rate, tan alpha/mu_0 = %.2f: speed/v_0", load), expected / kSpeed,
+                   speed / kSpeed, 1e-4);
+    else
+      EXPECT_LT(std::abs(speed), 1e-11);
+  }
 }
 
 }  // namespace

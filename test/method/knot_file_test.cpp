@@ -1,5 +1,4 @@
 // Knots from files: what a file says, and each line with which one is refused.
-
 #include "knot_utm/method/knot_file.hpp"
 
 #include <gmock/gmock.h>
@@ -11,18 +10,21 @@
 #include <utility>
 #include <vector>
 
+#include "complaint.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
-#include "knot_utm/words/invalid_input.hpp"
+#include "run/command.hpp"
+#include "run/own_folder.hpp"
 
 namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
+using testing::AllOf;
+using testing::HasSubstr;
 
 const std::string kBend = std::string(KNOT_UTM_SOURCE_DIR) + "/config/knot.yaml";
 
@@ -39,16 +41,9 @@ tie:
   - {lower_tail: 1, upper_tail: 0.5}
 )";
 
-class KnotFile : public ::testing::Test {
+class KnotFile : public MadeFolder {
  protected:
-  KnotFile()
-      : folder_(fs::path(::testing::TempDir()) /
-                (std::string("knot_utm_knot_") + ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~KnotFile() override { fs::remove_all(folder_); }
-
-  std::string file() const { return (folder_ / "hooks.yaml").string(); }
+  static std::string file() { return in("hooks.yaml"); }
   void write(const std::string& text) const { std::ofstream(file()) << text; }
 
   /// What is said of the file with one text for another.
@@ -57,16 +52,8 @@ class KnotFile : public ::testing::Test {
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     write(text.replace(at, from.size(), to));
-    try {
-      read_knot_file(file(), "hooks");
-    } catch (const InvalidInput& refused) {
-      return refused.what();
-    }
-    return "";
+    return complaint_of([&] { read_knot_file(file(), "hooks"); });
   }
-
- private:
-  fs::path folder_;
 };
 
 TEST_F(KnotFile, IsReadAsItSays) {
@@ -131,27 +118,12 @@ TEST_F(KnotFile, IsRefusedByFileAndKey) {
     EXPECT_THAT(complaint(wrong.from, wrong.to), HasSubstr(std::string("hooks.yaml: ") + wrong.begin)) << wrong.to;
 }
 
-TEST_F(KnotFile, MayStandOnPostsOfEitherGripAndBearWeights) {
-  const std::string post = "posts: [{through: [0, 0, 30], along: [0, 1, 0], radius: 5, grip: upper}]\n";
-  EXPECT_EQ(complaint("upper: [upper]\n", post + "landmarks: {eye: [0, 3]}\nweights: {upper: 0.5, eye: 1}\n"), "");
-  const auto knot = read_knot_file(file(), "hooks");
-  EXPECT_TRUE(knot->posts.front().upper);
-  EXPECT_EQ(knot->top(), 30.0);
-  ASSERT_EQ(knot->weights.size(), 2u);
-  EXPECT_EQ(knot->weights.front().fraction, 0.5);
-}
-
-TEST_F(KnotFile, MayPullEndsOfTheUpperGripAndAnEndAgainInALaterGroup) {
-  EXPECT_EQ(complaint("upper_tail: 0.5}", "upper: 2}\n  - {upper: 1, lower_tail: 0.5}"), "");
-  const auto knot = read_knot_file(file(), "hooks");
-  ASSERT_EQ(knot->tie.size(), 2u);
-  EXPECT_EQ(knot->tie[0][1].end, "upper");
-  EXPECT_EQ(knot->tie[1][0].end, "upper");
-  EXPECT_EQ(knot->tie[1][1].fraction, 0.5);
-}
-
 TEST_F(KnotFile, SaysWhatIsReadOfTheKnot) {
-  EXPECT_EQ(complaint("tie:", kReadHooks), "");
+  EXPECT_EQ(
+      complaint("tie:",
+                "landmarks: {bend: [0, 3], hook: [1, 3], tip: [0, 5]}\n"
+                "read: {bend: {loop: bend}, way: {between: [bend, tip]}, opening: {distance: [bend, hook]}}\ntie:"),
+      "");
   const auto knot = read_knot_file(file(), "hooks");
   ASSERT_EQ(knot->landmarks.size(), 3u);
   EXPECT_EQ(knot->landmarks[1].name, "hook");
@@ -164,14 +136,6 @@ TEST_F(KnotFile, SaysWhatIsReadOfTheKnot) {
   EXPECT_EQ(knot->read[2].kind, KnotReading::Kind::kDistance);
 }
 
-TEST_F(KnotFile, IsNamedInAMethodByItsPath) {
-  write(kHooks);
-  const Method method = load_method(kBend, {"specimen.knot=" + file()});
-  ASSERT_TRUE(method.specimen.drawing);
-  EXPECT_EQ(method.specimen.drawing->name, file());
-  EXPECT_THAT(method_yaml(method), HasSubstr("knot: " + file()));
-}
-
 TEST_F(KnotFile, MayBeNamedFromTheFolderOfTheMethod) {
   write(kHooks);
   const std::string text =
@@ -181,17 +145,6 @@ TEST_F(KnotFile, MayBeNamedFromTheFolderOfTheMethod) {
   ASSERT_TRUE(method.specimen.drawing);
   EXPECT_EQ(method.specimen.drawing->name, file());
   EXPECT_THAT(method_yaml(method), HasSubstr("knot: " + file()));
-}
-
-TEST(KnotFileName, ThatNobodyKnowsIsRefusedWithTheOneThatMayBeMeant) {
-  try {
-    load_method(kBend, {"specimen.knot=reeff"});
-    FAIL();
-  } catch (const InvalidInput& refused) {
-    EXPECT_THAT(refused.what(), HasSubstr("specimen.knot"));
-    EXPECT_THAT(refused.what(), HasSubstr("--list knots"));
-    EXPECT_THAT(refused.what(), HasSubstr("reef"));
-  }
 }
 
 /// Every shipped knot by its name.
@@ -226,6 +179,36 @@ TEST(ShippedKnots, OfOneRopeBetweenTheGripsAreWhatTheyAreCalled) {
     const Points rod = specimen_centreline(method.specimen, method.material, method.machine, method.physics).points;
     EXPECT_EQ(knot_determinant(alexander_polynomial(closed_far_away(rod, Vec3::UnitZ()))), determinant) << name;
   }
+}
+
+class Draw : public MadeFolder {
+ protected:
+  static Answer draw(const std::string& words) {
+    return answer_of(tool("tensile_test", "--out '" + folder() + "' --draw " + words));
+  }
+};
+
+/// Reef and granny have six crossings each; the granny's ropes go around each other three times one way.
+TEST_F(Draw, SaysWhatAKnotIsAndWritesItsPictureOnce) {
+  const Answer reef = draw("reef"), granny = draw("granny");
+  EXPECT_EQ(reef.code, 0) << reef.text;
+  EXPECT_THAT(reef.text,
+              AllOf(HasSubstr("title: Reef knot\nuse: "),
+                    HasSubstr("\nstrands: 2\nheld: lower by the lower grip, upper by the upper grip\n"
+                              "pulled: lower_tail and upper_tail\ncrossings: 6, from the front\n"),
+                    HasSubstr("linking number of ropes 1 and 2: 0"), HasSubstr("picture: " + in("reef.png"))));
+  EXPECT_THAT(granny.text,
+              AllOf(HasSubstr("crossings: 6, from the front\n"), HasSubstr("linking number of ropes 1 and 2: 3")));
+  EXPECT_GT(fs::file_size(in("reef.png")), 10000u);
+  EXPECT_EQ(draw("reef").code, 2);
+  EXPECT_EQ(draw("reef --overwrite").code, 0);
+  const Answer overhand = draw("overhand");
+  EXPECT_THAT(overhand.text,
+              HasSubstr("crossings: 3, from the front\ntype: Alexander polynomial 1 - t + t^2, determinant 3"));
+  EXPECT_THAT(draw("fisherman").text, HasSubstr("held: the loop by both grips\npulled: its two tails\ncrossings: "));
+  EXPECT_THAT(draw("straight").text, HasSubstr("least distance of strands: above 4 radii\nsharpest bend: none\n"));
+  EXPECT_THAT(draw("clove_hitch").text, AllOf(HasSubstr("held: a post stands for the lower grip, upper by the upper"),
+                                              HasSubstr("type: not defined, as the rope has a free end\n")));
 }
 
 }  // namespace

@@ -117,22 +117,6 @@ TEST(MethodDefaults, MakeRoomForWhatIsSet) {
   EXPECT_EQ(load_method(kConfig + "tighten.yaml", {"program.pull.until.extension=3"}).machine.travel, 6.0);
 }
 
-TEST(MethodDefaults, ALoadCellSuitsTheStrength) {
-  const std::string rod =
-      "material={radius: 0.002, density: 1000, stretching_stiffness: 4000, bending_stiffness: 4.0e-3, "
-      "twisting_stiffness: 3.0e-3, friction_coefficient: 0.3";
-  const auto capacity = [&](const std::string& more, const std::vector<std::string>& set = {}) {
-    std::vector<std::string> all = {rod + more + "}"};
-    all.insert(all.end(), set.begin(), set.end());
-    return load_method(kConfig + "straight.yaml", all).machine.load_cell.capacity;
-  };
-  EXPECT_EQ(capacity(""), 10e3);                        // twice its stretching stiffness and more
-  EXPECT_EQ(capacity(", breaking_force: 6000"), 20e3);  // two strands and more
-  EXPECT_EQ(capacity("", {"ends.load=45000"}), 50e3);
-  EXPECT_EQ(capacity("", {"machine.load_cell.noise=0.1"}), 10e3);
-  EXPECT_EQ(capacity(", load_cell: 20N"), 20.0);
-}
-
 TEST(MethodDefaults, EveryShippedMaterialMakesASpecimenAndIsPulled) {
   for (const auto& file : std::filesystem::directory_iterator(kConfig + "materials")) {
     const std::string name = file.path().stem().string();

@@ -1,26 +1,32 @@
+#include "knot_utm/method/method.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
+#include <set>
+#include <string>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/verdict/foreseen.hpp"
 
 namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AnyOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::Not;
 
 const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
 const std::string kTighten = kConfig + "tighten.yaml";
@@ -108,16 +114,6 @@ TEST(Method, EveryStandardLoadsAndSaysWhatItIsAndWhatIsNotSimulated) {
   EXPECT_GE(standards, 5);
 }
 
-TEST(Method, EveryOneOfWhatPeopleMeasuredLoadsByItsName) {
-  int methods = 0;
-  for (const auto& file : fs::directory_iterator(kConfig + "validation")) {
-    EXPECT_EQ(find_method(file.path().stem().string()), file.path().string());
-    EXPECT_NO_THROW(load_method(file.path().string())) << file.path();
-    ++methods;
-  }
-  EXPECT_GE(methods, 3);
-}
-
 TEST(Method, WritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip.yaml";
   for (const std::string name : {"tighten", "overhand", "straight", "capstan", "from_file"}) {
@@ -172,12 +168,6 @@ TEST(Method, WhatAReportSaysAndWhatIsAskedOfATestWriteBackToTheSame) {
   fs::remove_all(folder);
 }
 
-TEST(Method, CharactersOfATextAreCountedNotItsBytes) {
-  std::string umlauts;
-  for (int i = 0; i < 80; ++i) umlauts += "ä";
-  EXPECT_EQ(load_method(kTighten, {"report.specimen_id=" + umlauts}).report.specimen_id, umlauts);
-}
-
 constexpr const char* kNames = "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n";
 
 TEST(Method, EveryStepWritesBackToTheSame) {
@@ -211,31 +201,6 @@ TEST(Method, EveryStepWritesBackToTheSame) {
   fs::remove(record);
 }
 
-TEST(Method, ARecordIsNoFasterThanACrosshead) {
-  const std::string record = ::testing::TempDir() + "knot_utm_fast_record.csv";
-  std::ofstream(record) << kNames << "0,0,0,nan,nan,nan,pull\n1,1.5,0.5,nan,nan,nan,pull\n";
-  try {
-    load_test(kTighten, {"program=[{follow: {record: " + record + "}}]"});
-    ADD_FAILURE();
-  } catch (const InvalidInput& invalid) {
-    EXPECT_THAT(invalid.what(), HasSubstr("moves at 1.5 m/s at 0 s, but must be no faster than 0.5 m/s"));
-  }
-  fs::remove(record);
-}
-
-TEST(Method, ACellWithAStopMayBeLoadedAsFarAsThat) {
-  const auto complaint = [](const std::string& load) -> std::string {
-    try {
-      load_method(kTighten, {"machine.load_cell={capacity: 1000, overload: 1.5}", "ends.load=" + load});
-    } catch (const InvalidInput& invalid) {
-      return invalid.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(complaint("1500"), "");
-  EXPECT_THAT(complaint("1501"), HasSubstr("ends.load is 1501, but must be at most the load cell's stop, 1500 N"));
-}
-
 TEST(Method, OverridesReachEveryKey) {
   const Method m = load_method(
       kTighten, {"program.pull.speed=0.001", "program.1.release.duration=5", "material.friction_coefficient=0.2",
@@ -248,15 +213,6 @@ TEST(Method, OverridesReachEveryKey) {
   EXPECT_EQ(m.machine.load_cell.sampling_rate, 10.0);
   EXPECT_EQ(m.machine.load_cell.capacity, 50e3);
   EXPECT_EQ(m.physics.contact_tolerance, 0.05);
-}
-
-TEST(Method, WholeSectionsAreSetBeforeSingleKeys) {
-  const Method m = load_method(kTighten, {"machine.load_cell.noise=0.01", "material.radius=0.002",
-                                          "specimen.edge_length=0.002", "material=pink_vps"});
-  EXPECT_EQ(m.material.name, "pink_vps");
-  EXPECT_EQ(m.material.radius, 0.002);
-  EXPECT_EQ(m.machine.load_cell.name, "20N");
-  EXPECT_EQ(m.machine.load_cell.noise, 0.01);
 }
 
 TEST(Method, FilesBesideTheMethodComeFirst) {
@@ -285,23 +241,60 @@ TEST(Method, AsItIsWrittenItHasNoKeysWithoutEffect) {
   for (const char* key : {"roller_diameter", "far_side"}) EXPECT_TRUE(loop["machine"][key].IsDefined()) << key;
 }
 
-TEST(Method, SaysWhichValuesAutoGave) {
-  const Method method = load_method(kTighten, {"specimen.tail=0.04", "machine.travel=2", "specimen.preload=auto"});
-  for (const char* key : {"specimen.edge_length", "specimen.preload", "machine.roller_diameter", "program.0.tie.speed"})
-    EXPECT_EQ(method.automatic.count(key), 1u) << key;
-  for (const char* key : {"specimen.tail", "machine.travel", "specimen.length"})
-    EXPECT_EQ(method.automatic.count(key), 0u) << key;
-  // As written and read again, but for what has another value by then.
-  const std::string text = method_yaml(method);
-  EXPECT_EQ(parse_method(text, "method.yaml").automatic, method.automatic);
-  std::map<std::string, std::string> others = method.automatic;
-  others.erase("specimen.edge_length");
-  EXPECT_EQ(parse_method(text, "method.yaml", {"specimen.edge_length=0.003"}).automatic, others);
-  EXPECT_EQ(load_method(kTighten, {"machine.load_cell=auto"}).automatic.count("machine.load_cell.capacity"), 0u)
-      << "that of the material's cell";
-  EXPECT_EQ(load_method(kConfig + "straight.yaml", {"material=silicone_cord", "machine.load_cell=auto"})
-                .automatic.count("machine.load_cell.capacity"),
-            1u);
+TEST(MethodKeys, StandThereOnceAndHaveALabelAndAUnit) {
+  std::set<std::string> seen;
+  for (const MethodKey& one : method_keys()) {
+    EXPECT_TRUE(seen.insert(one.key).second) << one.key;
+    EXPECT_NE(one.label, "") << one.key;
+    EXPECT_NE(one.unit, "") << one.key;
+  }
+}
+
+TEST(MethodKeys, AreThoseOfEveryKnotLawAndStep) {
+  const std::vector<MethodKey> keys = method_keys();
+  const auto unit_of = [&](const std::string& key) {
+    const auto found = std::find_if(keys.begin(), keys.end(), [&](const MethodKey& one) { return one.key == key; });
+    return found == keys.end() ? "no such key" : found->unit;
+  };
+  for (const Knot* knot : knots()) {
+    EXPECT_STRNE(knot->about().title, "") << knot->about().name;
+    for (const std::string& key : knot->about().keys) EXPECT_NE(unit_of("specimen." + key), "no such key") << key;
+  }
+  for (const LawKey& key : FrictionRegistry::keys())
+    EXPECT_EQ(unit_of(std::string("physics.friction.") + key.name), key.unit);
+  for (const LawKey& key : BendingRegistry::keys()) EXPECT_EQ(unit_of(std::string("material.") + key.name), key.unit);
+  for (const char* step : {"tie", "mount", "preload", "pull", "hold", "cycle", "return"})
+    EXPECT_EQ(unit_of(std::string("program.") + step + ".speed"), "m/s") << step;
+  EXPECT_EQ(unit_of("program.pull.until.load"), "N");
+  EXPECT_EQ(unit_of("program.cycle.extension"), "m");
+}
+
+/// What a nearer choice leaves without effect goes, whether a file of a material gave it or the method.
+TEST(OverruledKeys, OfAFormerLawGo) {
+  const std::string own =
+      "material={radius: 1e-3, density: 1000, stretching_stiffness: 1e4, bending_stiffness: 1e-6, twisting_stiffness: "
+      "1e-6, friction_coefficient: 0.4, bending_law: frictional, friction_moment: 0.05, rolling_resistance: 0.1}";
+  for (const std::string& material : {std::string("material=nylon"), own}) {
+    const std::string elastic = method_yaml(load_method(kTighten, {"material.bending_law=elastic", material}));
+    EXPECT_THAT(elastic, Not(AnyOf(HasSubstr("friction_moment"), HasSubstr("stick_ratio"), HasSubstr("compaction"))));
+  }
+  const std::string power =
+      method_yaml(load_method(kTighten, {"physics.friction={law: power, exponent: 0.9, reference_pressure: 100}"}));
+  const std::string memory = method_yaml(parse_method(power, "method.yaml", {"physics.friction.law=memory"}));
+  EXPECT_EQ(memory, method_yaml(parse_method(method_yaml(load_method(kTighten)), "method.yaml")));
+}
+
+TEST(OverruledKeys, OfStrandsThatDoNotRollGo) {
+  ASSERT_GT(load_method(kTighten).material.rolling_resistance, 0.0);
+  EXPECT_THAT(load_method(kTighten).overruled, testing::IsEmpty());
+  for (const char* held : {"material.friction_couple=0", "physics.friction.at=centreline",
+                           "physics.friction={at: centreline}", "material.friction_coefficient=0"}) {
+    const Method method = load_method(kTighten, {held});
+    EXPECT_EQ(method.material.rolling_resistance, 0.0) << held;
+    EXPECT_THAT(method.overruled,
+                testing::ElementsAre(HasSubstr("material.rolling_resistance is 0.3, but has an effect only with ")));
+    EXPECT_THAT(foreseen_warnings(method), testing::Contains(method.overruled.front()));
+  }
 }
 
 }  // namespace

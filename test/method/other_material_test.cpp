@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/breaking/fracture.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/program/loading_steps.hpp"
+#include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -21,7 +21,7 @@
 namespace knot_utm {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::HasSubstr;
 
 Method sheet_bend(std::vector<std::string> more) {
   more.insert(more.begin(), {"specimen.knot=sheet_bend", "material=polyester_cord", "physics.accuracy=draft"});
@@ -29,15 +29,6 @@ Method sheet_bend(std::vector<std::string> more) {
 }
 
 Centreline laid(const Method& m) { return specimen_centreline(m.specimen, m.material, m.machine, m.physics); }
-
-std::string refusal_of(const std::vector<std::string>& more) {
-  try {
-    sheet_bend(more);
-  } catch (const InvalidInput& refused) {
-    return refused.what();
-  }
-  return "accepted";
-}
 
 TEST(OtherMaterial, IsReadAsAMaterialIsAndWrittenBack) {
   EXPECT_FALSE(sheet_bend({}).material.other);
@@ -160,24 +151,25 @@ TEST(OtherMaterial, TheAutomaticPreloadTiesTheStifferRopeAndSparesTheWeakerOne) 
   EXPECT_EQ(weak.specimen.preload, 5.0);
 }
 
-TEST(OtherMaterial, IsRefusedInOneLineWhereNothingTellsRopesApart) {
-  const std::string other = "other_material=polyester_cord";
-  const std::pair<std::vector<std::string>, const char*> kRefused[] = {
-      {{other, "specimen.knot=bowline"}, "other_material is polyester_cord"},
-      {{"other_material=steel_wire"}, "other_material.bending_law"},
-      {{other, "other_material.stretching_law=neo_hookean"}, "other_material.stretching_law"},
-      {{other, "other_material.friction_couple=0"}, "other_material.friction_couple is 0"},
-      {{other, "other_material.rolling_hysteresis=0.1"}, "other_material.rolling_hysteresis is 0.1"},
-      {{other, "other_material.twisting_stiffness=1e-9"}, "other_material.twisting_stiffness is 1e-09"},
-      {{other, "physics.friction.pair=larger"}, "physics.friction.pair"},
-      {{other, "other_material.radius=2"}, "other_material.radius is 2"},
-      {{"other_material=nyloon"}, "other_material"},
-      {{"physics.friction.pair=0.2"}, "physics.friction.pair is 0.2"}};
-  for (const auto& [set, says] : kRefused) {
-    const std::string line = refusal_of(set);
-    EXPECT_THAT(line, HasSubstr(says));
-    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 0) << line;
-  }
+const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
+
+Method straight(std::vector<std::string> overrides) { return load_method(kConfig + "straight.yaml", overrides); }
+
+TEST(LoadTerms, APercentageIsOfTheBreakingForceOfTheMaterial) {
+  const Method m =
+      straight({"material.breaking_force=1700",
+                "program=[{preload: {load: 2.5%}}, {cycle: {load: [10 %, 50 %], count: 3}}, {hold: {duration: 1, "
+                "control: load, load: 1e1 %}}, {pull: {until: {load: 80%}}}]"});
+  EXPECT_DOUBLE_EQ(m.program[0].as<PreloadStep>()->load, 42.5);
+  EXPECT_DOUBLE_EQ(m.program[1].as<CycleStep>()->load->low, 170.0);
+  EXPECT_DOUBLE_EQ(m.program[1].as<CycleStep>()->load->high, 850.0);
+  EXPECT_DOUBLE_EQ(*m.program[2].as<HoldStep>()->held_load, 170.0);
+  EXPECT_DOUBLE_EQ(*m.program[3].as<PullStep>()->until.load, 1360.0);
+}
+
+TEST(LoadTerms, TheReferenceTensionIsAnEighthOfTheSquaredDiameter) {
+  const Method m = straight({"material.radius=0.008", "program.0={preload: {load: reference_tension}}"});
+  EXPECT_DOUBLE_EQ(m.program[0].as<PreloadStep>()->load, 320.0);  // 16 mm: 256 / 8 = 32 daN
 }
 
 }  // namespace

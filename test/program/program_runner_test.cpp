@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
 
 #include "knot_utm/program/phases.hpp"
 #include "program/programs.hpp"
@@ -162,18 +161,6 @@ TEST(ProgramRunner, AKnotThatComesUndoneBeforeItIsPulledEndsTheTest) {
     EXPECT_TRUE(program.failed());
     EXPECT_LT(result.samples.back().time, one.undone_from + 3.0 * program.period()) << "the third answer says so";
   }
-}
-
-/// So that one may watch how the knot comes open.
-TEST(ProgramRunner, AProgramThatOnlyTiesGoesOnToItsEnd) {
-  FakeBench bench;
-  bench.undone_from = 0.3;
-  ProgramRunner program({TieStep(), step<ReleaseStep>(0.0033, 1.0)}, 3.0, 0.1, {});
-  const Answered result = run(bench, program);
-  EXPECT_GT(result.samples.back().time, 1.4);
-  EXPECT_EQ(program.ended_by(), EndedBy::kUntangled);
-  EXPECT_EQ(program.reason(), "");
-  EXPECT_FALSE(program.failed());
 }
 
 TEST(ProgramRunner, OverloadCountsTheTrueForceInBothDirections) {

@@ -4,9 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -44,14 +43,6 @@ TEST(SampleFields, HaveARowForEveryMember) {
   EXPECT_EQ(std::tuple_size_v<decltype(kSampleFields)>, values_of<Sample>());
 }
 
-TEST(SampleFields, AreMembersOfTheirOwn) {
-  Sample sample;
-  std::map<const void*, const char*> seen;
-  visit_sample_fields([&](const auto& field) {
-    EXPECT_TRUE(seen.emplace(&field.of(sample), field.name).second) << field.name << " is " << seen[&field.of(sample)];
-  });
-}
-
 /// What was recorded is read again as long as this order stays.
 TEST(SampleFields, StandInTheOrderOfTheJournal) {
   std::vector<std::string> names;
@@ -65,12 +56,6 @@ TEST(SampleFields, StandInTheOrderOfTheJournal) {
                                  "steps", "rejected_steps", "newton_iterations", "knot_type", "status", "message",
                                  "highest_load", "lowest_load", "break_arclength", "break_place", "knots_force",
                                  "knot_on_roller", "raw_extension", "turn", "torque", "knot_readings"));
-}
-
-TEST(PerKnot, TakesNoMoreThanItHasRoomFor) {
-  EXPECT_EQ(PerKnot::unknown(PerKnot::kMost).size(), PerKnot::kMost);
-  EXPECT_THROW(PerKnot::unknown(PerKnot::kMost + 1), std::length_error);
-  EXPECT_THROW(PerKnot::of(std::vector<double>(PerKnot::kMost + 1)), std::length_error);
 }
 
 TEST(PerKnot, IsLoadedWithItsLength) {

@@ -104,14 +104,5 @@ TEST(Energy, OfBendingIsThatOfTheRodsLaw) {
   EXPECT_NEAR(elastic_energy(rod, state).bending, expected(kKept), 1e-9 * expected(kKept));
 }
 
-TEST(Energy, RefusesAStateThatDoesNotFitTheRod) {
-  const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
-  EXPECT_THROW(require_fits(rod, arc(7, 0.1, 0.0)), InvalidInput);
-  RodState without_frames = arc(8, 0.1, 0.0);
-  without_frames.natural_curvature = Eigen::Matrix2Xd::Zero(2, 7);
-  EXPECT_THROW(require_fits(rod, without_frames), InvalidInput);
-  EXPECT_NO_THROW(require_fits(rod, arc(8, 0.1, 0.0)));
-}
-
 }  // namespace
 }  // namespace knot_utm

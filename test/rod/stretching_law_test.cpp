@@ -94,13 +94,5 @@ TEST(NeoHookeanStretching, OfABarAtTwiceItsLength) {
   EXPECT_NEAR(twice.slope, kStiffness / 3.0 * 1.25, 1e-14);
 }
 
-TEST(StretchingLaws, AMaterialGivesItsLawToItsRod) {
-  Material material;
-  EXPECT_TRUE(std::holds_alternative<LinearStretching>(make_rod(material, Eigen::Vector3d::Ones()).laws->stretching));
-  material.stretching.law = static_cast<knot_utm::StretchingLaw>(1);
-  EXPECT_TRUE(
-      std::holds_alternative<NeoHookeanStretching>(make_rod(material, Eigen::Vector3d::Ones()).laws->stretching));
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -1,5 +1,4 @@
 // Nothing that was measured is written over without being asked for.
-
 #include "knot_utm/run/claimed_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -9,6 +8,8 @@
 #include <string>
 
 #include "knot_utm/method/shipped.hpp"
+#include "knot_utm/run/command_hint.hpp"
+#include "knot_utm/run/report.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "run/command.hpp"
@@ -18,9 +19,8 @@ namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
+using testing::AllOf;
+using testing::HasSubstr;
 
 class ClaimedFolderOf : public OwnFolder {
  protected:
@@ -81,35 +81,6 @@ TEST_F(KeptRun, IsLeftAsItIsUnlessItMayBeOverwritten) {
   EXPECT_FALSE(fs::exists(in(first + "-3")));
 }
 
-TEST(Tools, TellTheSameVersion) {
-  const std::string version = answer_of(tool("tensile_test", "--version")).text;
-  EXPECT_THAT(version, ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\n"));
-  for (const fs::directory_entry& file : fs::directory_iterator(fs::path(KNOT_UTM_SOURCE_DIR) / "src/tools")) {
-    const std::string name = file.path().stem().string();
-    // Without ROS not every tool is built.
-    if (file.path().extension() != ".cpp" || !fs::exists(fs::path(KNOT_UTM_TOOLS_DIR) / name)) continue;
-    const Answer answer = answer_of(tool(name, "--version"));
-    EXPECT_EQ(answer.code, 0) << name;
-    EXPECT_EQ(answer.text, version) << name;
-  }
-}
-
-TEST_F(KeptRun, AMethodThatComesWithThePackageIsKnownByItsName) {
-  EXPECT_EQ(find_method("straight"), std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
-  EXPECT_EQ(find_method("straight.yaml"), find_method("straight"));
-  EXPECT_EQ(find_method("nowhere/straight.yaml"), "nowhere/straight.yaml") << "a path is a path";
-  EXPECT_EQ(find_method("../tighten.yaml", folder()), in("../tighten.yaml")) << "a path is no name of a standard";
-  write_whole(in("straight"), "a file of this name comes first");
-  EXPECT_EQ(find_method("straight", folder()), in("straight"));
-  fs::remove(in("straight"));
-
-  const Answer refused = answer_of(tool("tensile_test", "strait --out '" + in("out") + "'"));
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.text, AllOf(HasSubstr("strait"), HasSubstr("(astm_d2256_knotted, "), HasSubstr(", straight, "),
-                                  HasSubstr(", usp_881_knot_pull)")));
-  EXPECT_FALSE(fs::exists(in("out")));
-}
-
 /// Comments and `auto` of it would be gone.
 TEST_F(ClaimedFolderOf, AMethodThatSomebodyWroteIsNotReplacedByItsRun) {
   fs::create_directories(in("mine"));
@@ -145,29 +116,22 @@ TEST_F(LatestLink, LeadsToTheLastOne) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder() + "/out"), fs::directory_iterator()), 3);
 }
 
-TEST_F(LatestLink, IsMadeInNoOtherFolderAndReplacesNothing) {
-  EXPECT_EQ(point_latest_to(made("elsewhere/run")), "");
-  EXPECT_FALSE(fs::exists(folder() + "/elsewhere/latest"));
-  made("out/latest");
-  EXPECT_EQ(point_latest_to(made("out/run")), "");
-  EXPECT_TRUE(fs::is_directory(fs::symlink_status(folder() + "/out/latest")));
-}
+class ReportIn : public MadeFolder {
+ protected:
+  const Pull a_{{0.0, 0.0, 0.0, 1.5}, {1.0, 0.25, 0.0, 2.0}};
+};
 
-/// A command that follows reads the run that was just made, also where that one goes elsewhere than asked.
-TEST_F(LatestLink, FollowingCommandsReadTheRunThatWasJustMade) {
-  fs::create_directories(folder());
-  const std::string begin = "cd '" + folder() + "' && ";
-  const auto run = [&](const std::string& more) {
-    const Answer answer = answer_of(begin + tool("tensile_test", "straight --set physics.accuracy=draft " + more));
-    EXPECT_EQ(answer.code, 0) << answer.text;
-    EXPECT_THAT(answer.text, HasSubstr(", and the folder is also out/latest\n"));
-  };
-  run("--out out/mine");
-  run("--out out/mine --set specimen.length=0.1");
-  EXPECT_EQ(latest(), "mine-2");
-  // What is refused leaves it where it was.
-  EXPECT_EQ(answer_of(begin + tool("tensile_test", "straight --out out/no --set specimen.length=-1")).code, 2);
-  EXPECT_EQ(latest(), "mine-2");
+TEST_F(ReportIn, AComparisonReplacesNoRunAndNothingThatItCompares) {
+  write_whole(in("b.csv"), "measured");
+  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", in("./b.csv")), InvalidInput);
+  EXPECT_EQ(read_whole(in("b.csv")), "measured");
+  EXPECT_FALSE(fs::exists(in("a.csv")));
+  fs::create_hard_link(in("b.csv"), in("report.html"));
+  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", in("b.csv"), true), InvalidInput);
+  write_whole(in("result.yaml"), "");
+  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", "y"), InvalidInput);
+  EXPECT_THROW(write_comparison(in("b.csv/below"), "", a_, a_, "x", "y"), InvalidInput);
+  EXPECT_THROW(write_comparison("", "", a_, a_, "x", "y"), InvalidInput);
 }
 
 }  // namespace

@@ -3,19 +3,18 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
+#include "complaint.hpp"
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/words/invalid_input.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
 
@@ -46,12 +45,7 @@ class Follow : public MadeFolder {
   static std::string refusal(const std::string& rows) {
     const std::string file = in("record.csv");
     std::ofstream(file) << "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n" << rows;
-    try {
-      read_course(file);
-    } catch (const InvalidInput& invalid) {
-      return invalid.what();
-    }
-    return "";
+    return complaint_of([&] { read_course(file); });
   }
 };
 
@@ -95,18 +89,6 @@ TEST_F(Follow, TheRecordIsFollowedToItsEnd) {
   EXPECT_NEAR(same.extension, 0.001, 0.0033 / 6.0);
 }
 
-TEST_F(Follow, ABalanceBehindTheLastPullEndsTheRecordAndIsTold) {
-  const std::string file = in("record.csv");
-  std::ofstream(file) << "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n"
-                         "0,0,0,nan,0.25,0,idle\n1,0.001,1,nan,0.251,1,pull\n2,0.0005,0.5,nan,0.2505,0.5,return\n"
-                         "3,0,0,nan,0.2505,0,balance\n4,0,0,nan,0.2505,0,hold\n";
-  std::vector<std::string> told;
-  const std::vector<CurveRow> rows = read_course(file, [&](const std::string& line) { told.push_back(line); });
-  ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows.back().phase, Phase::kReturn);
-  EXPECT_THAT(told, testing::ElementsAre(HasSubstr("followed to reading 3, behind which the test was balanced")));
-}
-
 /// Cells are balanced with the first command of the pull behind a pre-load: there the reading before is at zero.
 TEST_F(Follow, APreloadThatBalancesIsTheOrigin) {
   ASSERT_EQ(test("[{preload: {load: 100}}, {pull: {until: {extension: 0.002}}}]", "source").code, 0);
@@ -144,21 +126,6 @@ TEST_F(Follow, WhatIsNotImportedIsRefused) {
   }
   EXPECT_THAT(test("[{follow: {record: " + in("batch") + "}}]", "raw").text,
               HasSubstr("the folder holds 2 specimens: give the folder of one"));
-}
-
-/// The largest load is one of tension; where there is none, that is said.
-TEST_F(Follow, ARecordOfCompressionHasNoPeak) {
-  std::ofstream(in("record.csv")) << "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n"
-                                     "0,0,0,nan,nan,nan,pull\n1,-0.0001,-10,nan,nan,nan,pull\n"
-                                     "2,-0.0002,-20,nan,nan,nan,pull\n";
-  const Answer answer = test("[{follow: {record: " + in("record.csv") + "}}]", "compressed");
-  ASSERT_EQ(answer.code, 0) << answer.text;
-  const std::string result = read_whole(in("compressed/result.yaml"));
-  for (const char* key : {"peak_force", "true_peak_force", "energy_to_peak"})
-    EXPECT_THAT(result, HasSubstr("\n" + std::string(key) + ": null  # the specimen was never in tension\n"));
-  EXPECT_THAT(result, HasSubstr("\nno_plateau_because: \"the specimen was never in tension\"\n"));
-  EXPECT_THAT(result, HasSubstr("\nwarnings: [\"the strand bore a thrust of "));
-  EXPECT_THAT(result, HasSubstr("but a straight one buckles at "));
 }
 
 /// The folder of a run stands for its curve.

@@ -13,7 +13,7 @@
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/topology/knot_hole.hpp"
-#include "program/fake_bench.hpp"
+#include "program/programs.hpp"
 #include "run/own_folder.hpp"
 
 namespace knot_utm {

@@ -64,18 +64,6 @@ TEST_F(Summary, OfARunHasTheMainReadingsAndNoNull) {
   EXPECT_LE(lines(text), 10);
 }
 
-TEST_F(Summary, OfABatchHasMeansAndScatter) {
-  write("statistics.yaml",
-        "specimens: 3\nrejected:\n  - {specimen: 2, reason: \"it came undone\"}\nmotion_pattern: {sliding: 2}\n"
-        "plateau_force: {mean: 5.1, sd: 0.12345, cv: 0.02, low: 4, high: 6, minimum: 4, maximum: 6, n: 2}\n"
-        "lock_extension: {mean: null, sd: null, cv: null, low: null, high: null, minimum: null, maximum: null, n: 0}\n"
-        "peak_force: {mean: 2500, sd: 1e-13, cv: 0, low: 2500, high: 2500, minimum: 2500, maximum: 2500, n: 2}\n");
-  EXPECT_EQ(run_summary(folder()),
-            "2 of 3 specimens count\n"
-            "  plateau force         5.10 ± 0.12 N (mean ± standard deviation of 2)\n"
-            "  largest load          2.500 kN (mean ± standard deviation of 2)\n");
-}
-
 TEST(ComparisonSummary, ShowsNoRounding) {
   Comparison same;
   same.a.peak_force = 20.0;
@@ -88,52 +76,6 @@ TEST(ComparisonSummary, ShowsNoRounding) {
   const std::string text = comparison_summary(same, "a", "b");
   EXPECT_THAT(text, AllOf(HasSubstr("20.00 N         20.00 N         0.0 %\n"), HasSubstr("differ by 0 N (0.00 %"),
                           HasSubstr("at most by 0 N at")));
-}
-
-TEST_F(Summary, OfWhatIsNoRunIsRefused) {
-  EXPECT_THROW(run_summary(folder()), InvalidInput);
-  for (const char* text : {"", "a: [", "[1, 2]"}) {
-    write("result.yaml", text);
-    EXPECT_THROW(run_summary(folder()), InvalidInput) << text;
-  }
-}
-
-TEST_F(Summary, IsWhatTheToolsEndWith) {
-  const std::string begin = "cd '" + folder() + "' && ";
-  const auto asked = [&](const std::string& name, const std::string& words) {
-    const Answer answer = answer_of(begin + tool(name, words));
-    EXPECT_EQ(answer.code, 0) << answer.text;
-    return answer.text;
-  };
-  const std::string ended =
-      asked("tensile_test", "straight --set physics.accuracy=draft --set material.breaking_force=2500 --out 'a run'");
-  EXPECT_THAT(ended, AllOf(HasSubstr("the test ended by break after "), HasSubstr("largest load          2.500"),
-                           HasSubstr("all results are in a run/result.yaml\n")));
-  EXPECT_LE(lines(ended), 10);
-  EXPECT_EQ(asked("tensile_test", "--show 'a run'") + "all results are in a run/result.yaml\n", ended);
-  const std::string compared = asked("compare", "'a run/curve.csv' 'a run/curve_full.csv'");
-  EXPECT_THAT(compared, AllOf(HasSubstr("A is a run/curve.csv, B is a run/curve_full.csv\n"), Not(HasSubstr("null")),
-                              HasSubstr("largest load          2.500 kN")));
-  EXPECT_LE(lines(compared), 10);
-}
-
-TEST(Listing, SaysWhatComesWithThePackage) {
-  for (const char* kind : {"methods", "materials", "knots", "standards", "studies"}) {
-    const std::string own = shipped_listing(kind);
-    EXPECT_GE(std::count(own.begin(), own.end(), '\n'), 5) << kind;
-    EXPECT_THAT(shipped_listing(""), AllOf(HasSubstr(std::string(kind) + ":\n"), HasSubstr(own)));
-  }
-  EXPECT_THAT(shipped_listing("materials"),
-              HasSubstr("nylon                   Braided nylon rope of the source paper"));
-  EXPECT_THAT(shipped_listing("methods"), Not(HasSubstr("usp_881")));
-  EXPECT_THAT(shipped_listing("standards"), HasSubstr("usp_881_knot_pull"));
-  EXPECT_THAT(shipped_listing("validation"), HasSubstr("overhand_inversion_3  An overhand of 3 turns"));
-  EXPECT_EQ(answer_of(tool("tensile_test", "--list knots")).text, shipped_listing("knots"));
-  EXPECT_EQ(answer_of(tool("tensile_test", "--list")).text, shipped_listing(""));
-  EXPECT_EQ(answer_of(tool("tensile_test", "--list knot")).text,
-            "tensile_test: --list is \"knot\", but must be methods, materials, knots, standards, validation or "
-            "studies; did you "
-            "mean knots?\n");
 }
 
 }  // namespace

@@ -30,12 +30,6 @@ struct Loop {
   RelativeErrors errors() const { return relative_errors(specimen, material, machine, physics); }
 };
 
-Results plateau() {
-  Results out;
-  out.true_plateau_force = 5.0;
-  return out;
-}
-
 TEST(RelativeErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
   Loop loop;
   loop.specimen.edge_length = loop.material.radius;
@@ -74,20 +68,6 @@ TEST(RelativeErrors, OfTheLargestLoadAreKnownOfKnotsFromFiles) {
   EXPECT_LT(errors({"material=nylon", "physics.accuracy=fine"}).value(), 0.6 * rope);
   EXPECT_FALSE(errors({"material=nylon", "other_material=polyester_cord"}));
   EXPECT_FALSE(errors({"material=nylon", "program=[{pull: {until: {extension: 0.1}}}]"})) << "as it is drawn";
-}
-
-/// Nylon's edges are shorter, as it is tied hard, and its error is smaller with their square.
-TEST(RelativeErrors, OfARopeThatBendsElasticallyNeedNoWarning) {
-  const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml",
-                                     {"material.bending_law=elastic", "material.friction_couple=0"});
-  const RelativeErrors errors = relative_errors(shipped.specimen, shipped.material, shipped.machine, shipped.physics);
-  EXPECT_NEAR(shipped.specimen.edge_length / shipped.material.radius, 1.008, 5e-4);
-  const double edges = 1.008 * 2.25 / 3.0;
-  EXPECT_NEAR(errors.plateau_force.value(), (0.6 + 0.4 * edges * edges) * 0.06 * 0.8 / 0.46, 5e-5);
-  EXPECT_LT(errors.plateau_force.value(), 0.09);
-  const double force = *plateau().true_plateau_force;
-  EXPECT_EQ(accuracy_warning(plateau(), {*errors.plateau_force * force, {}, {}, {}}), "");
-  EXPECT_NE(accuracy_warning(plateau(), {0.21 * force, {}, {}, {}}), "");
 }
 
 /// By the fourth root of the pre-load over 6 k_b/h^2, up to a third.
@@ -130,24 +110,6 @@ TEST(RelativeErrors, AreGivenForStrandsThatRollAsTheStudyHadThem) {
   EXPECT_NEAR(opposite.plateau_force.value(), 0.43, 1e-12);
   EXPECT_NEAR(opposite.lock_extension.value(), 0.055, 1e-12);
   EXPECT_NEAR(opposite.locked_stiffness.value(), 0.14, 1e-12);
-}
-
-/// A plateau of knots that are not hardly closed is not known. Not with a linear law, which no study had.
-TEST(RelativeErrors, AreGivenForSectionsThatGiveAsTheStudyHadThem) {
-  const auto errors = [](const std::string& change) {
-    const Method m = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml",
-                                 {"material=green_vps", "specimen.edge_length=0.003175", change});
-    return relative_errors(m.specimen, m.material, m.machine, m.physics);
-  };
-  for (const bool opposite : {false, true}) {
-    const RelativeErrors some = errors(opposite ? "specimen.handedness=opposite" : "specimen.handedness=same"),
-                         loose = errors_of_hardly_closed(some);
-    EXPECT_NEAR(some.plateau_force.value(), 0.6, 1e-12);
-    EXPECT_NEAR(loose.plateau_force.value(), 0.15, 1e-12);
-    EXPECT_NEAR(loose.lock_extension.value(), 0.25, 1e-12);
-    EXPECT_NEAR(loose.locked_stiffness.value(), opposite ? 0.14 : 0.1, 1e-12);
-  }
-  EXPECT_FALSE(errors("material.stretching_law=linear").plateau_force);
 }
 
 TEST(RelativeErrors, AreNotGivenWhereNoStudySays) {

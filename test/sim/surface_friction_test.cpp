@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -107,12 +106,6 @@ TEST(R12Rolling, HysteresisOfAWideContactHoldsACylinderUpToItsHalfWidth) {
     hold_against(formatted("R12 rolling against hysteresis, slope %.4f: acceleration [m/s^2]", std::tan(angle)),
                  expected, scene.accelerations().first, 0.01);
   }
-}
-
-TEST(R12Rolling, WithoutInertiaOfSpinItRollsForNothing) {
-  AcrossAnIncline scene(0.5, false);
-  hold_against("R12 the same without inertia of spin: acceleration [m/s^2]", kGravity * std::sin(0.5),
-               scene.accelerations().first, 0.01);
 }
 
 TEST(R12Rolling, BeyondThreeTimesTheFrictionAngleItSlidesAndSpinsUp) {

@@ -10,11 +10,14 @@
 #include <limits>
 #include <string>
 
+#include "complaint.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/polyline.hpp"
+#include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/words/invalid_input.hpp"
+#include "rod/materials.hpp"
 
 namespace knot_utm {
 namespace {
@@ -66,24 +69,6 @@ TEST(EdgeGrading, LaysShortEdgesInAZoneAndGrowsAwayFromIt) {
     }
     before = edge;
   }
-}
-
-TEST(FishermanLoop, IsFineInItsKnotsAndCoarseOnTheFarSide) {
-  FishermanShape shape;
-  shape.refinement = 2.0;
-  shape.coarsening = 1.5;
-  const Centreline line = fisherman_loop(shape);
-  auto edge_at = [&](double arclength) {
-    const int node = line.nearest_node(arclength);
-    return (line.points.col(node + 1) - line.points.col(node)).norm();
-  };
-  for (const KnotLandmarks& knot : line.knots) {
-    EXPECT_NEAR(edge_at(knot.coil_middle), 0.5 * shape.edge_length, 0.03 * shape.edge_length);
-    EXPECT_NEAR(edge_at(knot.threaded), 0.5 * shape.edge_length, 0.03 * shape.edge_length);
-    const double on_tail = 0.5 * (knot.tail_exit + knot.tail_end);
-    EXPECT_NEAR(edge_at(on_tail), shape.edge_length, 0.05 * shape.edge_length);
-  }
-  EXPECT_NEAR(edge_at(0.5 * (line.upper_apex + line.lower_apex)), 1.5 * shape.edge_length, 0.05 * shape.edge_length);
 }
 
 TEST(FishermanLoop, KeepsItsStrandsApartInEqualEdges) {
@@ -272,12 +257,7 @@ TEST(FromPoints, RefusesOverlapAndNonsense) {
 
 /// What is said of points that are refused; empty: they are not.
 std::string refusal(const Points& points, double radius, double edge_length) {
-  try {
-    from_points(points, radius, edge_length, "shape.csv");
-  } catch (const InvalidInput& bad) {
-    return bad.what();
-  }
-  return {};
+  return complaint_of([&] { from_points(points, radius, edge_length, "shape.csv"); });
 }
 
 /// A strand that lies half around a straight one. Between its nodes the polyline is nearer than a
@@ -303,24 +283,6 @@ TEST(FromPoints, TakesStrandsThatTouchAlongTheSmoothCentreline) {
   EXPECT_THAT(refusal(wound(1.9 * h), h, h), testing::HasSubstr("strands overlap"));
 }
 
-TEST(FromPoints, RefusesALoopSoSmallThatItsStrandsAreNeighbours) {
-  // Of 6.3 mm, where strands up to 14 mm apart along the rod may lie nearer than a diameter.
-  const double radius = 3e-3, loop = 1e-3;
-  auto small_loop = [&](double rise) {
-    Points x(3, 60);
-    for (int i = 0; i < 20; ++i) x.col(i) << -1e-3 * (20 - i), 0.0, 0.0;
-    for (int i = 0; i < 20; ++i) {
-      const double angle = 2.0 * M_PI * i / 20.0;
-      x.col(20 + i) << loop * std::sin(angle), loop * (1.0 - std::cos(angle)), rise * i / 20.0;
-    }
-    for (int i = 0; i < 20; ++i) x.col(40 + i) << 1e-3 * i, -3e-4, rise;
-    return x;
-  };
-  EXPECT_EQ(refusal(small_loop(1e-3), radius, 2.5e-4), "");
-  const std::string said = refusal(small_loop(0.0), radius, 2.5e-4);
-  EXPECT_NE(said.find("the rod runs through itself at 0.0"), std::string::npos) << said;
-}
-
 TEST(NearestPlaces, SeesParallelCrossingAndEndOnSegments) {
   Points u(3, 4);
   u.col(0) << 0.0, 0.0, 0.0;
@@ -337,24 +299,52 @@ TEST(NearestPlaces, SeesParallelCrossingAndEndOnSegments) {
   EXPECT_EQ(nearest_places(u, 10.0).distance, std::numeric_limits<double>::infinity());
 }
 
-using ::testing::HasSubstr;
+Material similar(double lengths, double forces) {
+  Material out = nylon();
+  out.radius *= lengths;
+  out.bending_stiffness *= forces * lengths * lengths;
+  return out;
+}
 
-class CentrelineFile : public ::testing::Test {
- protected:
-  std::string write(const std::string& text) {
-    std::ofstream(path_) << text;
-    return path_;
+TEST(SpecimenScales, SimilarSpecimensOfAnyDensityMoveAlike) {
+  for (const double lengths : {0.04, 1.0, 6.0})
+    for (const double forces : {1e-5, 1.0, 1e4}) {
+      Material material = similar(lengths, forces);
+      // More than tau = 2e-4 s takes.
+      material.density *= std::pow((1.0 + lengths) * 2e-4 / specimen_scales(material).own_time, 2);
+      const Material moving = as_it_moves(material, {}, 0.0);
+      EXPECT_NEAR(specimen_scales(moving).own_time, 2e-4, 1e-16);
+      const double h2 = material.radius * material.radius;
+      EXPECT_NEAR(drag_to_rest(moving, false) * h2 * h2 / material.bending_stiffness, 1.2e-7, 1e-19);
+      EXPECT_NEAR(specimen_scales(moving).rest_speed / material.radius, 0.0063, 1e-15);
+    }
+}
+
+TEST(SpecimenScales, SimilarLoopsAccelerateTheSameMassWhateverTheirOwnIs) {
+  Material light = nylon();
+  light.density *= 1e-3;
+  EXPECT_NEAR(inertia_factor(light, {}, 0.0), 1e3 * inertia_factor(nylon(), {}, 0.0), 1e-9);
+  EXPECT_LT(inertia_factor(nylon(), {}, 0.0), 1.0);
+  // A rod with slack swings, and no more than its own mass is accelerated.
+  for (const double slack : {1e-3, 10.0}) EXPECT_LE(inertia_factor(light, {}, slack), 1.0) << slack;
+}
+
+TEST(SpecimenScales, ALoopHasADragHoweverLightItIs) {
+  Material thread = nylon();
+  for (const double lighter : {1e-3, 1e-9}) {
+    thread.density = lighter * nylon().density;
+    EXPECT_NEAR(drag_to_rest(thread, true) * std::pow(thread.radius, 4) / thread.bending_stiffness, 1.2e-9, 1e-21);
+    EXPECT_EQ(drag_to_rest(thread, false), 3.0 * specimen_scales(thread).mass);
   }
-  void TearDown() override { std::remove(path_.c_str()); }
-  std::string path_ = ::testing::TempDir() + "knot_utm_centreline_" +
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
-};
+  EXPECT_EQ(drag_to_rest(nylon(), true), drag_to_rest(nylon(), false));
+}
 
-TEST_F(CentrelineFile, HeadingsCommentsAndEmptyRowsArePassedOver) {
-  const Points points = read_centreline(write("x,y,z\nm,m,m\n# arch\n0,0,0\n\n0, 0, 1e-2\r\n0,1,+2\n-1,1,2\n"));
-  ASSERT_EQ(points.cols(), 4);
-  EXPECT_EQ(points.col(1), Vec3(0.0, 0.0, 0.01));
-  EXPECT_EQ(points.col(3), Vec3(-1.0, 1.0, 2.0));
+TEST(SpecimenScales, ASlackLoopSpringsFast) {
+  const Material material = nylon();
+  const double h = material.radius, tight = 100.0 * h, slack = 1000.0 * h, radius = slack / (2.0 * M_PI);
+  EXPECT_EQ(inertia_factor(material, {}, tight), inertia_factor(material, {}, 0.0));
+  const SpecimenScales moving = specimen_scales(as_it_moves(material, {}, slack));
+  EXPECT_NEAR(radius * radius * std::sqrt(moving.mass / material.bending_stiffness), 0.1, 1e-12);
 }
 
 }  // namespace

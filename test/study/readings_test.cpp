@@ -95,20 +95,5 @@ TEST_F(OfThePlateau, ASpecimenOfABatchEndsWithIt) {
   EXPECT_EQ(options_of_run(batch.folder), "--readings plateau");
 }
 
-TEST_F(OfThePlateau, ATestThatCanHaveNoneIsRefusedAndNothingIsWritten) {
-  const std::string untied = "program=[{mount: {}}, {pull: {until: {extension: 0.1}}}]";
-  for (const Method& method :
-       {shipped("overhand"), shipped("straight"), shipped("capstan"), shipped("tighten", {untied}),
-        shipped("tighten", {"machine.grips=nodes"}), shipped("tighten", {"program=[{tie: {}}, {release: {}}]"})}) {
-    try {
-      run(method, "refused", Readings::kPlateau);
-      ADD_FAILURE() << "not refused";
-    } catch (const InvalidInput& invalid) {
-      EXPECT_THAT(invalid.what(), HasSubstr("--readings plateau: this test has no plateau"));
-    }
-    EXPECT_FALSE(fs::exists(in("refused")));
-  }
-}
-
 }  // namespace
 }  // namespace knot_utm

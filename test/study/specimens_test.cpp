@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
+#include "complaint.hpp"
 #include "knot_utm/analysis/statistics.hpp"
 #include "knot_utm/method/method_keys.hpp"
-#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {
@@ -23,12 +22,7 @@ Method straight(const std::string& specimens) {
 }
 
 std::string refused(const std::string& method, const std::vector<std::string>& overrides) {
-  try {
-    draw_specimens(load_method(kConfig + method, overrides));
-  } catch (const InvalidInput& invalid) {
-    return invalid.what();
-  }
-  return "";
+  return complaint_of([&] { draw_specimens(load_method(kConfig + method, overrides)); });
 }
 
 TEST(Specimens, OneIsDrawnAsAmongAllOthers) {
@@ -70,15 +64,6 @@ TEST(Specimens, AreDrawnWithTheSpreadThatTheMethodSays) {
   EXPECT_NEAR(*density.mean, 0.0, 0.2 * of_mean);
 }
 
-TEST(Specimens, StayTheSameHoweverManyThereAreAndWhateverElseScatters) {
-  const auto few = draw_specimens(straight("{count: 3, scatter: {specimen.length: {normal: 0.02}}}"));
-  const auto many = draw_specimens(
-      straight("{count: 9, scatter: {material.radius: {normal: 0.02}, specimen.length: {normal: 0.02}}}"));
-  for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(few[i].method.specimen.length, many[i].method.specimen.length);
-  const auto other = draw_specimens(straight("{count: 3, seed: 2, scatter: {specimen.length: {normal: 0.02}}}"));
-  EXPECT_NE(few[0].method.specimen.length, other[0].method.specimen.length);
-}
-
 /// No number of specimens averages the cell's systematic error out, as in a laboratory.
 TEST(Specimens, AreReadByOneCellWithNoiseOfItsOwnForEach) {
   const auto drawn = draw_specimens(straight("{count: 2}")), others = draw_specimens(straight("{count: 2, seed: 2}"));
@@ -101,14 +86,6 @@ TEST(Specimens, AreThoseOfTheMethodThatIsWritten) {
   }
 }
 
-/// A key of the chosen law that the method leaves out has its plain value, which scatters.
-TEST(Specimens, MayDifferInAKeyThatIsLeftOut) {
-  EXPECT_EQ(refused("tighten.yaml", {"specimens.count=2", "specimens.scatter={material.stick_ratio: {normal: 0.1}}"}),
-            "");
-  EXPECT_THAT(refused("tighten.yaml", {"specimens.count=2", "specimens.scatter={material.hardening: {normal: 0.1}}"}),
-              HasSubstr("material.hardening"));
-}
-
 TEST(Specimens, AreRefusedBeforeAnyIsTested) {
   const std::string scatter = "specimens.scatter=";
   EXPECT_THAT(refused("straight.yaml", {"specimens.count=2", scatter + "{specimen.lenght: {normal: 0.1}}"}),
@@ -121,17 +98,6 @@ TEST(Specimens, AreRefusedBeforeAnyIsTested) {
   EXPECT_THAT(refused("straight.yaml", {"specimens.cuont=2"}), HasSubstr("did you mean specimens.count?"));
   EXPECT_THAT(refused("tighten.yaml", {"specimens.count=50", scatter + "{specimen.knot_distance: {normal: 0.3}}"}),
               AllOf(HasSubstr("cannot be made"), HasSubstr("specimen.")));
-}
-
-TEST(KeyUnits, AreThoseOfTheMethodsKeys) {
-  const Method method = load_method(kConfig + "tighten.yaml");
-  EXPECT_EQ(unit_of_key(method, "specimen.knot_distance"), "m");
-  EXPECT_EQ(unit_of_key(method, "material.bending_stiffness"), "N m2");
-  EXPECT_EQ(unit_of_key(method, "program.pull.speed"), "m/s");
-  EXPECT_EQ(unit_of_key(method, "program.0.tie.speed"), "m/s");
-  EXPECT_EQ(unit_of_key(method, "machine.load_cell.sampling_rate"), "Hz");
-  EXPECT_EQ(unit_of_key(method, "specimen.handedness"), "");
-  EXPECT_EQ(unit_of_key(method, "specimen.no_key"), "");
 }
 
 }  // namespace

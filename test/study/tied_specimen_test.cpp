@@ -189,24 +189,6 @@ TEST_F(TiedFromFile, IsWhatTheFileOfItsKnotSays) {
   EXPECT_NE(depends_on("a.yaml", moved), first);
 }
 
-TEST(TiedFrom, SaysStepAndReadingsToo) {
-  const std::string from = tied_from(quick(), 3, false);
-  EXPECT_GT(from.size(), 1000u);
-  EXPECT_EQ(from, tied_from(quick(), 3, false));
-  EXPECT_NE(from, tied_from(quick(), 3, true));
-  EXPECT_NE(from, tied_from(quick(), 2, false));
-}
-
-TEST(StepAfterTying, IsTheFirstThatDoesSomethingElse) {
-  const auto after = [](const Program& program) { return step_after_tying(program); };
-  EXPECT_EQ(after({TieStep(), ReleaseStep(), MountStep(), BalanceStep(), PullStep()}), 3);
-  EXPECT_EQ(after({TieStep(), PullStep()}), 1);
-  EXPECT_EQ(after({TieStep(), ReleaseStep(), HoldStep(), MountStep(), PreloadStep(), PullStep()}), 4);
-  EXPECT_EQ(after({TieStep(), ReleaseStep(), MountStep(), HoldStep()}), std::nullopt) << "nothing follows";
-  EXPECT_EQ(after({BalanceStep(), PullStep()}), std::nullopt);
-  EXPECT_EQ(after({HoldStep(), PullStep()}), std::nullopt) << "nothing is tied";
-}
-
 class CachedTool : public OwnFolder {
  protected:
   static std::string line(const std::string& out, const std::string& more = "") {

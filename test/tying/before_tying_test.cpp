@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <memory>
-
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "rod/materials.hpp"
@@ -43,12 +40,6 @@ double bending_force(const Material& material) {
   return material.bending_stiffness / (material.radius * material.radius);
 }
 
-TEST(BeforeTying, NothingIsSaidOfTheShippedRope) {
-  const Loop loop;
-  EXPECT_EQ(loop.refused(), "");
-  EXPECT_THAT(loop.warnings(), IsEmpty());
-}
-
 TEST(BeforeTying, APreloadThatStretchesTheRodToMoreThanSixTimesItsLengthIsRefused) {
   for (const auto& [law, largest] : {std::pair(0, 5.0), std::pair(1, (6.0 - 1.0 / 36.0) / 3.0)}) {
     Loop loop;
@@ -67,30 +58,6 @@ TEST(BeforeTying, WithoutFrictionACoilClosesAtAnEighthOfTheBendingForce) {
   EXPECT_DOUBLE_EQ(closing_preload(loop.material), bending_force(loop.material) / 8.0);
   EXPECT_DOUBLE_EQ(coil_radius(loop.material, closing_preload(loop.material)), 2.0 * loop.material.radius);
   EXPECT_NEAR(coil_radius(loop.material, 0.5 * bending_force(loop.material)), loop.material.radius, 1e-12);
-}
-
-TEST(BeforeTying, APreloadThatLeavesTheCoilsOpenIsAWarning) {
-  Loop loop;
-  loop.specimen.preload = 0.5 * closing_preload(loop.material);
-  EXPECT_EQ(loop.refused(), "");
-  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("leaves the coils open, at a radius of about 2.83 radii")));
-}
-
-/// A figure-eight has no free end: a pre-load can be neither too large nor too small where nothing is pulled with it.
-TEST(BeforeTying, NothingIsSaidOfThePreloadOfAKnotThatNothingTies) {
-  Loop loop;
-  KnotDrawing drawing;
-  loop.specimen.preload = 1e-3 * closing_preload(loop.material);
-  for (const bool pulled : {true, false}) {
-    drawing.tie.assign(pulled ? 1 : 0, {{"tail", 1.0}});
-    loop.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
-    EXPECT_EQ(loop.refused(), pulled ? "specimen.preload" : "");
-    EXPECT_EQ(loop.warnings().empty(), !pulled);
-    EXPECT_EQ(preload_acts(loop.specimen), pulled);
-  }
-  drawing.weights = {{"tail", 0.1}};
-  loop.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
-  EXPECT_TRUE(preload_acts(loop.specimen));
 }
 
 TEST(BeforeTying, APreloadThatMovesNoCoilIsRefused) {
@@ -117,28 +84,6 @@ TEST(BeforeTying, AStrainThatTheLooseCoilHasAlreadyIsRefusedAndThatOfATiedOneIsA
   EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("up to 1.67 times what parts them (material.breaking)")));
   parts_at(0.6);
   EXPECT_THAT(loop.warnings(), IsEmpty());
-}
-
-TEST(BeforeTying, ARodThatYieldsIsAWarning) {
-  Loop loop;
-  loop.material.yield_strain = 0.07;
-  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("the material yields at a strain of 0.07")));
-  loop.material.yield_strain.reset();
-  loop.material.stretching_stiffness = 4.0 * bending_force(loop.material);
-  loop.specimen.preload = 10.0 * bending_force(loop.material);
-  EXPECT_THAT(loop.warnings(), testing::Contains(HasSubstr("stretches the rod to 3.5 times its length")));
-}
-
-TEST(BeforeTying, EdgesTooLongForTheBendsOfARopeAreAWarning) {
-  Loop loop;
-  loop.specimen.refinement = 1.0;
-  EXPECT_THAT(
-      loop.warnings(),
-      ElementsAre(HasSubstr(
-          "edges of 1.01 radii are too long for the bends of a tied knot, in which the rod turns by 0.504 rad")));
-  loop.material.stretching_stiffness =
-      4.0 * loop.material.bending_stiffness / (loop.material.radius * loop.material.radius);
-  EXPECT_THAT(loop.warnings(), Not(testing::Contains(HasSubstr("edges of"))));
 }
 
 }  // namespace

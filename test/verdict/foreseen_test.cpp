@@ -7,6 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "knot_utm/verdict/verdict.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #include "run/command.hpp"
 
@@ -43,13 +45,6 @@ TEST(Foreseen, KnotsThatAreTiedNearTheRollers) {
       << "there are no rollers";
 }
 
-TEST(Foreseen, NoShippedRodIsAskedAbout) {
-  for (const auto& entry : std::filesystem::directory_iterator(kConfig + "materials/"))
-    EXPECT_THAT(warnings_of("straight", {"material=" + entry.path().string(), "program=[{hold: {duration: 1}}]"}),
-                IsEmpty())
-        << entry.path();
-}
-
 TEST(Foreseen, SlipsOfUnitsAreAskedAbout) {
   const auto asked = [](const std::string& key, const std::string& value) {
     std::vector<std::string> settings = {"program=[{hold: {duration: 1}}]", "material." + key + "=" + value};
@@ -76,18 +71,40 @@ TEST(SpeedWarnings, SayThatKnotsAreTiedInHaste) {
               ElementsAre(HasSubstr("tied at 31.5 radii a second, by default at " + by_default + ";")));
 }
 
-TEST(SpeedWarnings, SayThatALoopIsPulledInHaste) {
-  EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.pull.speed=0.016"})), IsEmpty());
-  EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.pull.speed=0.033"})),
-              ElementsAre(HasSubstr("pulled at 10.4 radii a second, as shipped at 1.04;")));
-  EXPECT_THAT(speed_warnings(load_method(kConfig + "straight.yaml", {"program.pull.speed=0.1"})), IsEmpty());
+YamlLines results() {
+  YamlLines lines;
+  lines.number("peak_force", 60.0);
+  lines.number("lock_extension", std::nullopt);
+  lines.count("steps", 7);
+  return lines;
 }
 
-TEST(Foreseen, CheckSaysIt) {
-  const Answer answer = answer_of(tool("tensile_test", "straight --check --set material.density=100"));
-  EXPECT_EQ(answer.code, 0);
-  EXPECT_THAT(answer.text, HasSubstr("tensile_test: material.density is 100 kg/m3"));
-  EXPECT_THAT(answer.text, HasSubstr("g/m at a diameter of 6.35 mm, E = 2.32 GPa"));
+TEST(Verdict, IsNoneWhereNothingWasAskedFor) { EXPECT_EQ(verdict({}, results()).passed, std::nullopt); }
+
+TEST(Verdict, LimitsThemselvesAreAllowed) {
+  const Verdict found = verdict({{"peak_force", 60.0, 60.0}, {"steps", std::nullopt, 7.0}}, results());
+  EXPECT_EQ(found.passed, true);
+  EXPECT_THAT(found.failed, IsEmpty());
+}
+
+TEST(Verdict, SaysOfEachRequirementWhyItIsNotMet) {
+  const Verdict found = verdict({{"peak_force", 61.5, std::nullopt},
+                                 {"steps", 8.0, 9.0},
+                                 {"peak_force", std::nullopt, 59.0},
+                                 {"lock_extension", std::nullopt, 0.1}},
+                                results());
+  EXPECT_EQ(found.passed, false);
+  EXPECT_THAT(found.failed, ElementsAre("peak_force is 60, less than the least that is allowed, 61.5",
+                                        "steps is 7, less than the least that is allowed, 8",
+                                        "peak_force is 60, more than the most that is allowed, 59",
+                                        "lock_extension has no value in this test"));
+}
+
+TEST(Specification, MayNameNumbersOfTheResultOnly) {
+  for (const char* key : {"peak_force", "plateau_force", "lock_extension", "untangled_at", "steps", "wall_time"})
+    EXPECT_NO_THROW(check_specification({{key, 1.0, {}}})) << key;
+  for (const char* key : {"motion_pattern", "warnings", "knot_type_preserved", "excess_length", "version"})
+    EXPECT_THROW(check_specification({{key, 1.0, {}}}), InvalidInput) << key;
 }
 
 }  // namespace

@@ -21,7 +21,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 /// Results, the facts beside them, and what is said of both.
 struct Told : testing::Test {
@@ -102,15 +101,6 @@ TEST_F(ResultYaml, SaysThatAFastBreakIsOffByWhatPassesTheStrength) {
   }
 }
 
-/// "8 +- 1777 N" says nothing.
-TEST_F(ResultYaml, LeavesOutErrorsOfMoreThanHalfOfTheReading) {
-  results.curve.plateau_force = results.true_plateau_force = 8.0;
-  facts.errors = {0.4, 0.6, 0.02};
-  results.lock_extension = 0.1;
-  EXPECT_TRUE(says("plateau_force_error: 3.2"));
-  EXPECT_TRUE(says("lock_extension_error: null  # unknown: the estimate is more than half of"));
-}
-
 /// Where strands roll they were studied: plateau and lock have larger errors, the stiffness has none.
 TEST_F(ResultYaml, HasLargerErrorsOfHardlyClosedKnotsWhoseStrandsRoll) {
   facts.material.radius = 1e-3;
@@ -179,70 +169,6 @@ TEST_F(ResultYaml, HasAnErrorOfTheLargestLoadOfAKnotFromAFileUnlessARopeNearlyLo
   EXPECT_TRUE(says("peak_force_error: 4\n")) << "of a solid rod";
 }
 
-/// At rest both grips bear the same, apart from the rod's weight.
-TEST_F(ResultYaml, SaysWhetherThePullBeganAtRest) {
-  results.true_peak_force = 31.0;
-  for (const GripForces& same : {GripForces{0.41, 0.40}, GripForces{0.01, 0.0}, GripForces{0.0, 0.0}}) {
-    results.at_start = same;
-    EXPECT_TRUE(says("not_equilibrated: false")) << same.upper << " " << same.lower;
-  }
-  results.at_start = GripForces{0.41, 0.067};
-  EXPECT_TRUE(says("not_equilibrated: true"));
-  EXPECT_THAT(printed(), ElementsAre(HasSubstr("0.41 and 0.067 N")));
-  facts.weight = 0.1;  // may make them differ by twice as much
-  EXPECT_THAT(printed(), ElementsAre(HasSubstr("which at rest differ by at most 0.2 N")));
-  facts.weight = 0.2;
-  EXPECT_TRUE(says("not_equilibrated: false"));
-  facts.weight = 0.0;
-  results.true_peak_force = 1000.0;  // beside which nobody sees it
-  EXPECT_TRUE(says("not_equilibrated: false"));
-  results.true_plateau_force = 5.0;
-  EXPECT_TRUE(says("not_equilibrated: true"));
-  results.at_start.reset();
-  EXPECT_TRUE(says("not_equilibrated: false"));
-}
-
-/// No reader takes "-0" for nothing.
-TEST_F(ResultYaml, HasNoNegativeNothing) {
-  results.balance_offset = -0.0;
-  EXPECT_TRUE(says("balance_offset: 0\n"));
-}
-
-TEST_F(ResultYaml, SaysHowWideAHoleAKnotKeeps) {
-  EXPECT_TRUE(says("knotability: null  # the specimen is no strand with one knot"));
-  facts.one_knot_in_a_strand = true;
-  facts.material.radius = 0.25;
-  facts.knot_hole = 0.75;
-  EXPECT_TRUE(says("knotability: 1.5\n"));
-  EXPECT_TRUE(says("knot_inner_diameter: 0.75\n"));
-  facts.knot_hole.reset();
-  EXPECT_TRUE(says("knotability: null  # the test does not end with a hold"));
-  facts.ends_with_hold = true;
-  EXPECT_TRUE(says("knotability: null  # no shape"));
-  results.knot_type = KnotType::kChanged;
-  EXPECT_TRUE(says("knotability: null  # the knot is another one"));
-  results.break_place = BreakPlace::kStrand;
-  EXPECT_TRUE(says("knotability: null  # the rod broke"));
-}
-
-TEST_F(ResultYaml, QuotesTextsOnOneLine) {
-  facts.reason = "a \"quoted\"\nreason: with # signs";
-  facts.warnings = {"one", "two, three"};
-  EXPECT_EQ((*this)["reason"].as<std::string>(), "a \"quoted\" reason: with # signs");
-  EXPECT_EQ((*this)["warnings"][1].as<std::string>(), "two, three");
-}
-
-/// What a convergence study says of a knot that holds is not said of one that jumped open.
-TEST_F(ResultYaml, AKnotThatJumpedOpenHasNoErrors) {
-  results.lock_extension = 0.05;
-  results.curve.locked_stiffness = 1e5;
-  facts.errors = {0.1, 0.1, 0.1};
-  EXPECT_DOUBLE_EQ(number("lock_extension_error"), 0.005);
-  results.curve.jump_force = results.curve.jump_extension = results.curve.force_after_jump = 1.0;
-  for (const char* key : {"plateau_force_error", "lock_extension_error", "locked_stiffness_error"})
-    EXPECT_TRUE(says(std::string(key) + ": null  # unknown: a knot jumped open"));
-}
-
 /// Beside what mesh and tolerances move, which is all that a convergence study tells.
 TEST_F(ResultYaml, WhatSpeedTakesOfTheForceIsInTheErrorsOfForces) {
   results.true_plateau_force = 5.0;
@@ -291,16 +217,6 @@ TEST_F(ResultYaml, TheNoiseOfTheLoadCellIsInTheErrorOfAStiffness) {
   }
   EXPECT_GT(within, 0.92 * kDraws);
   EXPECT_LT(within, 0.99 * kDraws);
-}
-
-/// Locks are studied that the knots have come to.
-TEST_F(ResultYaml, AStiffnessReadWhileTheKnotsStillSlideHasNoError) {
-  results.curve.lock_extension_by_load = 0.0847;
-  results.curve.locked_stiffness = 1.9e4;
-  facts.errors = {0.1, 0.1, 0.1};
-  EXPECT_TRUE(says("locked_stiffness_error: null  # the knots still slid at the end of the pull\n"));
-  results.lock_extension = 0.085;
-  EXPECT_DOUBLE_EQ(number("locked_stiffness_error"), 1.9e3);
 }
 
 /// A pull that ended as its plateau was settled has no peak, and nobody expected a lock of it.
@@ -375,27 +291,6 @@ TEST_F(Warnings, BeginAtTheirLimits) {
       limit.set(results, share * limit.at);
       EXPECT_EQ(testing::Matches(Contains(HasSubstr(limit.words)))(warnings()), share > 1.0) << limit.words;
     }
-}
-
-/// A free loop of the radius R bears 2 T R^2 = k_b: at 0.05 k_b/h^2 it is 3.16 h.
-TEST_F(Warnings, TellOfAnOverhandThatWasNotPulledTight) {
-  results.motion_pattern = MotionPattern::kNone;
-  facts.one_knot_in_a_strand = true;
-  facts.material.radius = 0.002;
-  facts.material.bending_stiffness = 4e-6;  // k_b/h^2 is 1 N
-  results.true_peak_force = 0.13;
-  EXPECT_THAT(printed(), IsEmpty());
-  results.true_peak_force = 0.05;
-  EXPECT_THAT(printed(), ElementsAre(HasSubstr("a radius of at least 3.16 radii of the rod")));
-  facts.knot_hole = 0.005;
-  EXPECT_THAT(printed(), IsEmpty()) << "which is measured";
-}
-
-TEST_F(Warnings, TellOfAPlateauThatMayNotBeOne) {
-  results.true_plateau_force = 3.8;
-  EXPECT_THAT(printed(), ElementsAre(HasSubstr("the pull ended while the knots still slid")));
-  results.lock_extension = 0.08;
-  EXPECT_THAT(printed(), IsEmpty());
 }
 
 TEST_F(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {

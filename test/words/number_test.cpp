@@ -4,9 +4,10 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <sstream>
 
 #include "knot_utm/words/known_names.hpp"
+#include "knot_utm/words/text_rows.hpp"
 
 namespace knot_utm {
 namespace {
@@ -35,23 +36,7 @@ TEST(Number, WhatIsNoOrdinaryNumber) {
   }
 }
 
-TEST(Number, OfThreeDigitsIsPlainWherePeopleWriteItSo) {
-  for (const auto& [value, text] :
-       {std::pair{1000.5, "1000"}, std::pair{-1968.4, "-1970"}, std::pair{999.9, "1000"}, std::pair{123456.0, "123000"},
-        std::pair{1e5, "100000"}, std::pair{0.12345, "0.123"}, std::pair{1.5e6, "1.5e+06"}, std::pair{2e-7, "2e-07"},
-        std::pair{-0.0, "0"}})
-    EXPECT_EQ(short_number(value), text);
-  EXPECT_EQ(short_number(-kInfinity), "-inf");
-}
-
 const std::vector<std::string> kKeys{"knot", "handedness", "preload", "edge_length", "refinement", "tail"};
-
-TEST(KnownNames, AreListedAsOneSaysThem) {
-  EXPECT_EQ(listed({}), "");
-  EXPECT_EQ(listed({"a"}), "a");
-  EXPECT_EQ(listed({"a", "b"}), "a or b");
-  EXPECT_EQ(listed({"a", "b", "c"}, " and "), "a, b and c");
-}
 
 TEST(KnownNames, AMisspeltOneIsTakenForTheNearest) {
   EXPECT_EQ(nearest_name("prelaod", kKeys), "preload");  // swapped
@@ -69,6 +54,54 @@ TEST(KnownNames, WhatIsNearNoneIsTakenForNone) {
   EXPECT_EQ(nearest_name("no", kKeys), "");
   EXPECT_EQ(nearest_name("preload", {}), "");
   EXPECT_EQ(nearest_name(std::string(100000, 'x'), kKeys), "");
+}
+
+TEST(TextRows, AreCountedWithOrWithoutALastLineEnd) {
+  for (const char* text : {"a\n\nb", "a\n\nb\n"}) {
+    std::istringstream in(text);
+    TextRows rows(in);
+    for (const char* row : {"a", "", "b"}) {
+      ASSERT_TRUE(rows.next());
+      EXPECT_EQ(rows.text(), row);
+    }
+    EXPECT_EQ(rows.number(), 3u);
+    EXPECT_FALSE(rows.next());
+    EXPECT_EQ(rows.fault(), "");
+  }
+}
+
+TEST(TextRows, OfAFileThatIsNotThereAreNone) {
+  std::istringstream in;
+  in.setstate(std::ios::failbit);
+  EXPECT_FALSE(TextRows(in).next());
+}
+
+/// A text without end: no more of it is read than the bounds let through.
+class Endless : public std::streambuf {
+ public:
+  explicit Endless(std::size_t row) : text_(row, 'x') { text_ += '\n'; }
+
+ protected:
+  int_type underflow() override {
+    setg(text_.data(), text_.data(), text_.data() + text_.size());
+    return traits_type::to_int_type(text_.front());
+  }
+
+ private:
+  std::string text_;
+};
+
+TEST(TextRows, EndWhereABoundIsPassed) {
+  Endless many(0), wide(5000);
+  std::istream many_in(&many), wide_in(&wide);
+  TextRows many_rows(many_in), wide_rows(wide_in);
+  std::size_t count = 0;
+  while (many_rows.next()) ++count;
+  EXPECT_EQ(count, 2000000u);
+  EXPECT_EQ(many_rows.fault(), "there are more than 2000000 rows");
+  EXPECT_FALSE(many_rows.next());
+  EXPECT_FALSE(wide_rows.next());
+  EXPECT_EQ(wide_rows.fault(), "row 1 is longer than 4096 characters");
 }
 
 }  // namespace
