@@ -11,7 +11,7 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/overhand.hpp"
-#include "properties/symmetries.hpp"
+#include "properties/scene.hpp"
 
 namespace knot_utm::properties {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "knot_utm/numeric/points.hpp"
-#include "properties/symmetries.hpp"
+#include "properties/scene.hpp"
 
 namespace knot_utm::properties {
 

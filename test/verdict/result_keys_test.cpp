@@ -6,17 +6,24 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <random>
 #include <set>
 
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
+#include "knot_utm/verdict/verdict.hpp"
+#include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
+#include "run/command.hpp"
 
 namespace knot_utm {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -302,6 +309,93 @@ TEST_F(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
   EXPECT_DOUBLE_EQ(number("load_cell_error"), 0.005 * 2000.0);
   EXPECT_DOUBLE_EQ(number("plateau_load_cell_error"), 0.01 * 1000.0);
   EXPECT_THAT(warnings(), Contains("the plateau force lies below the load cell's floor of 10 N"));
+}
+
+const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
+
+std::vector<std::string> warnings_of(const std::string& name, const std::vector<std::string>& set) {
+  return foreseen_warnings(load_method(kConfig + name + ".yaml", set));
+}
+
+TEST(Foreseen, NothingIsSaidOfTheShippedMethods) {
+  for (const std::string& folder : {kConfig, kConfig + "standards/"})
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".yaml" && entry.path().filename() != "from_file.yaml") {
+        EXPECT_THAT(foreseen_warnings(load_method(entry.path().string())), IsEmpty()) << entry.path();
+      }
+}
+
+TEST(Foreseen, KnotsThatAreTiedNearTheRollers) {
+  const std::vector<std::string> set{"material=polypropylene", "specimen.knot_distance=0.2", "specimen.end_to_end="};
+  EXPECT_THAT(warnings_of("tighten", {set[0], set[1], set[2] + "0.25"}),
+              ElementsAre(AllOf(HasSubstr("specimen.end_to_end is 0.25 m, only 15.7 radii more than"),
+                                HasSubstr("from 19 radii more on, which is a specimen.end_to_end of 0.26 m"))));
+  EXPECT_THAT(warnings_of("tighten", {set[0], set[1], set[2] + "0.261"}), IsEmpty());
+  EXPECT_THAT(warnings_of("tighten", {set[0], set[1], set[2] + "0.25", "machine.grips=nodes"}),
+              testing::Each(testing::Not(HasSubstr("rollers are near"))))
+      << "there are no rollers";
+}
+
+TEST(Foreseen, SlipsOfUnitsAreAskedAbout) {
+  const auto asked = [](const std::string& key, const std::string& value) {
+    std::vector<std::string> settings = {"program=[{hold: {duration: 1}}]", "material." + key + "=" + value};
+    if (key == "bending_stiffness") settings.push_back("material.twisting_stiffness=" + value);
+    return warnings_of("straight", settings);
+  };
+  EXPECT_THAT(asked("density", "100"), ElementsAre(HasSubstr("material.density is 100 kg/m3, where cork has 200")));
+  EXPECT_THAT(asked("density", "20000"), ElementsAre(HasSubstr("is it in kg/m3")));
+  // E in MPa; that it would then also bend too stiffly needs no word.
+  EXPECT_THAT(asked("stretching_stiffness", "0.0734"),
+              ElementsAre(HasSubstr("which is E = 2.32 kPa, where rubber has 1 MPa")));
+  EXPECT_THAT(asked("bending_stiffness", "4.31e-11"), ElementsAre(HasSubstr("of that of a solid rod")));
+  EXPECT_THAT(asked("bending_stiffness", "43.1"), ElementsAre(HasSubstr("is it in N m2?")));
+  EXPECT_THAT(asked("breaking_force", "2.5"), ElementsAre(HasSubstr("at a strain of 3.41e-05: is it in N?")));
+}
+
+TEST(SpeedWarnings, SayThatKnotsAreTiedInHaste) {
+  const Method plain = load_method(kConfig + "tighten.yaml");
+  EXPECT_THAT(speed_warnings(plain), IsEmpty());
+  const std::string by_default =
+      format_number(std::round(100.0 * plain.program[0]->speed / plain.material.radius) / 100.0);
+  EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.tie.speed=0.029"})), IsEmpty());
+  EXPECT_THAT(speed_warnings(load_method(kConfig + "tighten.yaml", {"program.tie.speed=0.1"})),
+              ElementsAre(HasSubstr("tied at 31.5 radii a second, by default at " + by_default + ";")));
+}
+
+YamlLines results() {
+  YamlLines lines;
+  lines.number("peak_force", 60.0);
+  lines.number("lock_extension", std::nullopt);
+  lines.count("steps", 7);
+  return lines;
+}
+
+TEST(Verdict, IsNoneWhereNothingWasAskedFor) { EXPECT_EQ(verdict({}, results()).passed, std::nullopt); }
+
+TEST(Verdict, LimitsThemselvesAreAllowed) {
+  const Verdict found = verdict({{"peak_force", 60.0, 60.0}, {"steps", std::nullopt, 7.0}}, results());
+  EXPECT_EQ(found.passed, true);
+  EXPECT_THAT(found.failed, IsEmpty());
+}
+
+TEST(Verdict, SaysOfEachRequirementWhyItIsNotMet) {
+  const Verdict found = verdict({{"peak_force", 61.5, std::nullopt},
+                                 {"steps", 8.0, 9.0},
+                                 {"peak_force", std::nullopt, 59.0},
+                                 {"lock_extension", std::nullopt, 0.1}},
+                                results());
+  EXPECT_EQ(found.passed, false);
+  EXPECT_THAT(found.failed, ElementsAre("peak_force is 60, less than the least that is allowed, 61.5",
+                                        "steps is 7, less than the least that is allowed, 8",
+                                        "peak_force is 60, more than the most that is allowed, 59",
+                                        "lock_extension has no value in this test"));
+}
+
+TEST(Specification, MayNameNumbersOfTheResultOnly) {
+  for (const char* key : {"peak_force", "plateau_force", "lock_extension", "untangled_at", "steps", "wall_time"})
+    EXPECT_NO_THROW(check_specification({{key, 1.0, {}}})) << key;
+  for (const char* key : {"motion_pattern", "warnings", "knot_type_preserved", "excess_length", "version"})
+    EXPECT_THROW(check_specification({{key, 1.0, {}}}), InvalidInput) << key;
 }
 
 }  // namespace
