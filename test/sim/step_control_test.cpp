@@ -38,7 +38,6 @@ class ScriptedStep : public TimeStep {
     return out;
   }
   static std::string text() { return diagnosis().text(); }
-  void part(int) override {}
   Vec3 tried_reaction(int) const override { return Vec3::Zero(); }
   Vec3 tried_roller_force(int) const override { return Vec3::Zero(); }
   const StepReadings& readings() const override { throw std::logic_error("nothing is read of it"); }
