@@ -136,8 +136,8 @@ constexpr Label kLabels[] = {
 };
 
 /// The experimental keys, by their last part.
-constexpr std::array kExperimental{"natural_curvature", "hardening", "roller_rotation", "overload", "noise_run",
-                                   "load_rate", "break_at_fraction_of_peak"};
+constexpr std::array kExperimental{"natural_curvature", "hardening", "roller_rotation",          "overload",
+                                   "noise_run",         "load_rate", "break_at_fraction_of_peak"};
 
 /// Whether a key belongs to an entry of a list, or to a step that goes by its number.
 bool is_numbered(const std::string& key) {
