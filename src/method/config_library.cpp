@@ -76,6 +76,11 @@ bool is_shipped(const std::string& kind, const fs::path& file) {
   return file.parent_path().filename() == kind && comes_with_the_package(file.parent_path().parent_path());
 }
 
+YAML::Node named_map(YAML::Node map, const fs::path& file) {
+  if (map.IsMap() && !map["name"].IsDefined()) map["name"] = file.stem().string();
+  return map;
+}
+
 std::string material_name(const YAML::Node& method, const std::string& key) {
   const YAML::Node node = method[key];
   return node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
