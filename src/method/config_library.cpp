@@ -1,14 +1,12 @@
 #include "config_library.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <system_error>
 
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
-#include "knot_utm/numeric/number.hpp"
 #include "yaml_text.hpp"
 
 namespace knot_utm {
