@@ -1,7 +1,6 @@
 #include "config_library.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <system_error>
 
