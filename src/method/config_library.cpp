@@ -7,7 +7,6 @@
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/known_names.hpp"
-#include "knot_utm/words/number.hpp"
 #include "yaml_text.hpp"
 
 namespace knot_utm {
