@@ -1,14 +1,12 @@
 #include "config_library.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <system_error>
 
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/known_names.hpp"
-#include "knot_utm/words/number.hpp"
 #include "yaml_text.hpp"
 
 namespace knot_utm {
@@ -74,6 +72,11 @@ void ConfigLibrary::add(const fs::path& folder) {
 
 bool is_shipped(const std::string& kind, const fs::path& file) {
   return file.parent_path().filename() == kind && comes_with_the_package(file.parent_path().parent_path());
+}
+
+YAML::Node named_map(YAML::Node map, const fs::path& file) {
+  if (map.IsMap() && !map["name"].IsDefined()) map["name"] = file.stem().string();
+  return map;
 }
 
 std::string material_name(const YAML::Node& method, const std::string& key) {
