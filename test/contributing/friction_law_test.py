@@ -96,7 +96,7 @@ def changed(text, diff):
 class FrictionLaw(unittest.TestCase):
     def test_the_recipe_adds_a_law(self):
         with tempfile.TemporaryDirectory() as folder:
-            for room in ("numeric", "rod", "contact"):
+            for room in ("words", "numeric", "rod", "contact"):
                 shutil.copytree(f"{ROOT}/include/knot_utm/{room}", f"{folder}/include/knot_utm/{room}")
                 shutil.copytree(f"{ROOT}/src/{room}", f"{folder}/src/{room}")
             (law, example), (registry, diff) = recipe()
