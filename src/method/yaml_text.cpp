@@ -1,10 +1,9 @@
 #include "yaml_text.hpp"
 
-#include <unicode/ustring.h>
 #include <yaml-cpp/depthguard.h>
 
+#include <boost/locale/utf.hpp>
 #include <cctype>
-#include <cstdint>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -38,13 +37,13 @@ bool ends_too_early(const YAML::ParserException& fault) {
 int line_of_other_encoding(const std::string& text) {
   if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 || text.find('\0') != std::string::npos)
     return 0;
+  using utf = boost::locale::utf::utf_traits<char>;
+  namespace marks = boost::locale::utf;
   std::istringstream lines(text);
   int number = 1;
   for (std::string line; std::getline(lines, line); ++number) {
-    UErrorCode error = U_ZERO_ERROR;
-    std::int32_t length = 0;
-    u_strFromUTF8(nullptr, 0, &length, line.data(), static_cast<std::int32_t>(line.size()), &error);
-    if (error == U_INVALID_CHAR_FOUND) return number;
+    for (auto at = line.cbegin(); at != line.cend();)
+      if (utf::decode(at, line.cend()) >= marks::incomplete) return number;
   }
   return 0;
 }
