@@ -1,17 +1,142 @@
 #include "config_library.hpp"
 
+#include <unicode/ustring.h>
+#include <yaml-cpp/depthguard.h>
+
 #include <algorithm>
-#include <array>
+#include <cctype>
+#include <cstdint>
+#include <fstream>
+#include <map>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
-#include "yaml_text.hpp"
 
 namespace knot_utm {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether the line, from 0 on, has a tab before its first word. yaml-cpp does not always say that this is what is
+/// wrong.
+bool has_tab_in_indentation(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string read;
+  for (int i = 0; i <= line; ++i) std::getline(lines, read);
+  return read.substr(0, read.find_first_not_of(" \t")).find('\t') != std::string::npos;
+}
+
+/// Whether a list, a map or a text in quotes has no end. Within them tabs are allowed.
+bool ends_too_early(const YAML::ParserException& fault) {
+  namespace Said = YAML::ErrorMsg;
+  return fault.msg == Said::END_OF_SEQ_FLOW || fault.msg == Said::END_OF_MAP_FLOW || fault.msg == Said::EOF_IN_SCALAR;
+}
+
+/// The first line, from 1 on, that is no UTF-8; 0: all are, or a byte order mark says that it is another encoding of
+/// Unicode, which yaml-cpp reads.
+int line_of_other_encoding(const std::string& text) {
+  if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 || text.find('\0') != std::string::npos)
+    return 0;
+  std::istringstream lines(text);
+  int number = 1;
+  for (std::string line; std::getline(lines, line); ++number) {
+    UErrorCode error = U_ZERO_ERROR;
+    std::int32_t length = 0;
+    u_strFromUTF8(nullptr, 0, &length, line.data(), static_cast<std::int32_t>(line.size()), &error);
+    if (error == U_INVALID_CHAR_FOUND) return number;
+  }
+  return 0;
+}
+
+/// Whether a document follows the first one, of which alone YAML::Load would tell. (LoadAll never ends on some faulty
+/// texts.) A line that begins with --- or ... is a mark between documents wherever it stands.
+bool holds_another_document(const std::string& text) {
+  std::istringstream lines(text);
+  bool begun = false, ended = false;
+  for (std::string line; std::getline(lines, line);) {
+    const auto marks = [&](const char* mark) {
+      return line.rfind(mark, 0) == 0 && (line.size() == 3 || std::isspace(static_cast<unsigned char>(line[3])) != 0);
+    };
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (marks("...")) {
+      ended = begun;
+    } else if (marks("---")) {
+      if (begun) return true;
+      begun = true;
+    } else if (first != std::string::npos && line[first] != '#' && line[0] != '%') {
+      if (ended) return true;
+      begun = true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string yaml_fault(const YAML::Exception& fault) {
+  if (dynamic_cast<const YAML::DeepRecursion*>(&fault) != nullptr) return "maps and lists are nested too deeply";
+  namespace Said = YAML::ErrorMsg;
+  static const std::map<std::string, std::string> kPlain{
+      {Said::END_OF_SEQ_FLOW, "a list begins with \"[\" and has no \"]\""},
+      {Said::END_OF_MAP_FLOW, "a map begins with \"{\" and has no \"}\""},
+      {Said::FLOW_END, "a \"]\" or \"}\" has nothing that it ends"},
+      {Said::END_OF_MAP, "this line is neither a key of the map above it nor indented as a part of it"},
+      {Said::END_OF_SEQ, "this line is neither an entry of the list above it nor indented as a part of it"},
+      {Said::MAP_VALUE, "a colon stands where no value can begin; put text with a colon in quotes"},
+      {Said::MAP_KEY, "a key stands where none can begin"},
+      {Said::BLOCK_ENTRY, "a list begins with \"-\" where none can begin; put it on a line of its own"},
+      {Said::EOF_IN_SCALAR, "the file ends within a text in quotes; a quote is missing"},
+      {Said::TAB_IN_INDENTATION, "the line is indented by a tab; use blanks"},
+      {Said::UNKNOWN_TOKEN, "a character stands here that YAML does not know here; put the text in quotes"},
+      {Said::UNKNOWN_ANCHOR, "an alias (*name) has no anchor (&name) before it"}};
+  const auto plain = kPlain.find(fault.msg);
+  return plain == kPlain.end() ? shown(fault.msg) : plain->second;
+}
+
+YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  if (text.size() > kLongestText) {
+    const std::string most = std::to_string(kLongestText) + " characters";
+    throw InvalidInput::sentence("file", file,
+                                 "the file is longer than " + most + ", and no method, knot, material or load cell is")
+        .in_file(file);
+  }
+  if (const int line = line_of_other_encoding(text); line > 0)
+    throw InvalidInput::sentence("file", file,
+                                 "line " + std::to_string(line) + ": a letter is not in UTF-8; save the file as UTF-8")
+        .in_file(file);
+  if (holds_another_document(text))
+    throw InvalidInput::sentence("file", file,
+                                 "the file holds several YAML documents, but must be one: take away its lines \"---\"")
+        .in_file(file);
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::ParserException& parser) {
+    const std::string place =
+        "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);
+    const bool tab = !ends_too_early(parser) && has_tab_in_indentation(text, parser.mark.line);
+    const std::string fault =
+        tab ? yaml_fault(YAML::ParserException(parser.mark, YAML::ErrorMsg::TAB_IN_INDENTATION)) : yaml_fault(parser);
+    throw InvalidInput::sentence(place, parser.msg, place + ": " + fault).in_file(file);
+  }
+}
+
+std::string read_text(const fs::path& file) {
+  std::error_code error;
+  std::ifstream in;
+  if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary);
+  if (!in.is_open()) throw InvalidInput::cannot_read(file.string());
+  std::string text(kLongestText + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+YAML::Node read_yaml(const fs::path& file) { return parse_yaml(read_text(file), file.string()); }
 
 namespace fs = std::filesystem;
 

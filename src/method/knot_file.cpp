@@ -9,13 +9,11 @@
 #include "knot_utm/record/per_knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
 #include "method_reader.hpp"
-#include "yaml_text.hpp"
+#include "config_library.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 using fields::as_given;

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -17,7 +16,6 @@
 
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
 #include "method_fields.hpp"
 

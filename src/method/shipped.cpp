@@ -12,7 +12,6 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 
 namespace knot_utm {
 namespace {

@@ -2,15 +2,11 @@
 
 #include <zlib.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cstring>
-#include <utility>
 
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr std::size_t kLengthBytes = 8, kSumBytes = 4;

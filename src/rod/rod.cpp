@@ -8,7 +8,6 @@
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 void require_size(const char* key, Eigen::Index size, Eigen::Index expected) {

@@ -17,7 +17,7 @@
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/run/load_test.hpp"
-#include "knot_utm/study/specimens.hpp"
+#include "knot_utm/study/batch.hpp"
 #include "knot_utm/verdict/run_facts.hpp"
 #include "knot_utm/words/number.hpp"
 

@@ -5,10 +5,9 @@
 #include <system_error>
 
 #include "knot_utm/program/loading_steps.hpp"
-#include "knot_utm/run/curve_file.hpp"
+#include "knot_utm/run/csv.hpp"
 #include "knot_utm/verdict/verdict.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
 
 namespace knot_utm {

@@ -16,7 +16,7 @@
 
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample_fields.hpp"
-#include "knot_utm/run/cannot_write.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 

@@ -1,7 +1,6 @@
 #include "knot_utm/sim/time_step.hpp"
 
 #include "diagnose_step.hpp"
-#include "examine_step.hpp"
 #include "increment.hpp"
 #include "increment_solver.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
@@ -11,7 +10,6 @@
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 /// One step from its beginning to its end: the equation is solved (increment.hpp, increment_solver.hpp), what it would

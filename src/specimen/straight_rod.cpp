@@ -4,10 +4,9 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
-#include "shape_checks.hpp"
+#include "path.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kShippedLength = 0.25;  // of the shipped method, for the paper's radius [m]

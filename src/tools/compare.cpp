@@ -13,19 +13,15 @@
 #include <vector>
 
 #include "knot_utm/analysis/comparison.hpp"
-#include "knot_utm/analysis/raw_zero.hpp"
-#include "knot_utm/run/cannot_write.hpp"
-#include "knot_utm/run/command_hint.hpp"
-#include "knot_utm/run/curve_file.hpp"
+#include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/report.hpp"
 #include "knot_utm/run/summary.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif
-#include "make_report.hpp"
 #include "run_python.hpp"
 #include "tool.hpp"
 

@@ -1,7 +1,6 @@
 #include "knot_utm/verdict/result_keys.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "knot_utm/breaking/breaking_laws.hpp"

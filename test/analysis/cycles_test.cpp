@@ -1,4 +1,4 @@
-#include "knot_utm/analysis/cycles.hpp"
+#include "knot_utm/analysis/pull_readings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The zero of raw data: a curve that is held against itself as a machine would have recorded it differs by rounding.
 
-#include "knot_utm/analysis/raw_zero.hpp"
+#include "knot_utm/analysis/comparison.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,6 @@
 #include <limits>
 #include <random>
 
-#include "knot_utm/analysis/comparison.hpp"
 
 namespace knot_utm {
 namespace {

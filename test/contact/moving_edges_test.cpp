@@ -1,4 +1,4 @@
-#include "knot_utm/contact/moving_edges.hpp"
+#include "knot_utm/contact/tunnelling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/contact/moving_edges.hpp"
 
 namespace knot_utm {
 namespace {

@@ -6,13 +6,12 @@
 #include <algorithm>
 
 #include "knot_utm/breaking/breaking_laws.hpp"
-#include "knot_utm/breaking/fracture.hpp"
+#include "knot_utm/breaking/break_watch.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"

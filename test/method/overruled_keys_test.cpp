@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/verdict/foreseen.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
 
 namespace knot_utm {
 namespace {

@@ -1,7 +1,7 @@
 // How the crosshead is led to a load: that which a program asks for, and the little one at which slack is taken up,
 // whatever the specimen is like and however large the steps are.
 
-#include "knot_utm/program/load_control.hpp"
+#include "knot_utm/program/course.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/tying/take_up.hpp"
+#include "knot_utm/tying/tied_loop.hpp"
 
 namespace knot_utm {
 namespace {

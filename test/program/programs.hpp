@@ -7,7 +7,6 @@
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/program/program_runner.hpp"
-#include "knot_utm/program/run_test.hpp"
 #include "program/fake_bench.hpp"
 
 /// Steps and programs for tests of the program runner, and what a bench without a specimen answers to them.

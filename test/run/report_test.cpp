@@ -7,7 +7,6 @@
 
 #include <filesystem>
 
-#include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "run/own_folder.hpp"

@@ -1,4 +1,4 @@
-#include "knot_utm/run/shape_series.hpp"
+#include "knot_utm/run/run_writer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Rods that are curved at rest, against what they need to be held straight and what they become when free.
 
-#include "knot_utm/specimen/rest_shape.hpp"
+#include "knot_utm/specimen/centreline.hpp"
 
 #include <gtest/gtest.h>
 

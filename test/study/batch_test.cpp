@@ -10,7 +10,6 @@
 
 #include "knot_utm/analysis/statistics.hpp"
 #include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/study/specimens.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "run/own_folder.hpp"
 

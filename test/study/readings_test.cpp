@@ -1,4 +1,4 @@
-#include "knot_utm/study/readings.hpp"
+#include "knot_utm/study/headless_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "knot_utm/study/specimens.hpp"
+#include "knot_utm/study/batch.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

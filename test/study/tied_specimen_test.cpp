@@ -1,4 +1,4 @@
-#include "knot_utm/study/tied_specimen.hpp"
+#include "knot_utm/study/headless_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@
 #include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/study/headless_run.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
 

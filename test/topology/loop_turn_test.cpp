@@ -1,4 +1,4 @@
-#include "knot_utm/topology/loop_turn.hpp"
+#include "knot_utm/topology/knot_hole.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What is known of a method before it is run.
-#include "knot_utm/verdict/foreseen.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "knot_utm/words/known_names.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

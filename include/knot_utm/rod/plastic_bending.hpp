@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/numeric/law_registry.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/yielding_bend.hpp"
 #include "knot_utm/words/invalid_input.hpp"

@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -45,8 +44,8 @@ class TimeStep {
  public:
   virtual ~TimeStep() = default;
 
-  /// `state.twist` empty: the scene does not solve for twist (three unknowns a node); else four, from the frames of
-  /// the state (initialise_frames). Throws InvalidInput where rod and state do not fit together.
+  /// `state.twist` empty: the scene does not solve for twist (three unknowns a node); else four, from the frames of the
+  /// state (initialise_frames).
   static std::unique_ptr<TimeStep> make(const RodProperties& rod, const RodState& state, const StepSettings& settings);
 
   StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, SolveStrategy::kTangents); }

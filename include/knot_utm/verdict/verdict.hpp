@@ -15,7 +15,6 @@ struct Verdict {
   std::vector<std::string> failed;  ///< one line for each requirement that was not met, with the reason
 };
 
-/// Throws InvalidInput where the specification names a key that is no number of result.yaml.
 void check_specification(const Specification& specification);
 
 /// Compares the results with the specification. A number that the test does not have meets no requirement.

@@ -6,6 +6,13 @@
 
 namespace knot_utm {
 
+/// "a, b or c"; other words than " or " may stand before the last one.
+std::string listed(const std::vector<std::string>& names, const char* before_last = " or ");
+
+/// The known name that a misspelt one most likely means: the fewest letters added, left out, replaced or swapped, upper
+/// and lower case alike. Empty where none is near, or the text is too long to be a name.
+std::string nearest_name(const std::string& given, const std::vector<std::string>& known);
+
 /// Text from outside as a message shows it: on one line, without control characters, shortened where it is too long for
 /// a line.
 std::string shown(const std::string& text);
@@ -16,7 +23,7 @@ std::string reason_of(int error);
 /// Input outside what is allowed. `what()` is one line, a sentence that says what is wrong, where, and what is allowed.
 /// Its most frequent form is "KEY is VALUE, but must be ALLOWED"; the functions below make the others. A file's name
 /// stands before the sentence, "FILE: ", where it is known: whoever read the input from a file adds it with `in_file`.
-/// Whatever comes from outside is shown as `shown` does.
+/// Whatever comes from outside is shown as `shown` does. Whatever reads or checks what a user gave may throw it.
 struct InvalidInput : std::runtime_error {
   /// "specimen.turns is 7, but must be 1 to 4".
   InvalidInput(const std::string& key, const std::string& value, const std::string& allowed);
