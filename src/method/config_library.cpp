@@ -1,40 +1,31 @@
 #include "config_library.hpp"
 
-#include <unicode/ustring.h>
 #include <yaml-cpp/depthguard.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
 #include <fstream>
-#include <map>
 #include <set>
 #include <sstream>
 #include <system_error>
 
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
+namespace {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// Whether the line, from 0 on, has a tab before its first word. yaml-cpp does not always say that this is what is
-/// wrong.
-bool has_tab_in_indentation(const std::string& text, int line) {
-  std::istringstream lines(text);
-  std::string read;
-  for (int i = 0; i <= line; ++i) std::getline(lines, read);
-  return read.substr(0, read.find_first_not_of(" \t")).find('\t') != std::string::npos;
-}
-
-/// Whether a list, a map or a text in quotes has no end. Within them tabs are allowed.
-bool ends_too_early(const YAML::ParserException& fault) {
-  namespace Said = YAML::ErrorMsg;
-  return fault.msg == Said::END_OF_SEQ_FLOW || fault.msg == Said::END_OF_MAP_FLOW || fault.msg == Said::EOF_IN_SCALAR;
+/// How many bytes a letter of UTF-8 has that begins here; 0: none does.
+std::size_t letter_at(const std::string& line, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return i < line.size() ? static_cast<unsigned char>(line[i]) : 0u; };
+  const unsigned first = byte(at);
+  if (first >= 0x80 && (first < 0xC2 || first > 0xF4)) return 0;
+  const std::size_t bytes = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  for (std::size_t i = 1; i < bytes; ++i)
+    if ((byte(at + i) & 0xC0u) != 0x80u) return 0;
+  return bytes;
 }
 
 /// The first line, from 1 on, that is no UTF-8; 0: all are, or a byte order mark says that it is another encoding of
@@ -44,12 +35,9 @@ int line_of_other_encoding(const std::string& text) {
     return 0;
   std::istringstream lines(text);
   int number = 1;
-  for (std::string line; std::getline(lines, line); ++number) {
-    UErrorCode error = U_ZERO_ERROR;
-    std::int32_t length = 0;
-    u_strFromUTF8(nullptr, 0, &length, line.data(), static_cast<std::int32_t>(line.size()), &error);
-    if (error == U_INVALID_CHAR_FOUND) return number;
-  }
+  for (std::string line; std::getline(lines, line); ++number)
+    for (std::size_t at = 0, bytes; at < line.size(); at += bytes)
+      if ((bytes = letter_at(line, at)) == 0) return number;
   return 0;
 }
 
@@ -80,22 +68,7 @@ bool holds_another_document(const std::string& text) {
 
 std::string yaml_fault(const YAML::Exception& fault) {
   if (dynamic_cast<const YAML::DeepRecursion*>(&fault) != nullptr) return "maps and lists are nested too deeply";
-  namespace Said = YAML::ErrorMsg;
-  static const std::map<std::string, std::string> kPlain{
-      {Said::END_OF_SEQ_FLOW, "a list begins with \"[\" and has no \"]\""},
-      {Said::END_OF_MAP_FLOW, "a map begins with \"{\" and has no \"}\""},
-      {Said::FLOW_END, "a \"]\" or \"}\" has nothing that it ends"},
-      {Said::END_OF_MAP, "this line is neither a key of the map above it nor indented as a part of it"},
-      {Said::END_OF_SEQ, "this line is neither an entry of the list above it nor indented as a part of it"},
-      {Said::MAP_VALUE, "a colon stands where no value can begin; put text with a colon in quotes"},
-      {Said::MAP_KEY, "a key stands where none can begin"},
-      {Said::BLOCK_ENTRY, "a list begins with \"-\" where none can begin; put it on a line of its own"},
-      {Said::EOF_IN_SCALAR, "the file ends within a text in quotes; a quote is missing"},
-      {Said::TAB_IN_INDENTATION, "the line is indented by a tab; use blanks"},
-      {Said::UNKNOWN_TOKEN, "a character stands here that YAML does not know here; put the text in quotes"},
-      {Said::UNKNOWN_ANCHOR, "an alias (*name) has no anchor (&name) before it"}};
-  const auto plain = kPlain.find(fault.msg);
-  return plain == kPlain.end() ? shown(fault.msg) : plain->second;
+  return shown(fault.msg);
 }
 
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
@@ -118,10 +91,7 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   } catch (const YAML::ParserException& parser) {
     const std::string place =
         "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);
-    const bool tab = !ends_too_early(parser) && has_tab_in_indentation(text, parser.mark.line);
-    const std::string fault =
-        tab ? yaml_fault(YAML::ParserException(parser.mark, YAML::ErrorMsg::TAB_IN_INDENTATION)) : yaml_fault(parser);
-    throw InvalidInput::sentence(place, parser.msg, place + ": " + fault).in_file(file);
+    throw InvalidInput::sentence(place, parser.msg, place + ": " + yaml_fault(parser)).in_file(file);
   }
 }
 
@@ -136,9 +106,15 @@ std::string read_text(const fs::path& file) {
   return text;
 }
 
-YAML::Node read_yaml(const fs::path& file) { return parse_yaml(read_text(file), file.string()); }
+std::vector<fs::path> yaml_files(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error))
+    if (file->path().extension() == ".yaml") found.push_back(file->path());
+  return found;
+}
 
-namespace fs = std::filesystem;
+YAML::Node read_yaml(const fs::path& file) { return parse_yaml(read_text(file), file.string()); }
 
 namespace {
 
@@ -161,13 +137,9 @@ ConfigLibrary::ConfigLibrary(const fs::path& method_folder) {
 }
 
 std::vector<std::string> ConfigLibrary::names(const std::string& kind) const {
-  std::error_code error;
   std::set<std::string> known;
-  for (const fs::path& folder : folders_) {
-    for (fs::directory_iterator file(folder / kind, error), end; !error && file != end; file.increment(error)) {
-      if (file->path().extension() == ".yaml") known.insert(file->path().stem().string());
-    }
-  }
+  for (const fs::path& folder : folders_)
+    for (const fs::path& file : yaml_files(folder / kind)) known.insert(file.stem().string());
   return {known.begin(), known.end()};
 }
 
@@ -199,6 +171,11 @@ void ConfigLibrary::add(const fs::path& folder) {
 
 bool is_shipped(const std::string& kind, const fs::path& file) {
   return file.parent_path().filename() == kind && comes_with_the_package(file.parent_path().parent_path());
+}
+
+YAML::Node named_map(YAML::Node map, const fs::path& file) {
+  if (map.IsMap() && !map["name"].IsDefined()) map["name"] = file.stem().string();
+  return map;
 }
 
 std::string material_name(const YAML::Node& method, const std::string& key) {

@@ -13,7 +13,7 @@ namespace knot_utm {
 /// Longest text that is read [bytes]. Methods, materials and load cells have a few thousand characters.
 constexpr std::size_t kLongestText = 65536;
 
-/// A message for a text that is not YAML, for faults that the parser describes in terms of YAML's grammar.
+/// What is wrong with a text that is not YAML.
 std::string yaml_fault(const YAML::Exception& fault);
 
 /// Parses a text; `file` is the file that contains it.
@@ -23,6 +23,9 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file);
 std::string read_text(const std::filesystem::path& file);
 
 YAML::Node read_yaml(const std::filesystem::path& file);
+
+/// The files of a folder whose names end in .yaml; none where there is no folder.
+std::vector<std::filesystem::path> yaml_files(const std::filesystem::path& folder);
 
 /// What specimen.knot may be, for a message.
 constexpr const char* kAllowedKnot = "one of the knots that tensile_test --list knots shows, or the file of one";

@@ -110,9 +110,9 @@ class References(unittest.TestCase):
 
     def test_every_number_of_the_document_needs_a_value(self):
         listed = references.numbers_in(os.path.join(ROOT, "doc/references.md"))
-        self.assertGreaterEqual(listed, {"K7"} | {f"R{n}" for n in range(1, 12)})
-        line, = references.table_of([references.row_of("R2 test", "1 1 0")], {"R10"}).failed()
-        self.assertIn("R10: no test left a value", line)
+        self.assertGreaterEqual(listed, {"K7"} | {f"R{n}" for n in (*range(1, 10), 11)})
+        line, = references.table_of([references.row_of("R2 test", "1 1 0")], {"R9"}).failed()
+        self.assertIn("R9: no test left a value", line)
 
 
 if __name__ == "__main__":

@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
 #include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
@@ -58,32 +56,6 @@ TEST(GripBodies, ThePostOfACapstan) {
     }
     EXPECT_LT((farthest - post.half_box(kRadius)).norm(), 1e-3 * post.cylinder_radius);
   }
-}
-
-/// The pieces of a ring reach to the middle of its section, and close it.
-TEST(GripBodies, TheRingOfAStopper) {
-  KnotDrawing stopper;
-  stopper.strands = {{{"tail", "upper"}, {{0.0, 0.0, -9.0}, {0.0, 0.0, 6.0}, {0.0, 0.0, 9.0}}}};
-  stopper.upper = {"upper"};
-  stopper.posts = {{Vec3(0.0, 0.0, 1.0), Vec3(0.6, 0.0, 0.8), 1.0, 4.0}};
-  SpecimenOptions through;
-  through.knot = knot_named("a file of config/knots/");
-  through.drawing = std::make_shared<const KnotDrawing>(stopper);
-  through.end_to_end = least_end_to_end(stopper, kRadius);
-  const std::vector<GripBody> bodies = grip_bodies(through, with(GripKind::kClamps), rod());
-  const Roller ring = knot_of(through).supports(through, rod()).posts.front();
-  ASSERT_GT(bodies.size(), 12u);
-  EXPECT_EQ(bodies[1].cylinder_radius, 0.0) << "the upper clamp";
-  double around = 0.0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (i == 1) continue;
-    EXPECT_FALSE(bodies[i].goes_up);
-    EXPECT_EQ(bodies[i].cylinder_radius, ring.radius);
-    EXPECT_NEAR(beside(ring, ring.centre + bodies[i].from_grip).x.norm(), 0.0, 1e-12 * ring.ring);
-    EXPECT_NEAR(bodies[i].axis.dot(bodies[i].from_grip), 0.0, 1e-12 * ring.ring);
-    around += 2.0 * bodies[i].half_length(kRadius);
-  }
-  EXPECT_NEAR(around, 2.0 * M_PI * ring.ring, 0.02 * around) << "a polygon around the circle";
 }
 
 }  // namespace

@@ -2,17 +2,13 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 
-#include "knot_utm/contact/friction.hpp"
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/run/load_test.hpp"
-#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -24,28 +20,6 @@ using ::testing::Not;
 
 const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
 const std::string kTighten = kConfig + "tighten.yaml";
-
-TEST(Method, TightenIsThePapersTest) {
-  const Method m = load_method(kTighten);
-  EXPECT_EQ(m.name, "tighten");
-  EXPECT_EQ(m.specimen.knot, knot_named("fisherman"));
-  EXPECT_EQ(m.specimen.knot_distance, 0.15);
-  EXPECT_EQ(m.specimen.end_to_end, 0.25);
-  EXPECT_EQ(m.specimen.preload, 150.0);
-  EXPECT_EQ(m.specimen.edge_length, 0.0032);
-  EXPECT_EQ(m.material.name, "nylon");
-  EXPECT_EQ(m.machine.grips, GripKind::kRollers);
-  EXPECT_EQ(m.machine.load_cell.capacity, 50e3);
-  EXPECT_TRUE(std::isinf(m.machine.stiffness));
-  ASSERT_EQ(m.program.size(), 5u);
-  EXPECT_EQ(m.program[0]->phase(), Phase::kTie);
-  EXPECT_EQ(m.program[1]->duration, 3.0);
-  EXPECT_EQ(m.program[4]->phase(), Phase::kPull);
-  EXPECT_EQ(m.program[4]->speed, 0.0033);
-  EXPECT_EQ(m.program[4].as<PullStep>()->until.extension, 0.12);
-  EXPECT_TRUE(m.program[4].as<PullStep>()->until.broken);
-  EXPECT_STREQ(FrictionRegistry::entry(m.physics.friction.law).name, "memory");
-}
 
 struct PaperMaterial {
   const char* name;

@@ -166,28 +166,5 @@ TEST(LedSteps, GripsThatMeetEndIt) {
   EXPECT_THAT(program.reason(), HasSubstr("the grips meet"));
 }
 
-/// A frame of which half of every way remains.
-TEST(LedSteps, MeetsExtensionsOnACompliantFrameAtSpeed) {
-  struct Compliant : FakeBench {
-    Sample respond(const Command& command) {
-      Sample sample = FakeBench::respond(command);
-      sample.extension *= 0.5;
-      return sample;
-    }
-  };
-  auto cycle = step<CycleStep>(0.001);
-  cycle.extension = fields::LowHigh{0.0, 0.002};
-  cycle.cycles = 2;
-  ProgramRunner program({cycle}, 3.0, 0.1, {});
-  Compliant bench;
-  double highest = 0.0, time = 0.0;
-  run_test(bench, program, [&](const Command&, const Sample& sample) {
-    highest = std::max(highest, sample.extension);
-    time = sample.time;
-  });
-  EXPECT_NEAR(highest, 0.002, 1e-3 * 0.001 * program.period());
-  EXPECT_NEAR(time, 4 * 0.002 / (0.5 * 0.001), 8 * program.period());
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -133,5 +133,13 @@ INSTANTIATE_TEST_SUITE_P(Loads, R8OnTheMachine,
                          testing::Values(std::pair{M_PI / 2.0, 1.0}, std::pair{M_PI, 1.0}, std::pair{2.0 * M_PI, 0.2},
                                          std::pair{2.0 * M_PI, 1.0}));
 
+TEST(R15OnTheMachine, SlidesAtTheRatioOfFrictionAtTheSurface) {
+  const double wrap = 2.0 * M_PI;
+  const SpecimenOptions specimen = strand(wrap, specimen_scales(nylon()).force);
+  const double eta = nylon().radius / bend_radius(specimen);
+  hold_against("R15 on the machine, h/rho = 1/7: T2/T1", std::exp(wrap * surface_exponent(kMu, eta)),
+               pulled(specimen, 1.0).upper, 0.02);
+}
+
 }  // namespace
 }  // namespace knot_utm

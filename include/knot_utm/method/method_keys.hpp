@@ -40,7 +40,8 @@ struct MethodKey {
 /// name in words, unless the table of labels in method_keys.cpp has better ones.
 std::vector<MethodKey> method_keys();
 
-/// The same as CSV: key, label, unit, and whether it is experimental. The report reads it from `tensile_test --list-method-keys`.
+/// The same as CSV: key, label, unit, and whether it is experimental. The report reads it from `tensile_test
+/// --list-method-keys`.
 std::string method_keys_csv();
 
 /// What a report calls each knot, and the keys of `specimen` that it shows of it, as CSV: knot, title, keys. The
