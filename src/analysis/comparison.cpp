@@ -75,13 +75,6 @@ RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other) {
   return zero;
 }
 
-std::optional<RawZero> zero_of_cut(const std::vector<CurveRow>& rows, double begins_at, const Pull& other) {
-  const CurveRow first = pulled(rows).front();
-  const std::optional<double> load = load_at(other, begins_at);
-  if (!load) return std::nullopt;
-  return RawZero{first.extension - begins_at, first.load, *load};
-}
-
 std::string zero_words(const RawZero& zero) {
   const std::string place = short_number(zero.load) + " N at " + short_number(zero.extension) + " m";
   std::string there;
@@ -289,21 +282,9 @@ class Side {
 
   void balance_at_rest(const Pull& other) {
     given_ = zero_at_rest(rows(), other);
-    note(zero_words(*given_) +
-         (given_->readings > 1 ? "" : "; if the record was cut, say with --begins-at where it begins"));
+    note(zero_words(*given_));
     curve_.rows = balanced(rows(), *given_);
     require_readings();
-  }
-
-  void balance_cut(double begins_at, const Pull& other) {
-    given_ = zero_of_cut(rows(), begins_at, other);
-    if (!given_)
-      throw InvalidInput::sentence("--begins-at", format_number(begins_at),
-                                   "the other curve has no load at an extension of " + format_number(begins_at) + " m");
-    note("the first reading, " + format_number(given_->load) + " N at " + format_number(given_->extension + begins_at) +
-         " m, is taken to lie at an extension of " + format_number(begins_at) +
-         " m, where its load is set to that of the other curve, " + format_number(given_->load_there) + " N");
-    curve_.rows = balanced(rows(), *given_);
   }
 
  private:
@@ -349,30 +330,18 @@ class Side {
   std::optional<RawZero> given_;
 };
 
-/// Raw data alone: a curve of ours has its zero.
-void balance(const ZeroWanted& wanted, Side& a, Side& b, const Tell& tell) {
-  if (wanted.balance && a.has_zero() && b.has_zero())
-    tell("--balance changes nothing, since both curves are of knot_utm and have their zero");
-  Side& raw = a.has_zero() ? b : a;
-  const Side& other = a.has_zero() ? a : b;
-  const Pull beside = other.has_zero() ? pull_of(other.rows(), ExtensionOf::kMachine) : Pull();
-  if (other.has_zero() && !raw.has_zero()) other.keep_zero();
-  if (wanted.begins_at) {
-    if (a.has_zero() == b.has_zero())
-      throw InvalidInput::sentence("--begins-at", format_number(*wanted.begins_at),
-                                   "one of the curves must be raw data, and the other one a curve of knot_utm");
-    return raw.balance_cut(*wanted.begins_at, beside);
-  }
-  for (Side* side : {&a, &b})
-    if (!side->has_zero()) side->balance_at_rest(beside);
-}
-
 }  // namespace
 
-ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, const ZeroWanted& zero, const Tell& tell) {
+ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, bool balances_raw_data, const Tell& tell) {
   Side side_a(std::move(a), tell), side_b(std::move(b), tell);
-  const bool balances = zero.balance.value_or(zero.begins_at || !side_a.has_zero() || !side_b.has_zero());
-  if (balances) balance(zero, side_a, side_b, tell);
+  const bool balances = balances_raw_data && !(side_a.has_zero() && side_b.has_zero());
+  if (balances) {
+    const Side& other = side_a.has_zero() ? side_a : side_b;
+    const Pull beside = other.has_zero() ? pull_of(other.rows(), ExtensionOf::kMachine) : Pull();
+    if (other.has_zero()) other.keep_zero();
+    for (Side* side : {&side_a, &side_b})
+      if (!side->has_zero()) side->balance_at_rest(beside);
+  }
   const bool both = side_a.has_zero() && side_b.has_zero();
   const ExtensionOf extension = both ? ExtensionOf::kSpecimen : ExtensionOf::kMachine;
   ComparedCurves out{pull_of(side_a.rows(), extension), pull_of(side_b.rows(), extension), {}};

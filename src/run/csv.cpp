@@ -7,7 +7,6 @@
 #include <sstream>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/program/phases.hpp"
@@ -36,8 +35,6 @@ constexpr const char* kPhase = "phase";
 constexpr const char* kPhaseUnit = sample_unit(kPhase);
 constexpr Column kBalance = {"balance_offset", sample_unit("balance_offset"), &CurveRow::balance_offset};
 constexpr Column kTravel = {"crosshead_travel", sample_unit("raw_extension"), &CurveRow::crosshead_travel};
-/// Earlier versions called s so, and the travel of the crosshead `extension`.
-constexpr Column kEarlier = {"corrected_extension", sample_unit("extension"), &CurveRow::crosshead_travel};
 
 std::vector<Column> behind_the_phase(bool compliant_frame) {
   return compliant_frame ? std::vector<Column>{kBalance, kTravel} : std::vector<Column>{kBalance};
@@ -123,7 +120,7 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   const std::vector<std::string_view> names = cells(head[0]);
   const std::vector<std::string_view> units = cells(head[1]);
   std::vector<Column> columns(kColumns.begin(), kColumns.end());
-  for (const Column& column : {kBalance, kTravel, kEarlier})
+  for (const Column& column : {kBalance, kTravel})
     if (std::find(names.begin(), names.end(), column.name) != names.end()) columns.push_back(column);
   std::vector<std::size_t> places;
   for (const Column& column : columns) places.push_back(place(file, names, units, column.name, column.unit));
@@ -150,7 +147,6 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
     const std::optional<Phase> known = phase_named(phase);
     if (!known) throw InvalidInput(file, key + ": phase", "\"" + phase + "\"", "a phase of a test, such as pull");
     row.phase = *known;
-    if (columns.back().name == kEarlier.name) std::swap(row.extension, row.crosshead_travel);
     rows.push_back(row);
   }
   if (!text.fault().empty()) throw InvalidInput::sentence("rows", "too many", text.fault()).in_file(file);

@@ -1,7 +1,5 @@
 // The zero of raw data: a curve that is held against itself as a machine would have recorded it differs by rounding.
 
-#include "knot_utm/analysis/comparison.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "knot_utm/analysis/comparison.hpp"
 
 namespace knot_utm {
 namespace {
@@ -101,15 +100,6 @@ TEST(RawZero, ACurveDiffersFromItsOwnRawDataByRounding) {
           raw = recorded(rows, units, offset);
           EXPECT_EQ(zero_at_rest(raw).readings, 21u);
           expect_the_same(pull, pull_of(balanced(raw, zero_at_rest(raw, pull))));
-          // Behind: it was cut.
-          for (const std::ptrdiff_t cut : {2, 9}) {
-            raw = recorded({ours.begin() + cut, ours.end()}, units, offset);
-            const auto zero = zero_of_cut(raw, (ours.begin() + cut)->extension, pull);
-            ASSERT_TRUE(zero);
-            const std::optional<CurveDifference> difference = curve_difference(pull, pull_of(balanced(raw, *zero)));
-            ASSERT_TRUE(difference);
-            EXPECT_LT(std::abs(difference->largest), 1e-10 * difference->load);
-          }
         }
 }
 
@@ -155,13 +145,6 @@ TEST(RawZero, AWayBackAtTheEndIsNoRest) {
   back.time = rows.back().time + 30.0;
   rows.push_back(back);
   EXPECT_EQ(zero_at_rest(recorded(rows, kUnits[0], {3.0, 0.013})).first, 0u);
-}
-
-TEST(RawZero, WhereTheOtherCurveDoesNotReachNothingIsToldOfACut) {
-  const std::vector<CurveRow> ours = Pulled().rows();
-  const std::vector<CurveRow> raw = recorded({ours.begin() + 2, ours.end()}, kUnits[0], {});
-  EXPECT_FALSE(zero_of_cut(raw, 0.2, pull_of(ours)));
-  EXPECT_FALSE(zero_of_cut(raw, -0.01, pull_of(ours)));
 }
 
 Pull line(double (*force)(double), double end, int points) {

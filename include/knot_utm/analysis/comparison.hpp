@@ -35,11 +35,6 @@ struct RawZero {
 /// at 0 N.
 RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other = {});
 
-/// Finds the zero of a record whose beginning was cut off, up to an extension of `begins_at` [m]. The load there is
-/// taken from another pull, which has its zero, so that both agree in that point. Empty where the other pull does not
-/// contain that extension.
-std::optional<RawZero> zero_of_cut(const std::vector<CurveRow>& rows, double begins_at, const Pull& other);
-
 /// What was taken for zero, in words: "zero is 3.2 N at 0.0101 m, the mean of its 21 readings before the crosshead
 /// moves".
 std::string zero_words(const RawZero& zero);
@@ -89,13 +84,6 @@ struct CurveOfFile {
   std::vector<CurveRow> rows;
 };
 
-/// How to find the zero of raw data. A curve of ours keeps its own.
-struct ZeroWanted {
-  /// Whether the zero is the state in which the crosshead begins to move (zero_at_rest); empty: of raw data it is.
-  std::optional<bool> balance;
-  std::optional<double> begins_at;  ///< for a record whose beginning was cut off: extension of its first reading [m]
-};
-
 /// The pulls of two curves and their comparison.
 struct ComparedCurves {
   Pull a, b;
@@ -105,6 +93,6 @@ struct ComparedCurves {
 /// Compares two curves. Raw data of a testing machine contain only the travel of the crosshead; where one of the curves
 /// is of that kind, the travel of the crosshead is used for both. `tell` receives one line for each assumption that raw
 /// data make necessary.
-ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, const ZeroWanted& zero, const Tell& tell);
+ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, bool balances_raw_data, const Tell& tell);
 
 }  // namespace knot_utm

@@ -36,7 +36,7 @@ class CurveWriter {
   std::size_t rows_ = 0;
 };
 
-/// Reads a file of CurveWriter, with or without crosshead_travel, also of earlier versions. Columns are found by name,
+/// Reads a file of CurveWriter, with or without crosshead_travel. Columns are found by name,
 /// in any order, and unknown ones are ignored. Throws InvalidInput where the file cannot be read, a column is missing,
 /// a unit differs, a row is malformed, or there are more rows than TextRows allows.
 std::vector<CurveRow> read_curve(const std::string& file);
