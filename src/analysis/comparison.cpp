@@ -259,7 +259,7 @@ void require_finite(const CurveOfFile& curve) {
     const CurveRow& row = curve.rows[i];
     if (pulls(row.phase) &&
         !((std::isfinite(row.time) || !timed) && std::isfinite(row.extension) && std::isfinite(row.load)))
-      throw InvalidInput::sentence("reading", std::to_string(i + 1),
+      throw InvalidInput::sentence("reading",
                                    "reading " + std::to_string(i + 1) + " has no time, no extension or no load")
           .in_file(curve.file);
   }
@@ -291,15 +291,14 @@ class Side {
   void require_readings() const {
     const std::size_t readings = pull_of(rows()).size();
     if (readings < 2 && !rows().empty() && falls(rows(), &CurveRow::extension))
-      throw InvalidInput::sentence("extension", "falls",
+      throw InvalidInput::sentence("extension",
                                    "the extension falls from its first reading on, so that nothing is pulled: --invert "
                                    "turns its sign")
           .in_file(curve_.file);
     if (readings < 2)
-      throw InvalidInput::sentence("pull", std::to_string(readings),
-                                   rows().size() == 1
-                                       ? "there is one reading, but must be at least two"
-                                       : "nothing is pulled: no reading has a larger extension than the first one")
+      throw InvalidInput::sentence(
+          "pull", rows().size() == 1 ? "there is one reading, but must be at least two"
+                                     : "nothing is pulled: no reading has a larger extension than the first one")
           .in_file(curve_.file);
   }
   /// A pull has only readings beyond all extensions before.
@@ -348,8 +347,7 @@ ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, bool balances_raw_da
   out.comparison = compare(out.a, out.b);
   if (balances) out.comparison.zeros = GivenZeros{side_a.given(), side_b.given()};
   if (!out.comparison.difference)
-    throw InvalidInput::sentence("extensions", "none that both have",
-                                 "the curves have no extension in common, so they cannot be compared");
+    throw InvalidInput::sentence("extensions", "the curves have no extension in common, so they cannot be compared");
   return out;
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "knot_utm/grips/grip_bodies.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"

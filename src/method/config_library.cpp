@@ -74,16 +74,16 @@ std::string yaml_fault(const YAML::Exception& fault) {
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   if (text.size() > kLongestText) {
     const std::string most = std::to_string(kLongestText) + " characters";
-    throw InvalidInput::sentence("file", file,
+    throw InvalidInput::sentence("file",
                                  "the file is longer than " + most + ", and no method, knot, material or load cell is")
         .in_file(file);
   }
   if (const int line = line_of_other_encoding(text); line > 0)
-    throw InvalidInput::sentence("file", file,
+    throw InvalidInput::sentence("file",
                                  "line " + std::to_string(line) + ": a letter is not in UTF-8; save the file as UTF-8")
         .in_file(file);
   if (holds_another_document(text))
-    throw InvalidInput::sentence("file", file,
+    throw InvalidInput::sentence("file",
                                  "the file holds several YAML documents, but must be one: take away its lines \"---\"")
         .in_file(file);
   try {
@@ -91,7 +91,7 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   } catch (const YAML::ParserException& parser) {
     const std::string place =
         "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);
-    throw InvalidInput::sentence(place, parser.msg, place + ": " + yaml_fault(parser)).in_file(file);
+    throw InvalidInput::sentence(place, place + ": " + yaml_fault(parser)).in_file(file);
   }
 }
 

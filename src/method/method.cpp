@@ -117,8 +117,7 @@ Specification read_specification(const YAML::Node& node, const std::string& file
     const std::string path = key + "." + required.key;
     const auto is_it = [&](const Requirement& other) { return other.key == required.key; };
     if (std::any_of(specification.begin(), specification.end(), is_it))
-      throw InvalidInput::sentence(path, one_line(item.second), shown(path) + " stands twice; give it once")
-          .in_file(file);
+      throw InvalidInput::sentence(path, shown(path) + " stands twice; give it once").in_file(file);
     Reader reader(item.second, file, path);
     fields::requirement(reader, required);
     reader.finish();
@@ -266,7 +265,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     if (invalid.key == option) throw;  // an override stands in no file
     throw invalid.in_file(file);
   } catch (const YAML::Exception& yaml) {
-    throw InvalidInput::sentence("the file", yaml.msg, "the file is no method: " + yaml_fault(yaml)).in_file(file);
+    throw InvalidInput::sentence("the file", "the file is no method: " + yaml_fault(yaml)).in_file(file);
   }
 }
 

@@ -39,7 +39,7 @@ void has_effect(bool has, const char* key, const Value& value, const Value& unse
     given = value;
   }
   throw InvalidInput::sentence(
-      key, given, std::string(key) + " is " + shown(given) + ", but has an effect only " + where + "; leave it out");
+      key, std::string(key) + " is " + shown(given) + ", but has an effect only " + where + "; leave it out");
 }
 
 /// A law has all keys that it needs, and none of another law.
@@ -207,7 +207,7 @@ void check_twist(const Method& m) {
   need(bends_on_frames(m.material), "a rod of this material.bending_law bends on frames, which take part in its twist",
        "material.bending_law: elastic");
   if (!needs.empty())
-    throw InvalidInput::sentence("physics.twist", "off",
+    throw InvalidInput::sentence("physics.twist",
                                  "physics.twist is off, but " + needs + ": set " + without + " to go without");
 }
 
@@ -220,11 +220,11 @@ void check_rest_shape(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   const bool curved = s.natural_curvature != 0.0;
   if (curved && remembers_bends(m.material))
-    throw InvalidInput::sentence("material.bending_law", BendingRegistry::entry(m.material.bending.law).name,
-                                 "specimen.natural_curvature is " + format_number(s.natural_curvature) +
-                                     ", but material.bending_law is " +
-                                     BendingRegistry::entry(m.material.bending.law).name +
-                                     ": a rod keeps its natural curvature with elastic only");
+    throw InvalidInput::sentence("material.bending_law", "specimen.natural_curvature is " +
+                                                             format_number(s.natural_curvature) +
+                                                             ", but material.bending_law is " +
+                                                             BendingRegistry::entry(m.material.bending.law).name +
+                                                             ": a rod keeps its natural curvature with elastic only");
   if (const double h = thickest(m.material); std::abs(s.natural_curvature) * h >= 1.0) {
     const std::string most = most_text(1.0 / h);
     reject("specimen.natural_curvature", s.natural_curvature,

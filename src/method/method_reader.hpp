@@ -221,8 +221,7 @@ class Reader : public Fields {
     for (const auto& item : map_) {
       if (!item.first.IsScalar() || item.first.Scalar() != key) continue;
       if (found.IsDefined())
-        throw InvalidInput::sentence(path_of(key), one_line(item.second), path_of(key) + " stands twice; give it once")
-            .in_file(file_);
+        throw InvalidInput::sentence(path_of(key), path_of(key) + " stands twice; give it once").in_file(file_);
       found.reset(item.second);
     }
     return found;
@@ -233,7 +232,7 @@ class Reader : public Fields {
     for (const auto& item : map_) {
       const std::string key = one_line(item.first);
       if (std::find(known_.begin(), known_.end(), key) == known_.end())
-        throw InvalidInput::unknown_key(path_, key, one_line(item.second), known_, of_).in_file(file_);
+        throw InvalidInput::unknown_key(path_, key, known_, of_).in_file(file_);
     }
   }
 
@@ -311,8 +310,7 @@ class Reader : public Fields {
     try {
       return load_in_terms(node.Scalar(), *loads_);
     } catch (const std::invalid_argument& why) {
-      throw InvalidInput::sentence(path_of(key), as_given(node),
-                                   path_of(key) + ": cannot take " + as_given(node) + ": " + why.what())
+      throw InvalidInput::sentence(path_of(key), path_of(key) + ": cannot take " + as_given(node) + ": " + why.what())
           .in_file(file_);
     }
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "config_library.hpp"
 #include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
@@ -12,7 +13,6 @@
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #include "method_reader.hpp"
-#include "config_library.hpp"
 
 namespace knot_utm {
 namespace {
@@ -49,21 +49,19 @@ Override parse_override(const std::string& text, const std::string& option) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos)
     throw InvalidInput::sentence(
-        option, text, option + " \"" + shown(text) + "\" sets no key: write key=value, such as specimen.preload=20");
+        option, option + " \"" + shown(text) + "\" sets no key: write key=value, such as specimen.preload=20");
   Override set;
   set.key = text.substr(0, equals);
   set.path = split(set.key);
   set.text = text.substr(equals + 1);
   if (set.path.size() > kLongestPath) {
     const std::string most = std::to_string(kLongestPath) + " parts";
-    throw InvalidInput::sentence(option, text,
-                                 option + " " + shown(set.key) + ": no key of a method has more than " + most);
+    throw InvalidInput::sentence(option, option + " " + shown(set.key) + ": no key of a method has more than " + most);
   }
   try {
     set.value();
   } catch (const YAML::Exception& yaml) {
-    throw InvalidInput::sentence(option, text,
-                                 option + " " + shown(text) + ": the value is not YAML: " + yaml_fault(yaml));
+    throw InvalidInput::sentence(option, option + " " + shown(text) + ": the value is not YAML: " + yaml_fault(yaml));
   }
   return set;
 }
@@ -123,11 +121,10 @@ void put(YAML::Node parent, const Override& set, std::size_t depth) {
     const std::optional<std::size_t> index = entry(parent, part);
     if (!index) {
       const std::string last_entry = std::to_string(parent.size() == 0 ? 0 : parent.size() - 1);
-      throw InvalidInput::sentence(set.key, one_line(set.value()),
-                                   shown(set.key) + ": \"" + shown(part) + "\" is no single entry of " +
-                                       (depth == 0 ? "the list" : shown(set.path[depth - 1])) +
-                                       ": give a number from 0 to " + last_entry +
-                                       ", or the name of a step that stands there once");
+      throw InvalidInput::sentence(set.key, shown(set.key) + ": \"" + shown(part) + "\" is no single entry of " +
+                                                (depth == 0 ? "the list" : shown(set.path[depth - 1])) +
+                                                ": give a number from 0 to " + last_entry +
+                                                ", or the name of a step that stands there once");
     }
     if (part != std::to_string(*index)) {
       put(parent[*index], set, depth);
@@ -139,9 +136,8 @@ void put(YAML::Node parent, const Override& set, std::size_t depth) {
     return;
   }
   if (!parent.IsMap() && !parent.IsNull())
-    throw InvalidInput::sentence(set.key, one_line(set.value()),
-                                 shown(set.key) + " is no key of a method: " + shown(set.path[depth - 1]) +
-                                     " is a single value and has no keys");
+    throw InvalidInput::sentence(set.key, shown(set.key) + " is no key of a method: " + shown(set.path[depth - 1]) +
+                                              " is a single value and has no keys");
   if (last) {
     parent[part] = set.value();
   } else {

@@ -129,7 +129,7 @@ void Archive::refuse(const char* what, const std::string& value) const {
 
 void Archive::complain(const std::string& what, const std::string& value, const std::string& allowed) const {
   throw InvalidInput::sentence(
-      what, value, "the " + kind_ + " cannot be loaded: " + what + ": found " + value + ", expected " + allowed)
+      what, "the " + kind_ + " cannot be loaded: " + what + ": found " + value + ", expected " + allowed)
       .in_file(file_);
 }
 

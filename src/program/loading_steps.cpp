@@ -119,8 +119,7 @@ void HoldStep::keys(fields::Fields& f, double) {
 void HoldStep::check(const StepPlace& place) const {
   if (!held_load || hold_load) return;
   const std::string key = place.key() + ".load", load = format_number(*held_load);
-  throw InvalidInput::sentence(key, load,
-                               key + " is " + load + ", but has an effect only with control: load; leave it out");
+  throw InvalidInput::sentence(key, key + " is " + load + ", but has an effect only with control: load; leave it out");
 }
 
 void HoldStep::begin(const Sample&, CrossheadCourse& course) {
@@ -147,9 +146,9 @@ void CycleStep::check(const StepPlace& place) const {
   const std::string key = place.key();
   if (extension.has_value() == load.has_value()) {
     const std::string has = load ? "both extension and load" : "neither extension nor load";
-    throw InvalidInput::sentence(key, has, key + " has " + has + ": give one of them");
+    throw InvalidInput::sentence(key, key + " has " + has + ": give one of them");
   }
-  if (cycles == 0 && !time) throw InvalidInput::sentence(key, "no end", key + " has no end: give count, time or both");
+  if (cycles == 0 && !time) throw InvalidInput::sentence(key, key + " has no end: give count, time or both");
 }
 
 double CycleStep::target() const {

@@ -41,7 +41,7 @@ std::string StepPlace::key() const { return "program." + std::to_string(index) +
 
 void StepPlace::misplaced(const std::string& why) const {
   const std::string entry = "program." + std::to_string(index), name = program[index]->name();
-  throw InvalidInput::sentence(entry, name, entry + ": " + name + " " + why);
+  throw InvalidInput::sentence(entry, entry + ": " + name + " " + why);
 }
 
 void StepPlace::needs(const std::string& knots) const {

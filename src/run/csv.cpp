@@ -61,8 +61,7 @@ std::size_t place(const std::string& file, const std::vector<std::string_view>& 
                   const std::vector<std::string_view>& units, const char* name, const char* unit) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw InvalidInput::sentence("row 1", name,
-                                 "row 1 names no column " + std::string(name) + ", which a curve.csv has")
+    throw InvalidInput::sentence("row 1", "row 1 names no column " + std::string(name) + ", which a curve.csv has")
         .in_file(file);
   const std::size_t index = static_cast<std::size_t>(found - names.begin());
   const std::string given = index < units.size() ? "\"" + std::string(units[index]) + "\"" : "missing";
@@ -113,8 +112,7 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   std::array<std::string, 2> head;  // names and units
   for (std::string& row : head) {
     if (!text.next())
-      throw InvalidInput::sentence("rows", "fewer than 2", "a curve.csv begins with a row of names and a row of units")
-          .in_file(file);
+      throw InvalidInput::sentence("rows", "a curve.csv begins with a row of names and a row of units").in_file(file);
     row = text.text();
   }
   const std::vector<std::string_view> names = cells(head[0]);
@@ -131,9 +129,8 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
     const std::string key = "row " + std::to_string(text.number());
     const std::vector<std::string_view> values = cells(text.text());
     if (values.size() != names.size())
-      throw InvalidInput::sentence(key, text.text(),
-                                   key + " has " + std::to_string(values.size()) + " columns, but must have " +
-                                       std::to_string(names.size()) + " as row 1 has")
+      throw InvalidInput::sentence(key, key + " has " + std::to_string(values.size()) + " columns, but must have " +
+                                            std::to_string(names.size()) + " as row 1 has")
           .in_file(file);
     CurveRow row;
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -149,7 +146,7 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
     row.phase = *known;
     rows.push_back(row);
   }
-  if (!text.fault().empty()) throw InvalidInput::sentence("rows", "too many", text.fault()).in_file(file);
+  if (!text.fault().empty()) throw InvalidInput::sentence("rows", text.fault()).in_file(file);
   return rows;
 }
 
@@ -178,9 +175,7 @@ std::string curve_file_of(const std::string& given, std::optional<int> specimen)
   std::error_code error;
   const std::filesystem::path folder(given);
   if (!std::filesystem::is_directory(folder, error)) return given;
-  const auto refuse = [&](const std::string& why) {
-    return InvalidInput::sentence("folder", given, why).in_file(given);
-  };
+  const auto refuse = [&](const std::string& why) { return InvalidInput::sentence("folder", why).in_file(given); };
   const int wanted = specimen.value_or(0);
   if (std::filesystem::exists(folder / "curve.csv", error)) {
     if (wanted > 1)
@@ -208,7 +203,7 @@ bool is_curve_file(const std::string& file) {
 
 std::vector<CurveRow> read_course(const std::string& file, const Tell& tell) {
   if (!is_curve_file(file))
-    throw InvalidInput::sentence("names", file,
+    throw InvalidInput::sentence("names",
                                  "the file is no curve.csv; import_instron makes one of what a testing machine exports")
         .in_file(file);
   std::vector<CurveRow> rows = read_curve(file);
@@ -222,16 +217,16 @@ std::vector<CurveRow> read_course(const std::string& file, const Tell& tell) {
   for (auto row = begin; row != end; ++row) {
     const std::string reading = "reading " + std::to_string(row - rows.begin() + 1);
     if (!std::isfinite(row->time) || !std::isfinite(row->extension))
-      throw InvalidInput::sentence(reading, "not finite", reading + " has no time or no extension").in_file(file);
+      throw InvalidInput::sentence(reading, reading + " has no time or no extension").in_file(file);
     if (row == begin) continue;
     if (row->time < (row - 1)->time)
-      throw InvalidInput::sentence(reading, format_number(row->time),
-                                   "time goes back at " + reading + ", from " + format_number((row - 1)->time) +
-                                       " s to " + format_number(row->time) + " s")
+      throw InvalidInput::sentence(reading, "time goes back at " + reading + ", from " +
+                                                format_number((row - 1)->time) + " s to " + format_number(row->time) +
+                                                " s")
           .in_file(file);
     if (row->phase != Phase::kBalance && (row - 1 == begin || !balanced_between(*(row - 1), *row))) continue;
     if (row < behind)
-      throw InvalidInput::sentence(reading, "a balance",
+      throw InvalidInput::sentence(reading,
                                    "the test was balanced at " + reading +
                                        ", between its pulls; a record that is followed must keep one zero of extension")
           .in_file(file);

@@ -72,7 +72,7 @@ void make_folder(const std::string& folder, const char* argument) {
   std::error_code error, other;
   fs::create_directories(folder, error);
   if (fs::is_directory(folder, other)) return;
-  throw InvalidInput::sentence(argument, folder,
+  throw InvalidInput::sentence(argument,
                                "cannot make the folder \"" + shown(folder) + "\": " + reason_of(error.value()));
 }
 
@@ -80,7 +80,7 @@ void require_new_file(const char* argument, const std::string& file, const std::
                       bool overwrite, const std::string& begins) {
   std::error_code error;
   const auto refuse = [&](const std::string& why) {
-    throw InvalidInput::sentence(argument, file, std::string(argument) + ": " + shown(file) + why);
+    throw InvalidInput::sentence(argument, std::string(argument) + ": " + shown(file) + why);
   };
   for (const std::string& input : inputs)
     if (fs::equivalent(file, input, error)) refuse(" is an input, and would be written over: give another name");
@@ -111,18 +111,17 @@ void require_no_record_in(const std::string& folder, const Method& method) {
   for (const ProgramStep& step : method.program)
     if (const FollowStep* follow = step.as<FollowStep>();
         follow && fs::equivalent(fs::path(follow->record).parent_path(), folder, error))
-      throw InvalidInput::sentence("--out", folder,
-                                   "the method follows " + shown(follow->record) + ", which stands in the folder " +
-                                       shown(folder) + " itself: choose another folder to write to");
+      throw InvalidInput::sentence("--out", "the method follows " + shown(follow->record) +
+                                                ", which stands in the folder " + shown(folder) +
+                                                " itself: choose another folder to write to");
 }
 
 void require_no_method_in(const std::string& folder, const std::string& method_file) {
   std::error_code error;
   const fs::path written = fs::path(folder) / "method.yaml";
   if (!fs::equivalent(written, method_file, error) || read_whole(method_file).rfind(kResolved, 0) == 0) return;
-  throw InvalidInput::sentence(
-      "--out", folder,
-      "the run would write over its own method, " + shown(written.string()) + ": choose another folder to write to");
+  throw InvalidInput::sentence("--out", "the run would write over its own method, " + shown(written.string()) +
+                                            ": choose another folder to write to");
 }
 
 void begin_run_folder(const std::string& folder, const Method& method, const std::string& options) {
@@ -229,8 +228,7 @@ std::string read_input(const std::string& file) {
 }
 
 ClaimedFolder::ClaimedFolder(const std::string& folder) : ClaimedFolder() {
-  if (!claim(folder))
-    throw InvalidInput::sentence("--out", folder, "another run is writing to the folder " + shown(folder));
+  if (!claim(folder)) throw InvalidInput::sentence("--out", "another run is writing to the folder " + shown(folder));
 }
 
 ClaimedFolder ClaimedFolder::first_free(const std::string& folder) {

@@ -7,7 +7,6 @@
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
 #include "knot_utm/sim/step_account.hpp"
-#include "knot_utm/sim/step_diagnosis.hpp"
 #include "knot_utm/sim/time_step.hpp"
 
 namespace knot_utm {

@@ -53,7 +53,7 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
                       const std::vector<double>& radii, const Vec3* origin) {
   const Points& points = centreline.points;
   const auto refuse = [&](const std::string& why) {
-    throw InvalidInput::sentence(key, value, std::string(key) + " " + shown(value) + ": " + why);
+    throw InvalidInput::sentence(key, std::string(key) + " " + shown(value) + ": " + why);
   };
   const auto length = [&](double metres) { return origin ? text(metres / radius) + " radii" : text(metres) + " m"; };
   // Strands touch along the smooth centreline, outwards of which a bent polyline cuts its corners. Those of a tight
@@ -105,7 +105,7 @@ Centreline from_points(const Points& points, double radius, double edge_length, 
   check_radius(radius);
   check_edge_length(edge_length, radius);
   const auto refuse = [&](const std::string& why) {
-    throw InvalidInput::sentence("specimen.file", name, "specimen.file " + shown(name) + why);
+    throw InvalidInput::sentence("specimen.file", "specimen.file " + shown(name) + why);
   };
   if (!points.allFinite()) refuse(" has a point that is not finite");
   if (points.cols() < 2) refuse(" has " + std::to_string(points.cols()) + " points, but must have two or more");

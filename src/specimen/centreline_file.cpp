@@ -62,7 +62,7 @@ Points read_centreline(std::istream& in, const std::string& file) {
   TextRows rows(in);
   const auto refuse = [&](const std::string& why) {
     const std::string row = "row " + std::to_string(rows.number());
-    throw InvalidInput::sentence(kKey, file, std::string(kKey) + " " + shown(file) + ": " + row + " " + why);
+    throw InvalidInput::sentence(kKey, std::string(kKey) + " " + shown(file) + ": " + row + " " + why);
   };
   int headings = 0;
   while (rows.next()) {
@@ -81,10 +81,10 @@ Points read_centreline(std::istream& in, const std::string& file) {
     points.push_back(*point);
   }
   const std::string whole = std::string(kKey) + " " + shown(file);
-  if (!rows.fault().empty()) throw InvalidInput::sentence(kKey, file, whole + ": " + rows.fault());
+  if (!rows.fault().empty()) throw InvalidInput::sentence(kKey, whole + ": " + rows.fault());
   if (points.size() < 4)
     throw InvalidInput::sentence(
-        kKey, file, whole + " has " + std::to_string(points.size()) + " points, but must have four or more");
+        kKey, whole + " has " + std::to_string(points.size()) + " points, but must have four or more");
   Points result(3, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = points[i];
   return result;
@@ -128,9 +128,8 @@ class DrawnRod final : public Knot {
     const Points points = read_centreline(specimen.file);
     Centreline out = from_points(points, material.radius, specimen.edge_length, specimen.file, mounting.refinement);
     if (!(out.points.rightCols(1)(2) > out.points.leftCols(1)(2)))
-      throw InvalidInput::sentence(
-          "specimen.file", specimen.file,
-          "specimen.file " + shown(specimen.file) + ": the last point must be higher than the first one, along z");
+      throw InvalidInput::sentence("specimen.file", "specimen.file " + shown(specimen.file) +
+                                                        ": the last point must be higher than the first one, along z");
     return out;
   }
 };

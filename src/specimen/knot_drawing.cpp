@@ -111,11 +111,11 @@ void check_posts(const KnotDrawing& drawing, const DrawnSize& size, const Centre
       if (distance(i) < distance(nearest)) nearest = i;
     const double least = post.radius + h;
     if (distance(nearest) < kMayCut * least)
-      throw InvalidInput::sentence(
-          "specimen.knot", drawing.name,
-          "specimen.knot " + shown(drawing.name) + ": at " + place_text((rod.points.col(nearest) - origin) / h) +
-              " a strand comes as near as " + text(distance(nearest) / h) + " radii to the middle of posts." +
-              std::to_string(k) + ", but must stay " + text(least / h) + " radii away from it");
+      throw InvalidInput::sentence("specimen.knot", "specimen.knot " + shown(drawing.name) + ": at " +
+                                                        place_text((rod.points.col(nearest) - origin) / h) +
+                                                        " a strand comes as near as " + text(distance(nearest) / h) +
+                                                        " radii to the middle of posts." + std::to_string(k) +
+                                                        ", but must stay " + text(least / h) + " radii away from it");
   }
 }
 
@@ -126,9 +126,9 @@ void check_bends(const KnotDrawing& drawing, double radius, const Points& strand
     const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
     const double bend = 0.5 * (before.norm() + after.norm()) / turn;
     if (bend < radius)
-      throw InvalidInput::sentence("specimen.knot", drawing.name,
-                                   "specimen.knot " + shown(drawing.name) + ": a strand bends with a radius of " +
-                                       text(bend / radius) + " radii of the rod, but must do so with at least one");
+      throw InvalidInput::sentence("specimen.knot", "specimen.knot " + shown(drawing.name) +
+                                                        ": a strand bends with a radius of " + text(bend / radius) +
+                                                        " radii of the rod, but must do so with at least one");
   }
 }
 

@@ -21,8 +21,8 @@
 #include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/verdict/run_warnings.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 
@@ -71,9 +71,9 @@ DrawnSpecimen draw_specimen(const Method& method, int number) {
     specimen.method = parse_method(method_yaml(one), method.name + ".yaml", overrides);
     check_fits(specimen.method);
   } catch (const InvalidInput& invalid) {
-    throw InvalidInput::sentence("specimens", std::to_string(number),
-                                 "specimen " + std::to_string(number) + " of " + std::to_string(specimens.count) +
-                                     " cannot be made: " + invalid.what());
+    throw InvalidInput::sentence("specimens", "specimen " + std::to_string(number) + " of " +
+                                                  std::to_string(specimens.count) +
+                                                  " cannot be made: " + invalid.what());
   }
   return specimen;
 }
@@ -295,7 +295,7 @@ bool is_complete(const std::string& folder, const Specimens& specimens) {
 BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   const Specimens specimens = draw_specimens(method);
   if (options.resume && is_complete(options.folder, specimens))
-    throw InvalidInput::sentence("--resume", options.folder,
+    throw InvalidInput::sentence("--resume",
                                  "cannot resume " + shown(options.folder) + ": all of its specimens have been tested");
   require_readings(method, options.readings);
   require_no_record_in(options.folder, method);

@@ -173,7 +173,7 @@ void require_readings(const Method& method, Readings readings) {
   if (method.specimen.to_be_tied && rollers_hold(method.specimen, method.machine) && has_step<PullStep>(method.program))
     return;
   throw InvalidInput::sentence(
-      kOption, kPlateauWord,
+      kOption,
       words_of(readings) +
           ": this test has no plateau, which only a loop has that is tied (step tie), held by rollers and pulled");
 }
@@ -333,7 +333,7 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
 HeadlessOutcome results_from_samples(const HeadlessOptions& options) {
   const std::string& folder = options.folder;
   if (!std::filesystem::exists(samples_file(folder)))
-    throw InvalidInput::sentence("--from-samples", folder,
+    throw InvalidInput::sentence("--from-samples",
                                  "there is no samples.csv in " + shown(folder) + " from which results can be made");
   const ClaimedFolder claimed(folder);
   const Method method = load_method((std::filesystem::path(folder) / "method.yaml").string());

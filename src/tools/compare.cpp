@@ -14,9 +14,8 @@
 
 #include "knot_utm/analysis/comparison.hpp"
 #include "knot_utm/run/csv.hpp"
-#include "knot_utm/run/report.hpp"
-#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/summary.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #ifdef KNOT_UTM_HAS_ROS
@@ -88,7 +87,7 @@ CurveOfFile read_bag([[maybe_unused]] const std::string& file, [[maybe_unused]] 
 #ifdef KNOT_UTM_HAS_ROS
   return {file, read_curve_bag(file, specimen)};
 #else
-  throw InvalidInput::sentence("file", file, "cannot read a bag: this program was built without ROS").in_file(file);
+  throw InvalidInput::sentence("file", "cannot read a bag: this program was built without ROS").in_file(file);
 #endif
 }
 
@@ -117,7 +116,7 @@ CurveOfFile imported(const std::string& file, const ReadingWords& words, int spe
   if (code == kDone) return {file, read_curve(curve)};
   const std::string name = "import_instron: ";
   const std::string why = last.rfind(name, 0) == 0 ? last.substr(name.size()) : file + ": cannot be imported: " + last;
-  if (code == kWrongInput) throw InvalidInput::sentence("file", file, why);
+  if (code == kWrongInput) throw InvalidInput::sentence("file", why);
   throw std::runtime_error(why);
 }
 

@@ -241,7 +241,7 @@ int make_anew(const Arguments& arguments) {
 /// Refuses `--resume` for a single test: only a batch goes on where it stopped.
 void require_batch(const Arguments& arguments, const Method& method) {
   if (arguments.resume.empty() || method.specimens.count > 1) return;
-  throw InvalidInput::sentence("--resume", arguments.resume,
+  throw InvalidInput::sentence("--resume",
                                "--resume goes on with a batch, but " + shown(arguments.resume) +
                                    " holds a single test: run it anew, or make the results of what was measured by "
                                    "--from-samples");

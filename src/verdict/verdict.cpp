@@ -28,7 +28,7 @@ void check_specification(const Specification& specification) {
     if (key.is_number()) known.emplace_back(key.name);
   for (const Requirement& required : specification)
     if (std::find(known.begin(), known.end(), required.key) == known.end())
-      throw InvalidInput::unknown_key("specification", required.key, "", known, "a specification");
+      throw InvalidInput::unknown_key("specification", required.key, known, "a specification");
 }
 
 Verdict verdict(const Specification& specification, const YamlLines& results) {

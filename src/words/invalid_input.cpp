@@ -100,58 +100,51 @@ std::string reason_of(int error) {
   return reason;
 }
 
-InvalidInput::InvalidInput(const Parts& parts, const std::string& line)
-    : std::runtime_error(line), file(parts.file), key(parts.key), value(parts.value), allowed(parts.allowed) {}
+InvalidInput::InvalidInput(const Place& place, const std::string& line)
+    : std::runtime_error(line), file(place.file), key(place.key) {}
 
-InvalidInput::InvalidInput(const std::string& key_, const std::string& value_, const std::string& allowed_)
-    : InvalidInput(Parts{"", key_, value_, allowed_},
-                   shown(key_) + " is " + shown(value_) + ", but must be " + allowed_) {}
+InvalidInput::InvalidInput(const std::string& key_, const std::string& value, const std::string& allowed)
+    : InvalidInput(Place{"", key_}, shown(key_) + " is " + shown(value) + ", but must be " + allowed) {}
 
-InvalidInput::InvalidInput(const std::string& file_, const std::string& key_, const std::string& value_,
-                           const std::string& allowed_)
-    : InvalidInput(InvalidInput(key_, value_, allowed_).in_file(file_)) {}
+InvalidInput::InvalidInput(const std::string& file_, const std::string& key_, const std::string& value,
+                           const std::string& allowed)
+    : InvalidInput(InvalidInput(key_, value, allowed).in_file(file_)) {}
 
 InvalidInput InvalidInput::missing(const std::string& key, const std::string& give) {
-  return {Parts{"", key, "nothing", give}, shown(key) + " is missing: give " + give};
+  return sentence(key, shown(key) + " is missing: give " + give);
 }
 
-InvalidInput InvalidInput::unknown_key(const std::string& section, const std::string& key, const std::string& value,
+InvalidInput InvalidInput::unknown_key(const std::string& section, const std::string& key,
                                        const std::vector<std::string>& known, const std::string& of) {
-  const std::string prefix = section.empty() ? "" : section + ".";
-  const std::string path = prefix + key;
-  const std::string nearest = nearest_name(key, known);
+  const std::string prefix = section.empty() ? "" : section + ".", nearest = nearest_name(key, known);
   std::string hint = question(nearest.empty() ? "" : prefix + nearest);
   if (nearest.empty() && known.empty()) hint = "; " + section + " takes no keys";
   if (nearest.empty() && !known.empty())
     hint = "; the keys of " + (section.empty() ? of : section) + " are " + listed(known, " and ");
-  return {Parts{"", path, value, listed(known, " and ") + " (no other keys)"},
-          shown(path) + " is no key of " + of + shown(hint)};
+  return sentence(prefix + key, shown(prefix + key) + " is no key of " + of + shown(hint));
 }
 
 InvalidInput InvalidInput::unknown_name(const std::string& key, const std::string& value, const std::string& allowed,
                                         const std::vector<std::string>& known) {
-  return {Parts{"", key, value, allowed},
-          shown(key) + " is \"" + shown(value) + "\", but must be " + allowed + question(nearest_name(value, known))};
+  return sentence(
+      key, shown(key) + " is \"" + shown(value) + "\", but must be " + allowed + question(nearest_name(value, known)));
 }
 
 InvalidInput InvalidInput::cannot_read(const std::string& file, const std::string& key) {
   const std::string line = "cannot read " + shown(file) + ": " + why_unreadable(file);
-  if (key.empty()) return {Parts{file, "file", file, "a file that can be read"}, line};
-  return {Parts{"", key, file, "a file that can be read"}, shown(key) + ": " + line};
+  if (key.empty()) return {Place{file, "file"}, line};
+  return sentence(key, shown(key) + ": " + line);
 }
 
 InvalidInput InvalidInput::cannot_write(const std::string& key, const std::string& file, int error) {
-  return {Parts{"", key, file, "a place that can be written to"},
-          "cannot write " + shown(file) + ": " + reason_of(error)};
+  return sentence(key, "cannot write " + shown(file) + ": " + reason_of(error));
 }
 
-InvalidInput InvalidInput::sentence(const std::string& key, const std::string& value, const std::string& text) {
-  return {Parts{"", key, value, text}, text};
-}
+InvalidInput InvalidInput::sentence(const std::string& key, const std::string& text) { return {Place{"", key}, text}; }
 
 InvalidInput InvalidInput::in_file(const std::string& name) const {
   if (!file.empty() || name.empty() || key.rfind("--", 0) == 0) return *this;
-  return {Parts{name, key, value, allowed}, shown(name) + ": " + what()};
+  return {Place{name, key}, shown(name) + ": " + what()};
 }
 
 }  // namespace knot_utm

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "knot_utm/analysis/results.hpp"
-#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

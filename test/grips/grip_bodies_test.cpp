@@ -1,4 +1,4 @@
-#include "knot_utm/grips/grip_bodies.hpp"
+#include "knot_utm/grips/grips.hpp"
 
 #include <gtest/gtest.h>
 

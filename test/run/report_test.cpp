@@ -1,6 +1,6 @@
 // What a page on a comparison is made of. The page itself: test/python/report.
 
-#include "knot_utm/run/report.hpp"
+#include "knot_utm/run/summary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

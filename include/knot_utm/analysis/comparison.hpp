@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_row.hpp"
-#include "knot_utm/numeric/tell.hpp"
 
 namespace knot_utm {
 

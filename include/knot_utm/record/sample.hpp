@@ -7,7 +7,7 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/record/per_knot.hpp"
-#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/command.hpp"
 
 namespace knot_utm {
 

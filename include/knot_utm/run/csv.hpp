@@ -8,7 +8,6 @@
 
 #include "knot_utm/analysis/curve_row.hpp"
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/numeric/tell.hpp"
 
 namespace knot_utm {
 

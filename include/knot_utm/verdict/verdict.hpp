@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/method/report_options.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/words/yaml_lines.hpp"
 
 namespace knot_utm {

@@ -34,7 +34,7 @@ struct InvalidInput : std::runtime_error {
 
   /// "specimen.prelaod is no key of a method; did you mean specimen.preload?", or the known keys where none is near.
   /// `section` is the dotted path of the map that the key stands in, empty for a file's top.
-  static InvalidInput unknown_key(const std::string& section, const std::string& key, const std::string& value,
+  static InvalidInput unknown_key(const std::string& section, const std::string& key,
                                   const std::vector<std::string>& known, const std::string& of);
 
   /// "material is "nyln", but must be ALLOWED; did you mean nylon?", without the question where no name is near.
@@ -48,22 +48,20 @@ struct InvalidInput : std::runtime_error {
   /// "cannot write FILE: permission denied", for a place that the user chose.
   static InvalidInput cannot_write(const std::string& key, const std::string& file, int error);
 
-  /// Any other sentence about this value of this key, with nothing foreign in it that has not been `shown`.
-  static InvalidInput sentence(const std::string& key, const std::string& value, const std::string& text);
+  /// Any other sentence about this key, with nothing foreign in it that has not been `shown`.
+  static InvalidInput sentence(const std::string& key, const std::string& text);
 
   /// The same with a file's name, unless it has one already or is about an argument ("--out"), which stands in no file.
   InvalidInput in_file(const std::string& name) const;
 
-  std::string file;     ///< where the input stands; empty: not known
-  std::string key;      ///< dotted path, e.g. "specimen.edge_length"
-  std::string value;    ///< as given
-  std::string allowed;  ///< e.g. "0.0005 to 0.0064 m (at most twice the radius)", or the whole sentence
+  std::string file;  ///< where the input stands; empty: not known
+  std::string key;   ///< dotted path, e.g. "specimen.edge_length"
 
  private:
-  struct Parts {
-    std::string file, key, value, allowed;
+  struct Place {
+    std::string file, key;
   };
-  InvalidInput(const Parts& parts, const std::string& line);
+  InvalidInput(const Place& place, const std::string& line);
 };
 
 }  // namespace knot_utm
