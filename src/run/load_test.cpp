@@ -6,7 +6,7 @@
 
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/run/csv.hpp"
-#include "knot_utm/verdict/verdict.hpp"
+#include "knot_utm/verdict/result_keys.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 

@@ -1,4 +1,4 @@
-#include "knot_utm/verdict/verdict.hpp"
+#include "knot_utm/verdict/result_keys.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

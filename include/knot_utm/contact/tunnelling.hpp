@@ -49,7 +49,7 @@ struct Tunnelling {
 /// time, so it advances at all times between, and the piece cannot come back to itself. This settles edges that are
 /// near only because they are neighbours along the rod. d is the middle of a box around the edges as vectors.
 ///
-/// The few pairs of edges that are left are tested one by one (moving_edges.hpp).
+/// The few pairs of edges that are left are tested one by one (meeting).
 class TunnellingSearch {
  public:
   /// `bare_ends`: the contact law begins half an edge from the rod's ends (SmoothContact), so that strands may slip

@@ -15,7 +15,7 @@ namespace knot_utm {
 struct Sample;
 
 /// What a testing machine takes for a break: the load has fallen to a fraction of its peak. It judges loads only. A rod
-/// that parts in the simulation (fracture.hpp) ends the test without it.
+/// that parts in the simulation (break_watch.hpp) ends the test without it.
 struct BreakDetection {
   std::optional<double> fraction_of_peak;  ///< [-]; unset: no fall is a break
   double arming_load = 0.0;                ///< falls count only after the load has reached this [N]

@@ -110,7 +110,7 @@ class SamplesReader {
   std::uint64_t shape_bytes_ = 0;  ///< length of `shape_` in the file, where it was read and not yet taken; else 0
 };
 
-/// Appends to the samples of a run whose folder is claimed (claimed_folder.hpp). All functions throw CannotWrite, and
+/// Appends to the samples of a run whose folder is claimed (run_folder.hpp). All functions throw CannotWrite, and
 /// then leave the file as it was, so that it ends with a whole command.
 class SamplesWriter {
  public:

@@ -50,7 +50,7 @@ struct RunOptions {
   std::string folder;      ///< folder to write to
   bool overwrite = false;  ///< overwrites the contents of `folder`, instead of using the next free folder
   bool shapes = false;     ///< also writes shapes.csv
-  bool cache = false;      ///< keeps and restores tied specimens (tied_specimen.hpp); else each test ties its own
+  bool cache = false;      ///< keeps and restores tied specimens (TiedSpecimen); else each test ties its own
   /// Other readings than all end the test early, and leave neither shapes.csv nor a further file.
   Readings readings = Readings::kAll;
 
