@@ -16,10 +16,10 @@
 #include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_readings.hpp"
 #include "knot_utm/specimen/knot_watch.hpp"
-#include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/tying/tying.hpp"
 

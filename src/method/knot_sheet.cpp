@@ -1,5 +1,3 @@
-#include "knot_utm/method/knot_file.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/numeric/points.hpp"

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "contact_term.hpp"
-#include "motion_term.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
@@ -15,6 +14,7 @@
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
+#include "motion_term.hpp"
 
 namespace knot_utm {
 

@@ -14,8 +14,8 @@
 
 #include "knot_utm/analysis/comparison.hpp"
 #include "knot_utm/run/csv.hpp"
-#include "knot_utm/run/summary.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/run/summary.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #ifdef KNOT_UTM_HAS_ROS

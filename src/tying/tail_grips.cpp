@@ -4,7 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-
 namespace knot_utm {
 
 void RestWatch::follow(const Points& velocity, double dt) {

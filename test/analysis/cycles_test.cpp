@@ -1,9 +1,9 @@
-#include "knot_utm/analysis/pull_readings.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <functional>
+
+#include "knot_utm/analysis/pull_readings.hpp"
 
 namespace knot_utm {
 namespace {

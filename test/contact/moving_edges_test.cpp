@@ -1,5 +1,3 @@
-#include "knot_utm/contact/tunnelling.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "knot_utm/contact/closest_points.hpp"
+#include "knot_utm/contact/tunnelling.hpp"
 
 namespace knot_utm {
 namespace {

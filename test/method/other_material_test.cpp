@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/breaking/break_watch.hpp"
+#include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/record/command.hpp"

@@ -1,13 +1,12 @@
 // How the crosshead is led to a load: that which a program asks for, and the little one at which slack is taken up,
 // whatever the specimen is like and however large the steps are.
 
-#include "knot_utm/program/course.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/program/course.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/tying/tied_loop.hpp"
 

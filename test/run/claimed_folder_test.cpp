@@ -1,7 +1,5 @@
 // Nothing that was measured is written over without being asked for.
 
-#include "knot_utm/run/run_folder.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "knot_utm/method/shipped.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"

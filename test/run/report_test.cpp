@@ -1,13 +1,12 @@
 // What a page on a comparison is made of. The page itself: test/python/report.
 
-#include "knot_utm/run/summary.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/run/summary.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "run/own_folder.hpp"
 

@@ -1,10 +1,10 @@
-#include "knot_utm/run/run_writer.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 #include <sstream>
+
+#include "knot_utm/run/run_writer.hpp"
 
 namespace knot_utm {
 namespace {

@@ -1,5 +1,3 @@
-#include "knot_utm/study/batch.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 
 #include "knot_utm/analysis/statistics.hpp"
 #include "knot_utm/method/method_keys.hpp"
+#include "knot_utm/study/batch.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {

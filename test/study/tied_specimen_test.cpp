@@ -1,5 +1,3 @@
-#include "knot_utm/study/headless_run.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@
 #include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/study/headless_run.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
 

@@ -1,8 +1,8 @@
-#include "knot_utm/topology/knot_hole.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "knot_utm/topology/knot_hole.hpp"
 
 namespace knot_utm {
 namespace {

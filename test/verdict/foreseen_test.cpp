@@ -1,12 +1,11 @@
 // What is known of a method before it is run.
-#include "knot_utm/verdict/run_warnings.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 
+#include "knot_utm/verdict/run_warnings.hpp"
 #include "knot_utm/words/number.hpp"
 #include "run/command.hpp"
 

@@ -1,8 +1,7 @@
-#include "knot_utm/verdict/result_keys.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "knot_utm/verdict/result_keys.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {

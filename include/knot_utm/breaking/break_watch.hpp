@@ -91,7 +91,7 @@ class BreakWatch {
 /// `lower` < 0 [N]. One grip alone may be pressed by the rod's weight, and both by what an iteration leaves.
 std::string not_by_tension(const Exposure& parted, double upper, double lower);
 
-/// Follows a specimen that can part from step to step: when it parts (BreakWatch), at which edge (Fracture), and in
+/// Follows a specimen that can part from step to step: when it parts (BreakWatch), at which edge (Exposure), and in
 /// which words.
 class RodBreak {
  public:
