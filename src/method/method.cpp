@@ -22,8 +22,6 @@
 #include "overruled_keys.hpp"
 #include "specimens_section.hpp"
 
-// The method written as YAML.
-
 namespace knot_utm {
 namespace {
 
@@ -269,7 +267,6 @@ Method parse_method(const std::string& text, const std::string& file, const std:
   }
 }
 
-using fields::Fields;
 using fields::Writer;
 
 namespace {

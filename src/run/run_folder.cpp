@@ -260,7 +260,6 @@ std::string moved_notice(const std::string& asked, const std::string& used) {
 }
 
 std::string point_latest_to(const std::string& folder) {
-  namespace fs = std::filesystem;
   std::error_code error;
   fs::path run = fs::absolute(folder, error).lexically_normal();
   if (!run.has_filename()) run = run.parent_path();
@@ -284,8 +283,6 @@ std::string point_latest_to(const std::string& folder) {
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string quoted(const std::string& word) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";

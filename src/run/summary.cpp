@@ -293,8 +293,6 @@ void ProgressLine::end() {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::array<const char*, 5> kOfComparison{"comparison.yaml", "a.csv", "b.csv", "report.html", "report.pdf"};
 
 /// Whether something stands in the folder that a comparison would write over, but for the very same comparison, or a
