@@ -3,6 +3,7 @@
 #include <yaml-cpp/depthguard.h>
 
 #include <algorithm>
+#include <boost/locale/utf.hpp>
 #include <cctype>
 #include <fstream>
 #include <set>
@@ -17,27 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How many bytes a letter of UTF-8 has that begins here; 0: none does.
-std::size_t letter_at(const std::string& line, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return i < line.size() ? static_cast<unsigned char>(line[i]) : 0u; };
-  const unsigned first = byte(at);
-  if (first >= 0x80 && (first < 0xC2 || first > 0xF4)) return 0;
-  const std::size_t bytes = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  for (std::size_t i = 1; i < bytes; ++i)
-    if ((byte(at + i) & 0xC0u) != 0x80u) return 0;
-  return bytes;
-}
-
 /// The first line, from 1 on, that is no UTF-8; 0: all are, or a byte order mark says that it is another encoding of
 /// Unicode, which yaml-cpp reads.
 int line_of_other_encoding(const std::string& text) {
   if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 || text.find('\0') != std::string::npos)
     return 0;
+  using utf = boost::locale::utf::utf_traits<char>;
   std::istringstream lines(text);
   int number = 1;
   for (std::string line; std::getline(lines, line); ++number)
-    for (std::size_t at = 0, bytes; at < line.size(); at += bytes)
-      if ((bytes = letter_at(line, at)) == 0) return number;
+    for (auto at = line.cbegin(); at != line.cend();)
+      if (utf::decode(at, line.cend()) >= boost::locale::utf::incomplete) return number;
   return 0;
 }
 
