@@ -11,7 +11,7 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/program/phases.hpp"
-#include "knot_utm/program/run_test.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/specimen/machine_options.hpp"

@@ -501,7 +501,7 @@ def which_density(density):
 
 
 def questions(here):
-    """What no rod is like: most likely a slip of a unit. A test asks of density, moduli and strength (src/verdict/foreseen.cpp)."""
+    """What no rod is like: most likely a slip of a unit. A test asks of density, moduli and strength (src/verdict/run_warnings.cpp)."""
     if not 0.01 <= here["friction_coefficient"] <= 2:
         yield f"the friction coefficient is {here['friction_coefficient']:.3g}, and ropes have 0.05 to 1: is capstan.angle in rad?"
     if here.get("friction_moment", 1.0) < 3e-3:

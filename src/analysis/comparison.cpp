@@ -3,12 +3,99 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #include "knot_utm/words/yaml_lines.hpp"
 
 namespace knot_utm {
+
+namespace {
+
+constexpr double kMoved = 0.01;   // of all growth: the pull has begun
+constexpr double kStill = 0.001;  // of all growth: at the same place
+
+std::vector<CurveRow> pulled(const std::vector<CurveRow>& rows) {
+  std::vector<CurveRow> out;
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(out), [](const CurveRow& row) { return pulls(row.phase); });
+  return out;
+}
+
+/// Load at an extension, straight from point to point.
+std::optional<double> load_at(const Pull& pull, double extension) {
+  const auto less = [](const PullPoint& point, double s) { return point.extension < s; };
+  const auto next = std::lower_bound(pull.begin(), pull.end(), extension, less);
+  if (next == pull.end()) return std::nullopt;
+  if (next->extension == extension) return next->force;
+  if (next == pull.begin()) return std::nullopt;
+  const PullPoint &a = *std::prev(next), &b = *next;
+  return a.force + (extension - a.extension) / (b.extension - a.extension) * (b.force - a.force);
+}
+
+}  // namespace
+
+bool has_its_zero(const std::vector<CurveRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const CurveRow& row) { return std::isfinite(row.end_to_end); });
+}
+
+bool falls(const std::vector<CurveRow>& rows, double CurveRow::*value) {
+  double up = 0.0, down = 0.0;
+  for (const CurveRow& row : rows) {
+    up = std::max(up, row.*value - rows.front().*value);
+    down = std::max(down, rows.front().*value - row.*value);
+  }
+  return down > up;
+}
+
+RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other) {
+  const std::vector<CurveRow> all = pulled(rows);
+  const double start = all.front().extension;
+  double growth = 0.0;
+  for (const CurveRow& row : all) growth = std::max(growth, row.extension - start);
+  RawZero zero{};
+  for (std::size_t i = 0; i < all.size() && all[i].extension <= start + kMoved * growth; ++i)
+    if (all[i].extension <= start) zero.first = i;
+  // The mean is one of differences, so that equal readings have themselves as their mean, to the last digit.
+  const CurveRow& last = all[zero.first];
+  double extension = 0.0, load = 0.0;
+  zero.readings = 0;
+  for (std::size_t i = zero.first + 1; i-- > 0;) {
+    if (std::abs(all[i].extension - last.extension) > kStill * growth) break;
+    extension += all[i].extension - last.extension;
+    load += all[i].load - last.load;
+    ++zero.readings;
+  }
+  zero.extension = last.extension + extension / static_cast<double>(zero.readings);
+  zero.load = last.load + load / static_cast<double>(zero.readings);
+  zero.load_there = load_at(other, 0.0).value_or(0.0);
+  return zero;
+}
+
+std::string zero_words(const RawZero& zero) {
+  const std::string place = short_number(zero.load) + " N at " + short_number(zero.extension) + " m";
+  std::string there;
+  if (zero.load_there != 0.0)
+    there = "; its load there becomes " + short_number(zero.load_there) + " N, as that of the other curve";
+  if (zero.readings > 1)
+    return "zero is " + place + ", the mean of its " + std::to_string(zero.readings) +
+           " readings before the crosshead moves" + there;
+  return "the record shows no rest before the pull, so its first reading, " + place + ", is taken for zero" + there;
+}
+
+std::vector<CurveRow> balanced(const std::vector<CurveRow>& rows, const RawZero& zero) {
+  std::vector<CurveRow> out = pulled(rows);
+  out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(zero.first));
+  for (CurveRow& row : out) {
+    row.extension -= zero.extension;
+    row.load -= zero.load - zero.load_there;
+  }
+  return out;
+}
+
 namespace {
 
 /// F of a pull at extensions that only grow.
@@ -160,6 +247,107 @@ std::vector<std::string> beyond_tolerance(const Comparison& comparison, double t
     else if (a && *a != *b)
       hold(reading.name, (*b - *a) / std::abs(*a));
   }
+  return out;
+}
+
+namespace {
+
+/// A curve without any times is one, too.
+void require_finite(const CurveOfFile& curve) {
+  const bool timed = has_its_zero(curve.rows) || (!curve.rows.empty() && std::isfinite(curve.rows.front().time));
+  for (std::size_t i = 0; i < curve.rows.size(); ++i) {
+    const CurveRow& row = curve.rows[i];
+    if (pulls(row.phase) &&
+        !((std::isfinite(row.time) || !timed) && std::isfinite(row.extension) && std::isfinite(row.load)))
+      throw InvalidInput::sentence("reading",
+                                   "reading " + std::to_string(i + 1) + " has no time, no extension or no load")
+          .in_file(curve.file);
+  }
+}
+
+/// One of the two curves.
+class Side {
+ public:
+  Side(CurveOfFile curve, const Tell& tell) : curve_(std::move(curve)), tell_(tell), has_zero_(has_its_zero(rows())) {
+    require_finite(curve_);
+    require_readings();
+    if (!has_zero_) note_left_out();
+  }
+
+  bool has_zero() const { return has_zero_; }
+  const std::vector<CurveRow>& rows() const { return curve_.rows; }
+  const std::optional<RawZero>& given() const { return given_; }
+
+  void keep_zero() const { note("the curve is one of knot_utm and keeps its own zero"); }
+
+  void balance_at_rest(const Pull& other) {
+    given_ = zero_at_rest(rows(), other);
+    note(zero_words(*given_));
+    curve_.rows = balanced(rows(), *given_);
+    require_readings();
+  }
+
+ private:
+  void require_readings() const {
+    const std::size_t readings = pull_of(rows()).size();
+    if (readings < 2 && !rows().empty() && falls(rows(), &CurveRow::extension))
+      throw InvalidInput::sentence("extension",
+                                   "the extension falls from its first reading on, so that nothing is pulled: --invert "
+                                   "turns its sign")
+          .in_file(curve_.file);
+    if (readings < 2)
+      throw InvalidInput::sentence(
+          "pull", rows().size() == 1 ? "there is one reading, but must be at least two"
+                                     : "nothing is pulled: no reading has a larger extension than the first one")
+          .in_file(curve_.file);
+  }
+  /// A pull has only readings beyond all extensions before.
+  void note_left_out() const {
+    constexpr double kBehind = 0.01;  // of the way
+    const Pull pull = pull_of(rows());
+    const double behind = kBehind * (pull.back().extension - pull.front().extension);
+    std::size_t left_out = 0;
+    double farthest = pull.front().extension, most = 0.0;
+    for (const CurveRow& row : rows()) {
+      if (!pulls(row.phase)) continue;
+      farthest = std::max(farthest, row.extension);
+      if (farthest - row.extension <= behind) continue;
+      ++left_out;
+      most = std::max(most, farthest - row.extension);
+    }
+    if (left_out > 0)
+      note(std::to_string(left_out) + " of " + std::to_string(rows().size()) +
+           " readings are not compared, since they lie up to " + short_number(1e3 * most) +
+           " mm behind an extension that was reached before");
+  }
+
+  void note(const std::string& words) const { tell_(curve_.file + ": " + words); }
+
+  CurveOfFile curve_;
+  const Tell& tell_;
+  bool has_zero_;  // of its own
+  std::optional<RawZero> given_;
+};
+
+}  // namespace
+
+ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, bool balances_raw_data, const Tell& tell) {
+  Side side_a(std::move(a), tell), side_b(std::move(b), tell);
+  const bool balances = balances_raw_data && !(side_a.has_zero() && side_b.has_zero());
+  if (balances) {
+    const Side& other = side_a.has_zero() ? side_a : side_b;
+    const Pull beside = other.has_zero() ? pull_of(other.rows(), ExtensionOf::kMachine) : Pull();
+    if (other.has_zero()) other.keep_zero();
+    for (Side* side : {&side_a, &side_b})
+      if (!side->has_zero()) side->balance_at_rest(beside);
+  }
+  const bool both = side_a.has_zero() && side_b.has_zero();
+  const ExtensionOf extension = both ? ExtensionOf::kSpecimen : ExtensionOf::kMachine;
+  ComparedCurves out{pull_of(side_a.rows(), extension), pull_of(side_b.rows(), extension), {}};
+  out.comparison = compare(out.a, out.b);
+  if (balances) out.comparison.zeros = GivenZeros{side_a.given(), side_b.given()};
+  if (!out.comparison.difference)
+    throw InvalidInput::sentence("extensions", "the curves have no extension in common, so they cannot be compared");
   return out;
 }
 

@@ -1,5 +1,10 @@
 #include "knot_utm/analysis/pull_readings.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/analysis/results.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "pull_integrals.hpp"
 
 namespace knot_utm {
@@ -57,6 +62,137 @@ std::optional<double> tangent_stiffness(const Pull& pull) {
   for (std::size_t i = 0; pull[i].extension + window < end; ++i)
     steepest = std::max(steepest, way.slope({pull[i].extension, pull[i].extension + window}));
   return steepest;
+}
+
+namespace {
+
+constexpr double kClosed = 0.1;  // of the cycle's range
+
+double range_of(const Path& path, std::size_t begin, std::size_t end, double PathPoint::*of) {
+  double low = path[begin].*of, high = low;
+  for (std::size_t i = begin; i <= end; ++i) {
+    low = std::min(low, path[i].*of);
+    high = std::max(high, path[i].*of);
+  }
+  return high - low;
+}
+
+/// Beginning and end of the path among them.
+std::vector<std::size_t> turning_points(const Path& path) {
+  std::vector<std::size_t> turns;
+  double before = 0.0;  // the last way of the crosshead
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double way = path[i].crosshead - path[i - 1].crosshead;
+    if (way == 0.0) continue;  // it may stand where it turns
+    if (turns.empty()) turns.push_back(0);
+    if (way * before < 0.0) turns.push_back(i - 1);
+    before = way > 0.0 ? 1.0 : -1.0;
+  }
+  if (!turns.empty()) turns.push_back(path.size() - 1);
+  return turns;
+}
+
+bool comes_back(const Path& path, std::size_t begin, std::size_t end, double PathPoint::*of) {
+  return std::abs(path[end].*of - path[begin].*of) <= kClosed * range_of(path, begin, end, of);
+}
+
+double enclosed(const Path& path, std::size_t begin, std::size_t end) {
+  const auto under = [&](std::size_t from, std::size_t to) {
+    return 0.5 * (path[from].force + path[to].force) * (path[to].extension - path[from].extension);
+  };
+  double area = under(end, begin);
+  for (std::size_t i = begin; i < end; ++i) area += under(i, i + 1);
+  return area;
+}
+
+/// From the first sample of a step of the program to the one behind its last.
+struct Stretch {
+  std::size_t begin, end;
+};
+
+/// In order, those of this phase that have a sample before them; each to where the rod parts: its recoil says nothing.
+std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase, const std::vector<int>& steps) {
+  std::vector<Stretch> out;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (samples[i - 1].status == BenchStatus::kBroken) break;
+    if (samples[i].phase != phase) continue;
+    const bool begins = !steps.empty() && steps[i] != steps[i - 1];
+    if (out.empty() || out.back().end != i || begins) out.push_back({i, i});
+    out.back().end = i + 1;
+  }
+  return out;
+}
+
+/// The relaxation in the last hold at a place that is out, with a load on the grip. Where a load is held the crosshead
+/// moves, and a drawn shape that settles bears no load.
+std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples, const std::vector<int>& steps) {
+  std::optional<Relaxation> last;
+  for (const Stretch& hold : stretches(samples, Phase::kHold, steps)) {
+    const Sample &before = samples[hold.begin - 1], &end = samples[hold.end - 1];
+    bool stands = true;
+    for (std::size_t i = hold.begin; i < hold.end; ++i) stands &= samples[i].displacement == before.displacement;
+    if (stands && before.displacement > samples.front().displacement && before.force_upper > 0.0)
+      last = Relaxation{before.force_upper, end.force_upper};
+  }
+  return last;
+}
+
+/// The cycles of the last step that cycles. Their places count from the sample before the step.
+struct LastCycles {
+  std::size_t origin = 0;
+  std::vector<Cycle> closed;
+};
+
+LastCycles last_cycles(const std::vector<Sample>& samples, const std::vector<int>& steps) {
+  const std::vector<Stretch> cycling = stretches(samples, Phase::kCycle, steps);
+  if (cycling.empty()) return {};
+  const Stretch& step = cycling.back();
+  const Sample origin = origin_at(samples[step.begin], samples[step.begin - 1]);
+  const auto point = [](const Sample& at) { return PathPoint{at.extension, at.force_upper, at.displacement}; };
+  Path path = {point(origin)};
+  for (std::size_t i = step.begin; i < step.end; ++i) path.push_back(point(samples[i]));
+  return {step.begin - 1, closed_cycles(path)};
+}
+
+Elongations elongations_of(const std::vector<Sample>& samples, const LastCycles& cycles, double gauge_length) {
+  const Cycle& last = cycles.closed.back();
+  const auto at = [&](std::size_t i) { return samples.begin() + static_cast<std::ptrdiff_t>(cycles.origin + i); };
+  const auto longest = std::max_element(at(last.begin), at(last.end) + 1,
+                                        [](const Sample& a, const Sample& b) { return a.end_to_end < b.end_to_end; });
+  const double loaded = longest->end_to_end, unloaded = at(last.end)->end_to_end, back = loaded - unloaded;
+  return {(loaded - gauge_length) / gauge_length, (unloaded - gauge_length) / gauge_length, back / gauge_length,
+          back / unloaded};
+}
+
+}  // namespace
+
+std::vector<Cycle> closed_cycles(const Path& path) {
+  std::vector<Cycle> cycles;
+  const std::vector<std::size_t> turns = turning_points(path);
+  for (std::size_t i = 0; i + 2 < turns.size(); ++i) {
+    const std::size_t begin = turns[i], end = turns[i + 2];
+    if (path[turns[i + 1]].extension < path[begin].extension) continue;  // back and out
+    const bool whole = i > 0 && i + 3 < turns.size();
+    if (whole || comes_back(path, begin, end, &PathPoint::extension) || comes_back(path, begin, end, &PathPoint::force))
+      cycles.push_back({begin, end, enclosed(path, begin, end)});
+  }
+  return cycles;
+}
+
+Sample origin_at(const Sample& first, Sample before) {
+  if (before.balance_offset == first.balance_offset) return before;
+  before.extension = 0.0;
+  before.force_upper = before.balance_offset = first.balance_offset;
+  return before;
+}
+
+void read_holds_and_cycles(const std::vector<Sample>& samples, const std::vector<int>& steps, Results& results) {
+  results.relaxation = last_relaxation(samples, steps);
+  const LastCycles cycles = last_cycles(samples, steps);
+  results.cycles = cycles.closed.size();
+  if (cycles.closed.empty()) return;
+  results.hysteresis = cycles.closed.back().hysteresis;
+  if (results.gauge_length) results.elongations = elongations_of(samples, cycles, *results.gauge_length);
 }
 
 }  // namespace knot_utm

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "knot_utm/analysis/curve_row.hpp"
-#include "knot_utm/analysis/cycles.hpp"
 #include "knot_utm/analysis/pull_readings.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"

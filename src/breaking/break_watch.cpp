@@ -1,12 +1,144 @@
 #include "knot_utm/breaking/break_watch.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
+#include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/sim/time_step.hpp"
 
 namespace knot_utm {
+namespace {
+
+constexpr double kTouching = 1.1;   // [sum of both radii]
+constexpr double kNeighbour = 5.0;  // along the rod [h]
+
+bool turns(const RodProperties& rod, Eigen::Index node) {
+  return node >= 1 && node + 1 < rod.nodes() && !rod.is_cut(node - 1) && !rod.is_cut(node);
+}
+
+/// The angle by which a rod turns at a node, along the axis of the turn [rad].
+Vec3 turn(const Points& position, Eigen::Index node) {
+  const Vec3 e = (position.col(node) - position.col(node - 1)).normalized();
+  const Vec3 f = (position.col(node + 1) - position.col(node)).normalized();
+  const Vec3 axis = e.cross(f);
+  const double sine = axis.norm();
+  return sine > 0.0 ? Vec3(axis * (turning_angle(e, f) / sine)) : Vec3(Vec3::Zero());
+}
+
+/// Calls add(i, w_i) for the nodes within a radius to either side of one. What they have lies evenly along their
+/// Voronoi lengths.
+template <class Add>
+void along_a_diameter(const RodProperties& rod, Eigen::Index node, const Add& add) {
+  if (!turns(rod, node)) return;
+  const double h = rod.material_at(node).radius;
+  const auto half = [&](Eigen::Index i) { return 0.5 * rod.voronoi_length[i]; };
+  add(node, std::min(1.0, h / half(node)));
+  for (const int step : {-1, 1}) {
+    double begin = half(node);  // of the next node's length, from here
+    for (Eigen::Index i = node + step; begin < h && turns(rod, i); i += step) {
+      const double length = rod.voronoi_length[i];
+      add(i, std::min(1.0, (h - begin) / length));
+      begin += length;
+    }
+  }
+}
+
+/// h kappa of a node.
+double bend(const RodProperties& rod, const Points& position, Eigen::Index node) {
+  Vec3 sum = Vec3::Zero();
+  along_a_diameter(rod, node, [&](Eigen::Index i, double share) { sum += turn(position, i) * share; });
+  const double h = rod.material_at(node).radius;
+  return h * (sum.norm() / (2.0 * h));
+}
+
+/// h p of a node.
+double pressed(const RodProperties& rod, const Pressing& pressing, Eigen::Index node) {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  along_a_diameter(rod, node, [&](Eigen::Index i, double share) { sum += share * pressing.col(i); });
+  return 0.25 * (sum[3] + sum.head<3>().norm());
+}
+
+/// How a rod lies in its contacts.
+struct Loading {
+  const RodProperties& rod;
+  const Points& position;
+  const Pressing& pressing;
+};
+
+/// Edges of whole ropes of one material.
+struct EdgesOfRopes {
+  Eigen::Index begin, end;
+};
+
+/// Calls use(j, LoadedEdge) for those that are not cut.
+template <class Law, class Use>
+void each_edge(const Law& law, const Loading& on, const EdgesOfRopes& edges, const Use& use) {
+  const bool crushes = law.crushes() && on.pressing.cols() == on.rod.nodes();
+  double bend_before = 0.0, pressed_before = 0.0;
+  for (Eigen::Index j = edges.begin; j < edges.end; ++j) {
+    const double bend_behind = law.kBends ? bend(on.rod, on.position, j + 1) : 0.0,
+                 pressed_behind = crushes ? pressed(on.rod, on.pressing, j + 1) : 0.0;
+    const StretchedEdge stretched = stretched_edge(on.rod, on.position, j);
+    if (!on.rod.is_cut(j))
+      use(j, LoadedEdge{respond(on.rod, j, stretched).tension, stretched.stretch - 1.0,
+                        std::max(bend_behind, bend_before), std::max(pressed_behind, pressed_before)});
+    bend_before = bend_behind;
+    pressed_before = pressed_behind;
+  }
+}
+
+template <class Law>
+Exposure exposure(const Law& law, const Loading& on, const EdgesOfRopes& edges) {
+  Exposure out;
+  each_edge(law, on, edges, [&](Eigen::Index j, const LoadedEdge& edge) {
+    const double fraction = law.fraction(edge);
+    if (fraction > out.fraction) out = {fraction, static_cast<int>(j), Law::kLimit, law.limited(edge)};
+  });
+  return out;
+}
+
+}  // namespace
+
+RopeStrengths::RopeStrengths(const Material& material, const RodProperties& rod) {
+  const Eigen::Index others = std::min(rod.first_of_other(), rod.edges());
+  if (material.breaking_force) ropes_.push_back({breaking_law_of(material), 0, others});
+  if (material.other && material.other->breaking_force)
+    ropes_.push_back({breaking_law_of(*material.other), others, rod.edges()});
+}
+
+bool RopeStrengths::crush() const {
+  return std::any_of(ropes_.begin(), ropes_.end(), [](const Ropes& ropes) {
+    return std::visit([](const auto& law) { return law.crushes(); }, ropes.law);
+  });
+}
+
+Exposure RopeStrengths::most_exposed(const RodProperties& rod, const Points& position, const Pressing& pressing) const {
+  Exposure out;
+  for (const Ropes& ropes : ropes_) {
+    const Exposure found = std::visit(
+        [&](const auto& law) {
+          return exposure(law, Loading{rod, position, pressing}, {ropes.begin, ropes.end});
+        },
+        ropes.law);
+    if (found.fraction > out.fraction || out.edge < 0) out = found;
+  }
+  return out;
+}
+
+bool lies_in_knot(const RodProperties& rod, const Points& position, int edge) {
+  const Eigen::VectorXd arclength = rod.arclength();
+  const auto middle = [&](Eigen::Index j) -> Vec3 { return 0.5 * (position.col(j) + position.col(j + 1)); };
+  const double h = rod.material_at(edge).radius;
+  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+    if (rod.is_cut(j) || std::abs(arclength[j] - arclength[edge]) <= kNeighbour * h) continue;
+    const double reach = kTouching * (h + rod.material_at(j).radius) + 0.5 * rod.rest_length[j];
+    if ((middle(j) - middle(edge)).squaredNorm() < reach * reach) return true;
+  }
+  return false;
+}
 
 namespace {
 

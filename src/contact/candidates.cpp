@@ -1,7 +1,6 @@
 #include "knot_utm/contact/candidates.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -9,7 +8,6 @@
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr std::size_t kLanes = 4;

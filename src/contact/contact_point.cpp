@@ -5,7 +5,6 @@
 #include "four_contacts.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 template <typename Law>

@@ -1,10 +1,8 @@
 #include "knot_utm/contact/foot_search.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace knot_utm {
-
 namespace {
 
 constexpr std::size_t kAbreast = 4;

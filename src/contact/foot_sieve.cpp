@@ -1,9 +1,8 @@
-#include "knot_utm/contact/foot_sieve.hpp"
-
 #include <algorithm>
 
-namespace knot_utm {
+#include "knot_utm/contact/foot_search.hpp"
 
+namespace knot_utm {
 namespace {
 
 constexpr int kLanesOfSieve = 4, kPoints = 2;

@@ -1,11 +1,9 @@
-#include "knot_utm/contact/moving_edges.hpp"
-
 #include <algorithm>
 
 #include "knot_utm/contact/closest_points.hpp"
+#include "knot_utm/contact/tunnelling.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 // Fractions of the extent of a pair.

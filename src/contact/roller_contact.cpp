@@ -1,6 +1,5 @@
 #include "knot_utm/contact/roller_contact.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <string>
 
@@ -8,7 +7,6 @@
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 std::size_t memory_index(Eigen::Index nodes, std::size_t roller, int segment, int point) {

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 // Motion of a node since the last search after which feet are searched again [h]. Two strands approach each other by

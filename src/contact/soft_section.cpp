@@ -1,7 +1,6 @@
 #include "knot_utm/contact/soft_section.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 Vec3 over(const Vec3& along) {

@@ -7,7 +7,6 @@
 #include "four_surfaces.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 /// phi of one section; on a roller there is no second one.

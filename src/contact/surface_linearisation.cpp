@@ -4,7 +4,6 @@
 #include "knot_utm/contact/surface_contact.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 FourVectors unit_vector(int component) {

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 
-#include "knot_utm/contact/moving_edges.hpp"
-
 namespace knot_utm {
-
 namespace {
 
 constexpr double kPlaneRounding = 1e-12;  // more than what rounding does to e.d [fraction of |e||d|]

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
@@ -287,6 +289,144 @@ void Grips::state(Archive& archive) {
   for (FixedNode& node : upper_nodes_) archive(node.position);
   archive.list(slipping_);
   archive(pulled_with_, hung_);
+}
+
+namespace {
+
+constexpr int kPlaces = 100;               // in the length of the loop, at which a pin is tried
+constexpr double kNarrowestPin = 0.05;     // of the widest
+constexpr double kNearestToMiddle = 0.25;  // further in are the knots [length of the loop]
+constexpr double kNarrower = 0.8;          // each next radius that is tried
+
+/// The loop as it is seen along the pins.
+class Outline {
+ public:
+  explicit Outline(const Points& loop)
+      : loop_(loop), low_(loop.rowwise().minCoeff()), high_(loop.rowwise().maxCoeff()) {}
+
+  double height() const { return high_[2] - low_[2]; }
+  double middle() const { return 0.5 * (low_[2] + high_[2]); }
+  double left() const { return low_[0]; }
+  double right() const { return high_[0]; }
+
+  /// Distance of the nearest node.
+  double room(double x, double z) const {
+    return std::sqrt(((loop_.row(0).array() - x).square() + (loop_.row(2).array() - z).square()).minCoeff());
+  }
+
+  /// Whether the loop goes round a place: how often it passes above it from one side to the other.
+  bool goes_round(double x, double z) const {
+    int turns = 0;
+    for (Eigen::Index i = 0; i < loop_.cols(); ++i) {
+      const Eigen::Index next = i + 1 < loop_.cols() ? i + 1 : 0;
+      const double from = loop_(0, i) - x, to = loop_(0, next) - x;
+      if ((from < 0.0) == (to < 0.0)) continue;
+      if (loop_(2, i) + (loop_(2, next) - loop_(2, i)) * from / (from - to) > z) turns += to > from ? 1 : -1;
+    }
+    return turns != 0;
+  }
+
+ private:
+  const Points& loop_;
+  Vec3 low_, high_;
+};
+
+/// The pin of the given radius that stands furthest out in the upper half (sense 1) or in the lower one (-1).
+std::optional<Pin> furthest_out(const Outline& loop, double sense, double radius, double clearance) {
+  const double step = loop.height() / kPlaces;
+  for (double out = 0.5 * loop.height(); out > kNearestToMiddle * loop.height(); out -= step) {
+    const double z = loop.middle() + sense * out;
+    std::optional<Pin> best;
+    double most = radius + clearance;
+    for (double x = loop.left(); x <= loop.right(); x += 0.25 * step) {
+      const double room = loop.room(x, z);
+      if (room < most || !loop.goes_round(x, z)) continue;
+      most = room;
+      best = Pin{Vec3(x, 0.0, z), radius};
+    }
+    if (best) return best;
+  }
+  return std::nullopt;
+}
+
+std::optional<Pin> widest_pin(const Outline& loop, double sense, double widest, double clearance) {
+  for (double radius = widest; radius > kNarrowestPin * widest; radius *= kNarrower)
+    if (const std::optional<Pin> pin = furthest_out(loop, sense, radius, clearance)) return pin;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Pin> pins_in(const Points& loop, double widest, double clearance) {
+  const Outline outline(loop);
+  const std::optional<Pin> lower = widest_pin(outline, -1.0, widest, clearance),
+                           upper = widest_pin(outline, 1.0, widest, clearance);
+  if (!lower || !upper) return {};
+  return {*lower, *upper};
+}
+
+void widen(const Pin& pin, double left, Roller& roller) {
+  roller.radius += left * (pin.radius - roller.radius);
+  roller.centre += left * (pin.place - roller.centre);
+}
+
+namespace {
+
+constexpr int kPiecesOfRing = 24;
+
+/// Of what a cylinder or a ring is drawn, without where it is fixed.
+std::vector<GripBody> bodies_of(const Roller& post) {
+  GripBody one;
+  one.cylinder_radius = post.radius;
+  one.axis = post.axis;
+  if (post.ring == 0.0) return {one};
+  std::vector<GripBody> ring;
+  const Vec3 side = post.axis.unitOrthogonal(), other = post.axis.cross(side);
+  one.piece = 2.0 * post.ring * std::tan(M_PI / kPiecesOfRing);
+  for (int i = 0; i < kPiecesOfRing; ++i) {
+    const double angle = 2.0 * M_PI * i / kPiecesOfRing;
+    const Vec3 outwards = std::cos(angle) * side + std::sin(angle) * other;
+    one.from_grip = post.ring * outwards;
+    one.axis = post.axis.cross(outwards);
+    ring.push_back(one);
+  }
+  return ring;
+}
+
+}  // namespace
+
+Vec3 GripBody::half_box(double h) const {
+  if (cylinder_radius == 0.0) return Vec3(3.0, 3.0, 2.0) * h;
+  const Vec3 across = (Vec3::Ones() - axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+  return cylinder_radius * across + half_length(h) * axis.cwiseAbs();
+}
+
+std::vector<GripBody> grip_bodies(const SpecimenOptions& specimen, const MachineOptions& machine,
+                                  const Material& material) {
+  std::vector<GripBody> bodies(2);
+  bodies[1].goes_up = true;
+  if (rollers_hold(specimen, machine))
+    for (GripBody& roller : bodies) roller.cylinder_radius = 0.5 * machine.roller_diameter;
+  const Supports supports = knot_of(specimen).supports(specimen, material);
+  const KnotDrawing* drawing = specimen.drawing.get();
+  const bool held_below = drawing != nullptr && !drawing->lower.empty();
+  for (const std::vector<Roller>* posts : {&supports.posts, &supports.pins})
+    for (const Roller& one : *posts) {
+      const bool goes_up = posts == &supports.pins;
+      const bool beside_grip = held_below && !goes_up;  // the lower grip is where the rope is held
+      Vec3 grip = posts->front().centre;
+      if (beside_grip) grip << thickest(material) * drawing->held_below().head<2>(), 0.0;
+      bool is_grip = &one == &posts->front() && !beside_grip;
+      for (GripBody& body : bodies_of(one)) {
+        body.goes_up = goes_up;
+        body.from_grip += one.centre - grip;
+        if (std::exchange(is_grip, false))
+          bodies[goes_up ? 1 : 0] = body;
+        else
+          bodies.push_back(body);
+      }
+    }
+  return bodies;
 }
 
 }  // namespace knot_utm

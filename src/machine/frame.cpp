@@ -10,7 +10,6 @@
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kFrameTime = 3e-3;  // tau: of 100 kg on 1e7 N/m [s]

@@ -10,7 +10,6 @@
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 /// Between the bounds that the class sets, from random numbers that no noise is made of.

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
-#include <utility>
 
 #include "knot_utm/breaking/break_watch.hpp"
 #include "knot_utm/grips/grips.hpp"
@@ -15,19 +13,17 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/settings/accuracy.hpp"
-#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_readings.hpp"
 #include "knot_utm/specimen/knot_watch.hpp"
-#include "knot_utm/specimen/rest_shape.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/tying/tying.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
@@ -132,10 +128,9 @@ struct TestingMachine::Impl {
     tying = make_tying(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
     if (!centreline.free.empty()) free_ends.emplace(centreline, stepper->rod());
     if (!centreline.read.empty()) knot_readings.emplace(centreline, stepper->rod());
-    if (type_is_followed(specimen)) {
+    if (type_is_followed(specimen))
       watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), material.core_radius(), centreline.points,
                     centreline.windings());
-    }
     if (can_part(material)) breaks.emplace(material, *stepper, kNearBreak * options.longest);
     if (breaks || !frame.rigid()) stepper->refuse_by([this](const Points& end, double dt) { return refuse(end, dt); });
     extension_zero = grips.end_to_end(grip);

@@ -1,17 +1,111 @@
 #include "config_library.hpp"
 
+#include <yaml-cpp/depthguard.h>
+
 #include <algorithm>
+#include <boost/locale/utf.hpp>
+#include <cctype>
+#include <fstream>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
-#include "yaml_text.hpp"
 
 namespace knot_utm {
+namespace {
 
 namespace fs = std::filesystem;
+
+/// The first line, from 1 on, that is no UTF-8; 0: all are, or a byte order mark says that it is another encoding of
+/// Unicode, which yaml-cpp reads.
+int line_of_other_encoding(const std::string& text) {
+  if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 || text.find('\0') != std::string::npos)
+    return 0;
+  using utf = boost::locale::utf::utf_traits<char>;
+  std::istringstream lines(text);
+  int number = 1;
+  for (std::string line; std::getline(lines, line); ++number)
+    for (auto at = line.cbegin(); at != line.cend();)
+      if (utf::decode(at, line.cend()) >= boost::locale::utf::incomplete) return number;
+  return 0;
+}
+
+/// Whether a document follows the first one, of which alone YAML::Load would tell. (LoadAll never ends on some faulty
+/// texts.) A line that begins with --- or ... is a mark between documents wherever it stands.
+bool holds_another_document(const std::string& text) {
+  std::istringstream lines(text);
+  bool begun = false, ended = false;
+  for (std::string line; std::getline(lines, line);) {
+    const auto marks = [&](const char* mark) {
+      return line.rfind(mark, 0) == 0 && (line.size() == 3 || std::isspace(static_cast<unsigned char>(line[3])) != 0);
+    };
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (marks("...")) {
+      ended = begun;
+    } else if (marks("---")) {
+      if (begun) return true;
+      begun = true;
+    } else if (first != std::string::npos && line[first] != '#' && line[0] != '%') {
+      if (ended) return true;
+      begun = true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string yaml_fault(const YAML::Exception& fault) {
+  if (dynamic_cast<const YAML::DeepRecursion*>(&fault) != nullptr) return "maps and lists are nested too deeply";
+  return shown(fault.msg);
+}
+
+YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  if (text.size() > kLongestText) {
+    const std::string most = std::to_string(kLongestText) + " characters";
+    throw InvalidInput::sentence("file",
+                                 "the file is longer than " + most + ", and no method, knot, material or load cell is")
+        .in_file(file);
+  }
+  if (const int line = line_of_other_encoding(text); line > 0)
+    throw InvalidInput::sentence("file",
+                                 "line " + std::to_string(line) + ": a letter is not in UTF-8; save the file as UTF-8")
+        .in_file(file);
+  if (holds_another_document(text))
+    throw InvalidInput::sentence("file",
+                                 "the file holds several YAML documents, but must be one: take away its lines \"---\"")
+        .in_file(file);
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::ParserException& parser) {
+    const std::string place =
+        "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);
+    throw InvalidInput::sentence(place, place + ": " + yaml_fault(parser)).in_file(file);
+  }
+}
+
+std::string read_text(const fs::path& file) {
+  std::error_code error;
+  std::ifstream in;
+  if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary);
+  if (!in.is_open()) throw InvalidInput::cannot_read(file.string());
+  std::string text(kLongestText + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+std::vector<fs::path> yaml_files(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error))
+    if (file->path().extension() == ".yaml") found.push_back(file->path());
+  return found;
+}
+
+YAML::Node read_yaml(const fs::path& file) { return parse_yaml(read_text(file), file.string()); }
 
 namespace {
 
@@ -34,13 +128,9 @@ ConfigLibrary::ConfigLibrary(const fs::path& method_folder) {
 }
 
 std::vector<std::string> ConfigLibrary::names(const std::string& kind) const {
-  std::error_code error;
   std::set<std::string> known;
-  for (const fs::path& folder : folders_) {
-    for (fs::directory_iterator file(folder / kind, error), end; !error && file != end; file.increment(error)) {
-      if (file->path().extension() == ".yaml") known.insert(file->path().stem().string());
-    }
-  }
+  for (const fs::path& folder : folders_)
+    for (const fs::path& file : yaml_files(folder / kind)) known.insert(file.stem().string());
   return {known.begin(), known.end()};
 }
 

@@ -2,12 +2,30 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace knot_utm {
+
+/// Longest text that is read [bytes]. Methods, materials and load cells have a few thousand characters.
+constexpr std::size_t kLongestText = 65536;
+
+/// What is wrong with a text that is not YAML.
+std::string yaml_fault(const YAML::Exception& fault);
+
+/// Parses a text; `file` is the file that contains it.
+YAML::Node parse_yaml(const std::string& text, const std::string& file);
+
+/// Reads at most one character more than kLongestText.
+std::string read_text(const std::filesystem::path& file);
+
+YAML::Node read_yaml(const std::filesystem::path& file);
+
+/// The files of a folder whose names end in .yaml; none where there is no folder.
+std::vector<std::filesystem::path> yaml_files(const std::filesystem::path& folder);
 
 /// What specimen.knot may be, for a message.
 constexpr const char* kAllowedKnot = "one of the knots that tensile_test --list knots shows, or the file of one";
@@ -25,7 +43,6 @@ class ConfigLibrary {
   std::string allowed(const std::string& kind) const;
 
   /// The file with this name. `key`: the key that named it, and `others`: what else it may name, for the message.
-  /// Throws InvalidInput where there is none.
   std::filesystem::path find(const std::string& kind, const std::string& name, const std::string& key,
                              const std::vector<std::string>& others = {}) const;
 

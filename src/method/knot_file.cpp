@@ -5,17 +5,15 @@
 #include <set>
 #include <utility>
 
+#include "config_library.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/per_knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
 #include "method_reader.hpp"
-#include "yaml_text.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 using fields::as_given;
@@ -38,8 +36,8 @@ class KnotReader {
   [[noreturn]] void refuse(const std::string& key, const YAML::Node& value, const std::string& allowed) const {
     throw InvalidInput(file_, key, as_given(value), allowed);
   }
-  [[noreturn]] void refuse(const std::string& key, const std::string& value, const std::string& why) const {
-    throw InvalidInput::sentence(key, value, key + ": " + why).in_file(file_);
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const {
+    throw InvalidInput::sentence(key, key + ": " + why).in_file(file_);
   }
 
   double number(const std::string& key, const YAML::Node& node, double low, double high) const {
@@ -64,7 +62,7 @@ class KnotReader {
 
   void require_one_line(const std::string& key, const std::string& words) const {
     if (std::any_of(words.begin(), words.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
-      refuse(key, words, "it must be one line of text, without control characters");
+      refuse(key, "it must be one line of text, without control characters");
   }
 
   KnotDrawing::Strand strand(const std::string& key, const YAML::Node& node) const {
@@ -82,7 +80,7 @@ class KnotReader {
       const std::string at = key + ".points." + std::to_string(i);
       const Vec3 next = point(at, points[i]);
       if (i > 0 && (next - out.points.back()).norm() < kLeastStep)
-        refuse(at, one_line(points[i]), "the same point as the one before it; leave it out");
+        refuse(at, "the same point as the one before it; leave it out");
       out.points.push_back(next);
     }
     return out;
@@ -149,7 +147,7 @@ class LandmarkReader {
     for (const auto& [name, what] : named("read", node, "a map such as {eye: {loop: eye}}")) {
       const std::string key = "read." + name;
       if (knot_.read.size() == PerKnot::kMost)
-        reader_.refuse(key, one_line(what), "at most " + std::to_string(PerKnot::kMost) + " things are read of a knot");
+        reader_.refuse(key, "at most " + std::to_string(PerKnot::kMost) + " things are read of a knot");
       if (!what.IsMap() || what.size() != 1) reader_.refuse(key, what, kWhat);
       const YAML::Node of = what.begin()->second;
       const std::string kind = what.begin()->first.IsScalar() ? what.begin()->first.Scalar() : "";
@@ -161,9 +159,9 @@ class LandmarkReader {
         if (!of.IsSequence() || of.size() != 2) reader_.refuse(place, of, "a list of two landmarks");
         const std::size_t first = landmark(place, of[0]), second = landmark(place, of[1]);
         const bool along = kind == "between";
-        if (first == second) reader_.refuse(place, one_line(of), "it must have two landmarks that differ");
+        if (first == second) reader_.refuse(place, "it must have two landmarks that differ");
         if (along && knot_.landmarks[first].strand != knot_.landmarks[second].strand)
-          reader_.refuse(place, one_line(of), "both landmarks must be of one strand");
+          reader_.refuse(place, "both landmarks must be of one strand");
         knot_.read.push_back({name, along ? KnotReading::Kind::kBetween : KnotReading::Kind::kDistance, first, second});
       } else {
         reader_.refuse(key, what, kWhat);
@@ -184,7 +182,7 @@ class LandmarkReader {
     std::set<std::string> known;
     for (const auto& item : node) {
       const std::string name = reader_.name(key, item.first, "a name");
-      if (!known.insert(name).second) reader_.refuse(key, name, shown(name) + " stands there twice");
+      if (!known.insert(name).second) reader_.refuse(key, shown(name) + " stands there twice");
       out.emplace_back(name, item.second);
     }
     return out;
@@ -204,9 +202,8 @@ class LandmarkReader {
     for (const KnotDrawing::Landmark& one : knot_.landmarks) names.push_back(one.name);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      reader_.refuse(key, name,
-                     "no landmark is called " + shown(name) + "; " +
-                         (names.empty() ? "there are none" : "there are " + listed(names, ", ")));
+      reader_.refuse(key, "no landmark is called " + shown(name) + "; " +
+                              (names.empty() ? "there are none" : "there are " + listed(names, ", ")));
     return static_cast<std::size_t>(found - names.begin());
   }
 
@@ -219,15 +216,15 @@ class LandmarkReader {
 void check_names(const KnotReader& reader, const KnotDrawing& knot) {
   std::set<std::string> known;
   for (const std::string& end : ends_of(knot))
-    if (!known.insert(end).second) reader.refuse("strands", end, "two ends are called " + shown(end));
+    if (!known.insert(end).second) reader.refuse("strands", "two ends are called " + shown(end));
   std::set<std::string> held;
   const auto require_known = [&](const std::string& key, const std::string& end) {
     if (known.count(end) == 0)
-      reader.refuse(key, end, "no end is called " + shown(end) + "; the ends are " + listed(ends_of(knot), ", "));
+      reader.refuse(key, "no end is called " + shown(end) + "; the ends are " + listed(ends_of(knot), ", "));
   };
   const auto hold = [&](const std::string& key, const std::string& end) {
     require_known(key, end);
-    if (!held.insert(end).second) reader.refuse(key, end, shown(end) + " is held already");
+    if (!held.insert(end).second) reader.refuse(key, shown(end) + " is held already");
   };
   for (const std::string& end : knot.lower) hold("lower", end);
   for (const std::string& end : knot.upper) hold("upper", end);
@@ -236,31 +233,27 @@ void check_names(const KnotReader& reader, const KnotDrawing& knot) {
     std::set<std::string> pulled;
     for (const KnotDrawing::Pull& pull : knot.tie[i]) {
       require_known(key, pull.end);
-      if (!pulled.insert(pull.end).second) reader.refuse(key, pull.end, shown(pull.end) + " is pulled already");
+      if (!pulled.insert(pull.end).second) reader.refuse(key, shown(pull.end) + " is pulled already");
       if (knot.held(pull.end) == KnotDrawing::End::kLower)
-        reader.refuse(key, pull.end,
-                      shown(pull.end) +
-                          " is held by the lower grip, which stands still and bears what the other "
-                          "ends are pulled with; name free ends, and ends of the upper grip");
+        reader.refuse(key, shown(pull.end) +
+                               " is held by the lower grip, which stands still and bears what the other "
+                               "ends are pulled with; name free ends, and ends of the upper grip");
     }
   }
   for (const KnotDrawing::Landmark& landmark : knot.landmarks)
-    if (known.count(landmark.name) != 0)
-      reader.refuse("landmarks", landmark.name, shown(landmark.name) + " is the name of an end");
+    if (known.count(landmark.name) != 0) reader.refuse("landmarks", shown(landmark.name) + " is the name of an end");
   for (const KnotDrawing::Landmark& landmark : knot.landmarks) known.insert(landmark.name);
   for (const KnotDrawing::Pull& weight : knot.weights) {
-    if (known.count(weight.end) == 0)
-      reader.refuse("weights", weight.end, "no end and no landmark is called " + shown(weight.end));
+    if (known.count(weight.end) == 0) reader.refuse("weights", "no end and no landmark is called " + shown(weight.end));
     if (knot.held(weight.end) != KnotDrawing::End::kFree)
-      reader.refuse("weights", weight.end, shown(weight.end) + " is held by a grip, which bears what hangs there");
+      reader.refuse("weights", shown(weight.end) + " is held by a grip, which bears what hangs there");
   }
   if (knot.lower.empty() && knot.post_of(false) == nullptr)
-    reader.refuse("lower", "", "the lower grip must hold at least one end, or posts must bear the knot");
+    reader.refuse("lower", "the lower grip must hold at least one end, or posts must bear the knot");
   const bool pins = std::any_of(knot.posts.begin(), knot.posts.end(), [](const auto& post) { return post.upper; });
   if (pins == !knot.upper.empty())
-    reader.refuse("upper", "",
-                  pins ? "the upper grip must not hold an end where a post with grip: upper stands for it"
-                       : "the upper grip must hold at least one end, or be a post with grip: upper");
+    reader.refuse("upper", pins ? "the upper grip must not hold an end where a post with grip: upper stands for it"
+                                : "the upper grip must hold at least one end, or be a post with grip: upper");
 }
 
 /// The grips pull along z.
@@ -275,7 +268,7 @@ void check_held_ends(const KnotReader& reader, const KnotDrawing& knot) {
       const Vec3 way = last ? points.back() - points[points.size() - 2] : points.front() - points[1];
       const bool up = held == KnotDrawing::End::kUpper;
       if (way.head<2>().norm() > kOffAxis || (way[2] > 0.0) != up)
-        reader.refuse("strands." + std::to_string(k) + ".points", name,
+        reader.refuse("strands." + std::to_string(k) + ".points",
                       "the end " + shown(name) + " is held by the " + (up ? "upper" : "lower") +
                           " grip, so its last two points must lead straight " + (up ? "up" : "down") + " along z");
     }
@@ -316,7 +309,7 @@ std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& f
     out.weights = pulls("weights", weights);
   const YAML::Node landmarks = top.take("landmarks"), read = top.take("read");
   top.finish();
-  if (out.strands.empty()) reader.refuse("strands", "", "a knot must have at least one strand");
+  if (out.strands.empty()) reader.refuse("strands", "a knot must have at least one strand");
   LandmarkReader of_landmarks(reader, out);
   of_landmarks.landmarks(landmarks);
   of_landmarks.read(read);

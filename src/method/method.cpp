@@ -3,28 +3,24 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "config_library.hpp"
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/tying/before_tying.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"
-#include "method_overrides.hpp"
 #include "method_reader.hpp"
 #include "overruled_keys.hpp"
 #include "specimens_section.hpp"
-#include "yaml_text.hpp"
 
 namespace knot_utm {
 namespace {
@@ -39,9 +35,7 @@ using fields::Reader;
 Material read_material(const std::string& key, const YAML::Node& node, const std::string& file,
                        const ConfigLibrary& library) {
   Material material;
-  if (!node.IsDefined() || node.IsNull()) {
-    throw InvalidInput::missing(key, library.allowed("materials")).in_file(file);
-  }
+  if (!node.IsDefined() || node.IsNull()) throw InvalidInput::missing(key, library.allowed("materials")).in_file(file);
   if (!node.IsScalar() && !node.IsMap()) throw InvalidInput(file, key, as_given(node), library.allowed("materials"));
   if (node.IsScalar()) {
     const fs::path path = library.find("materials", node.Scalar(), key);
@@ -121,8 +115,7 @@ Specification read_specification(const YAML::Node& node, const std::string& file
     const std::string path = key + "." + required.key;
     const auto is_it = [&](const Requirement& other) { return other.key == required.key; };
     if (std::any_of(specification.begin(), specification.end(), is_it))
-      throw InvalidInput::sentence(path, one_line(item.second), shown(path) + " stands twice; give it once")
-          .in_file(file);
+      throw InvalidInput::sentence(path, shown(path) + " stands twice; give it once").in_file(file);
     Reader reader(item.second, file, path);
     fields::requirement(reader, required);
     reader.finish();
@@ -270,8 +263,65 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     if (invalid.key == option) throw;  // an override stands in no file
     throw invalid.in_file(file);
   } catch (const YAML::Exception& yaml) {
-    throw InvalidInput::sentence("the file", yaml.msg, "the file is no method: " + yaml_fault(yaml)).in_file(file);
+    throw InvalidInput::sentence("the file", "the file is no method: " + yaml_fault(yaml)).in_file(file);
   }
+}
+
+using fields::Writer;
+
+namespace {
+
+/// Keys that another choice leaves without effect have plain values, which suit no rod, and would say what the test is
+/// not.
+void leave_out_idle_keys(const Method& m, YAML::Node& root) {
+  const Knot& knot = knot_of(m.specimen);
+  std::vector<std::string> idle;
+  for (const auto& item : root["specimen"])
+    if (!knot.has(item.first.Scalar())) idle.push_back(item.first.Scalar());
+  for (const std::string& key : idle) root["specimen"].remove(key);
+  if (!knot.about().loop) root["machine"].remove("roller_diameter");
+  if (!rollers_hold(m.specimen, m.machine)) root["machine"].remove("far_side");
+}
+
+}  // namespace
+
+std::string method_yaml(const Method& method) {
+  Method m = method;
+  Writer top;
+  fields::before_program(top, m);
+  YAML::Node root = top.map();
+  for (ProgramStep& step : m.program) {
+    Writer entry;
+    entry.section(step->name(), [&](Fields& f) { step->keys(f, 0.0); });
+    YAML::Node entry_map = entry.map();
+    entry_map.SetStyle(YAML::EmitterStyle::Flow);
+    root["program"].push_back(entry_map);
+  }
+  fields::behind_program(top, m);
+  top.section("report", [&](Fields& f) { fields::report(f, m.report); });
+  for (Requirement& required : m.specification) {
+    Writer limits;
+    fields::requirement(limits, required);
+    YAML::Node limits_map = limits.map();
+    limits_map.SetStyle(YAML::EmitterStyle::Flow);
+    root["specification"][required.key] = limits_map;
+  }
+  leave_out_idle_keys(method, root);
+  // A single specimen is the one that the method describes.
+  if (m.specimens.count > 1) root["specimens"] = specimens_map(m.specimens);
+  for (const auto& [key, value] : m.automatic) root["automatic"][key] = value;
+  YAML::Emitter out;
+  out << root;
+  return std::string(out.c_str()) + "\n";
+}
+
+std::optional<double> number_at(const Method& method, const std::string& key) {
+  Method one = method;
+  one.specimens.count = 1;
+  keep_own_keys(one);
+  const YAML::Node value = value_at(YAML::Load(method_yaml(one)), key);
+  if (!value.IsDefined() || !value.IsScalar()) return std::nullopt;
+  return parse_number(value.Scalar());
 }
 
 }  // namespace knot_utm

@@ -3,8 +3,6 @@
 #include <optional>
 #include <string>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/grips/grips.hpp"
@@ -18,7 +16,6 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/tying/before_tying.hpp"
-#include "knot_utm/words/limit_text.hpp"
 #include "knot_utm/words/number.hpp"
 #include "method_reader.hpp"
 #include "overruled_keys.hpp"
@@ -42,7 +39,7 @@ void has_effect(bool has, const char* key, const Value& value, const Value& unse
     given = value;
   }
   throw InvalidInput::sentence(
-      key, given, std::string(key) + " is " + shown(given) + ", but has an effect only " + where + "; leave it out");
+      key, std::string(key) + " is " + shown(given) + ", but has an effect only " + where + "; leave it out");
 }
 
 /// A law has all keys that it needs, and none of another law.
@@ -61,8 +58,7 @@ void check_law(const LawOptions<Number>& given, const std::string& section, cons
   }
 }
 
-/// A breaking law needs the strength of a straight rod.
-/// `section`: that of the material, with a dot.
+/// A breaking law needs the strength of a straight rod. `section`: that of the material, with a dot.
 void check_breaking(const Material& material, const std::string& section) {
   check_law<BreakingRegistry>(material.breaking, section + "breaking.", "law");
   const std::string law = BreakingRegistry::entry(material.breaking.law).name;
@@ -179,19 +175,17 @@ void check_effects(const Method& m) {
 void check_specimen(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   const double h = thickest(m.material);
-  if (knot_of(s).about().knots > 0 && s.edge_length > 2.0 * h) {
+  if (knot_of(s).about().knots > 0 && s.edge_length > 2.0 * h)
     reject("specimen.edge_length", s.edge_length, "at most twice the radius, " + most_text(2.0 * h) + " m");
-  }
   knot_of(s).check(s, h);
   const double apart = s.end_to_end - 2.0 * h;
   if (m.machine.grips == GripKind::kRollers && !(m.machine.roller_diameter < apart))
     reject("machine.roller_diameter", m.machine.roller_diameter,
            "less than " + most_text(apart) + " m, specimen.end_to_end less the diameter of the rod");
   const std::optional<double> breaking = weakest(m.material);
-  if (s.to_be_tied && s.preload && breaking && *breaking <= *s.preload) {
+  if (s.to_be_tied && s.preload && breaking && *breaking <= *s.preload)
     reject("material.breaking_force", *breaking,
            "more than specimen.preload, " + format_number(*s.preload) + " N, the force that ties the knots");
-  }
 }
 
 /// What takes part in a rod's twist needs a rod that has it. Friction at the surface, for one, turns strands about
@@ -213,7 +207,7 @@ void check_twist(const Method& m) {
   need(bends_on_frames(m.material), "a rod of this material.bending_law bends on frames, which take part in its twist",
        "material.bending_law: elastic");
   if (!needs.empty())
-    throw InvalidInput::sentence("physics.twist", "off",
+    throw InvalidInput::sentence("physics.twist",
                                  "physics.twist is off, but " + needs + ": set " + without + " to go without");
 }
 
@@ -226,11 +220,11 @@ void check_rest_shape(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   const bool curved = s.natural_curvature != 0.0;
   if (curved && remembers_bends(m.material))
-    throw InvalidInput::sentence("material.bending_law", BendingRegistry::entry(m.material.bending.law).name,
-                                 "specimen.natural_curvature is " + format_number(s.natural_curvature) +
-                                     ", but material.bending_law is " +
-                                     BendingRegistry::entry(m.material.bending.law).name +
-                                     ": a rod keeps its natural curvature with elastic only");
+    throw InvalidInput::sentence("material.bending_law", "specimen.natural_curvature is " +
+                                                             format_number(s.natural_curvature) +
+                                                             ", but material.bending_law is " +
+                                                             BendingRegistry::entry(m.material.bending.law).name +
+                                                             ": a rod keeps its natural curvature with elastic only");
   if (const double h = thickest(m.material); std::abs(s.natural_curvature) * h >= 1.0) {
     const std::string most = most_text(1.0 / h);
     reject("specimen.natural_curvature", s.natural_curvature,
@@ -240,13 +234,11 @@ void check_rest_shape(const Method& m) {
 
 void check_machine(const Method& m) {
   const LoadCellOptions& cell = m.machine.load_cell;
-  if (cell.resolution >= cell.capacity) {
+  if (cell.resolution >= cell.capacity)
     reject("machine.load_cell.resolution", cell.resolution,
            "less than capacity, " + format_number(cell.capacity) + " N");
-  }
-  if (m.machine.grips == GripKind::kRollers && !knot_of(m.specimen).about().loop) {
+  if (m.machine.grips == GripKind::kRollers && !knot_of(m.specimen).about().loop)
     throw InvalidInput("machine.grips", "rollers", "nodes or clamps: rollers hold only a loop, knot: " + loops());
-  }
 }
 
 void check_load(const std::string& key, double load, double highest, const char* what = "capacity") {

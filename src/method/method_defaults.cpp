@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/program/loading_steps.hpp"

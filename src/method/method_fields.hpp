@@ -2,7 +2,6 @@
 
 #include <array>
 #include <limits>
-#include <string>
 
 #include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/contact/friction.hpp"

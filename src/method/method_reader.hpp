@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -17,7 +16,6 @@
 
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
 #include "method_fields.hpp"
 
@@ -223,8 +221,7 @@ class Reader : public Fields {
     for (const auto& item : map_) {
       if (!item.first.IsScalar() || item.first.Scalar() != key) continue;
       if (found.IsDefined())
-        throw InvalidInput::sentence(path_of(key), one_line(item.second), path_of(key) + " stands twice; give it once")
-            .in_file(file_);
+        throw InvalidInput::sentence(path_of(key), path_of(key) + " stands twice; give it once").in_file(file_);
       found.reset(item.second);
     }
     return found;
@@ -235,7 +232,7 @@ class Reader : public Fields {
     for (const auto& item : map_) {
       const std::string key = one_line(item.first);
       if (std::find(known_.begin(), known_.end(), key) == known_.end())
-        throw InvalidInput::unknown_key(path_, key, one_line(item.second), known_, of_).in_file(file_);
+        throw InvalidInput::unknown_key(path_, key, known_, of_).in_file(file_);
     }
   }
 
@@ -313,8 +310,7 @@ class Reader : public Fields {
     try {
       return load_in_terms(node.Scalar(), *loads_);
     } catch (const std::invalid_argument& why) {
-      throw InvalidInput::sentence(path_of(key), as_given(node),
-                                   path_of(key) + ": cannot take " + as_given(node) + ": " + why.what())
+      throw InvalidInput::sentence(path_of(key), path_of(key) + ": cannot take " + as_given(node) + ": " + why.what())
           .in_file(file_);
     }
   }

@@ -6,9 +6,26 @@
 #include <string>
 #include <vector>
 
+#include "config_library.hpp"
 #include "knot_utm/method/method.hpp"
 
 namespace knot_utm {
+
+/// Writes overrides, each "dotted.key=YAML", into the map of a method. `option`: what messages call them. A key inside
+/// a material or load cell that is given by name changes a copy of it. Overrides whose keys have fewer parts are
+/// applied first; others keep the order given.
+void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const std::string& option,
+                     const ConfigLibrary& library);
+
+/// Who gave the value that a key has, the nearest to the user last: a material's file or nobody, the method, an
+/// override of a whole section, an override of the key.
+enum class GivenBy { kOther, kMethod, kSection, kOverride };
+
+/// `method`: the map before the overrides.
+GivenBy given_by(const std::string& key, const YAML::Node& method, const std::vector<std::string>& overrides);
+
+/// The value at a dotted key; undefined where there is none.
+YAML::Node value_at(const YAML::Node& root, const std::string& key);
 
 /// Takes away the keys of a material and of friction that a choice nearer to the user has left without effect: what a
 /// material's file says of its own bending law where an override chooses another one; its resistance to rolling where

@@ -8,11 +8,11 @@
 #include <set>
 #include <system_error>
 
+#include "config_library.hpp"
 #include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 
 namespace knot_utm {
 namespace {
@@ -32,11 +32,8 @@ std::vector<std::string> folders_of_methods(const std::vector<std::string>& ship
 
 std::vector<std::string> names_of_methods(const std::vector<std::string>& shipped) {
   std::set<std::string> names;
-  for (const std::string& folder : folders_of_methods(shipped)) {
-    std::error_code error;
-    for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error))
-      if (file->path().extension() == ".yaml") names.insert(file->path().stem().string());
-  }
+  for (const std::string& folder : folders_of_methods(shipped))
+    for (const fs::path& file : yaml_files(folder)) names.insert(file.stem().string());
   return {names.begin(), names.end()};
 }
 
@@ -55,12 +52,9 @@ std::string head_of(const fs::path& file) {
 /// What lies in a subfolder of the shipped folders: names and what the files say of themselves.
 std::map<std::string, std::string> shipped_in(const std::string& subfolder, const std::vector<std::string>& shipped) {
   std::map<std::string, std::string> found;
-  for (const std::string& folder : shipped) {
-    std::error_code error;
-    for (fs::directory_iterator file(folder + "/" + subfolder, error), end; !error && file != end;
-         file.increment(error))
-      if (file->path().extension() == ".yaml") found.emplace(file->path().stem().string(), head_of(file->path()));
-  }
+  for (const std::string& folder : shipped)
+    for (const fs::path& file : yaml_files(fs::path(folder) / subfolder))
+      found.emplace(file.stem().string(), head_of(file));
   return found;
 }
 
@@ -69,12 +63,9 @@ std::map<std::string, std::string> titles_of_knots(const std::vector<std::string
   std::map<std::string, std::string> found;
   const std::vector<std::string> coded = knot_names(nullptr);
   for (std::size_t i = 0; i < coded.size(); ++i) found.emplace(coded[i], knots()[i]->about().title);
-  for (const std::string& folder : shipped) {
-    std::error_code error;
-    for (fs::directory_iterator file(folder + "/knots", error), end; !error && file != end; file.increment(error))
-      if (file->path().extension() == ".yaml")
-        found.emplace(file->path().stem().string(), read_knot_file(file->path(), "")->title);
-  }
+  for (const std::string& folder : shipped)
+    for (const fs::path& file : yaml_files(fs::path(folder) / "knots"))
+      found.emplace(file.stem().string(), read_knot_file(file, "")->title);
   return found;
 }
 

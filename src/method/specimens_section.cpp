@@ -71,7 +71,7 @@ SpecimensOptions read_specimens(const YAML::Node& node, const std::string& file,
   for (const auto& item : scatter) {
     const std::string key = one_line(item.first);
     if (std::any_of(out.scatter.begin(), out.scatter.end(), [&](const Scatter& other) { return other.key == key; }))
-      throw InvalidInput::sentence("specimens.scatter", key,
+      throw InvalidInput::sentence("specimens.scatter",
                                    "specimens.scatter: " + shown(key) + " stands twice; give it once")
           .in_file(file);
     out.scatter.push_back(read_scatter(key, item.second, file));
@@ -104,12 +104,12 @@ void check_scatter(const Method& method) {
     const std::optional<double> value = number_at(method, scatter.key);
     const std::string begin = "specimens.scatter: " + shown(scatter.key);
     if (!value)
-      throw InvalidInput::sentence("specimens.scatter", scatter.key,
+      throw InvalidInput::sentence("specimens.scatter",
                                    begin +
                                        " is no key of this method that has a number, such as material.radius or "
                                        "program.pull.speed");
     if (!std::isfinite(*value) || *value == 0.0)
-      throw InvalidInput::sentence("specimens.scatter", scatter.key,
+      throw InvalidInput::sentence("specimens.scatter",
                                    begin + " is " + format_number(*value) +
                                        " in this method, which does not scatter: what is drawn is a fraction of it");
   }

@@ -2,7 +2,6 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <optional>
 #include <string>
 
 #include "knot_utm/method/method.hpp"
@@ -18,7 +17,7 @@ SpecimensOptions read_specimens(const YAML::Node& node, const std::string& file,
 /// next.
 std::vector<Scatter> default_scatter(const Method& method);
 
-/// Checks that every key that scatters is a number of the method. Throws InvalidInput.
+/// Checks that every key that scatters is a number of the method.
 void check_scatter(const Method& method);
 
 YAML::Node specimens_map(const SpecimensOptions& specimens);

@@ -2,15 +2,11 @@
 
 #include <zlib.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cstring>
-#include <utility>
 
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr std::size_t kLengthBytes = 8, kSumBytes = 4;
@@ -133,7 +129,7 @@ void Archive::refuse(const char* what, const std::string& value) const {
 
 void Archive::complain(const std::string& what, const std::string& value, const std::string& allowed) const {
   throw InvalidInput::sentence(
-      what, value, "the " + kind_ + " cannot be loaded: " + what + ": found " + value + ", expected " + allowed)
+      what, "the " + kind_ + " cannot be loaded: " + what + ": found " + value + ", expected " + allowed)
       .in_file(file_);
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "knot_utm/words/known_names.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kUnit = 0x1p-53;

@@ -5,11 +5,67 @@
 #include <cmath>
 
 #include "knot_utm/program/course.hpp"
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
+
+EndedBy BenchStep::ended(const Sample& now, CrossheadCourse&) {
+  const bool done = now.status == BenchStatus::kPhaseDone || now.status == BenchStatus::kNotEquilibrated;
+  return done ? EndedBy::kProgram : EndedBy::kNotYet;
+}
+
+void TieStep::keys(fields::Fields& f, double) { f.scaled_number("speed", speed, kSpeeds); }
+
+void TieStep::check(const StepPlace& place) const {
+  if (place.index != 0) place.misplaced("can only be the first step");
+  place.needs(place.tied);
+}
+
+void ReleaseStep::keys(fields::Fields& f, double) { f.number("duration", duration, {1e-3, 1e4, "s"}); }
+
+void ReleaseStep::check(const StepPlace& place) const {
+  if (place.index != 1 || !place.program[0].as<TieStep>()) place.misplaced("can only stand right after tie");
+}
+
+void MountStep::keys(fields::Fields& f, double) { f.scaled_number("speed", speed, kSpeeds); }
+
+void MountStep::check(const StepPlace& place) const {
+  place.needs(place.loops);
+  for (std::size_t i = 0; i < place.index; ++i)
+    if (moves(place.program[i]->phase()))
+      place.misplaced("can only stand before the first step that moves the crosshead");
+}
+
+void MountStep::steer(const Sample& now, CrossheadCourse& course) { course.move(now, speed); }
+
+void PreloadStep::keys(fields::Fields& f, double) {
+  f.required_number("load", load, {1e-6, 1e8, "N"});
+  f.scaled_number("speed", speed, kSpeeds);
+  f.optional_number("load_rate", load_rate, kLoadRates, "none");
+  f.flag("balance", balance);
+}
+
+void PreloadStep::steer(const Sample& now, CrossheadCourse& course) {
+  course.move(now, balancing_  ? 0.0
+                   : load_rate ? course.velocity_at_load_rate(now, *load_rate, speed, load)
+                               : course.speed_to_load(now, load, speed, true));
+}
+
+EndedBy PreloadStep::ended(const Sample& now, CrossheadCourse& course) {
+  if (!balancing_ && !reached(balanced_load(now), load, 1.0, kMetLoad * load)) return EndedBy::kNotYet;
+  if (balancing_ || !balance) return EndedBy::kLoad;
+  balancing_ = true;
+  course.balance();
+  return EndedBy::kNotYet;
+}
+
+void BalanceStep::begin(const Sample&, CrossheadCourse& course) { course.balance(); }
+
+double BalanceStep::usual_duration(const CrossheadCourse& course) const { return course.period(); }
 
 void PullStep::keys(fields::Fields& f, double way) {
   f.scaled_number("speed", speed, kSpeeds);
@@ -63,8 +119,7 @@ void HoldStep::keys(fields::Fields& f, double) {
 void HoldStep::check(const StepPlace& place) const {
   if (!held_load || hold_load) return;
   const std::string key = place.key() + ".load", load = format_number(*held_load);
-  throw InvalidInput::sentence(key, load,
-                               key + " is " + load + ", but has an effect only with control: load; leave it out");
+  throw InvalidInput::sentence(key, key + " is " + load + ", but has an effect only with control: load; leave it out");
 }
 
 void HoldStep::begin(const Sample&, CrossheadCourse& course) {
@@ -91,9 +146,9 @@ void CycleStep::check(const StepPlace& place) const {
   const std::string key = place.key();
   if (extension.has_value() == load.has_value()) {
     const std::string has = load ? "both extension and load" : "neither extension nor load";
-    throw InvalidInput::sentence(key, has, key + " has " + has + ": give one of them");
+    throw InvalidInput::sentence(key, key + " has " + has + ": give one of them");
   }
-  if (cycles == 0 && !time) throw InvalidInput::sentence(key, "no end", key + " has no end: give count, time or both");
+  if (cycles == 0 && !time) throw InvalidInput::sentence(key, key + " has no end: give count, time or both");
 }
 
 double CycleStep::target() const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +10,24 @@
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+std::string BreakDetector::judge(const Sample& sample) {
+  if (!detection_.fraction_of_peak) return {};
+  // Within a command nobody knows whether its largest or its least load came first: the larger of two falls counts,
+  // from what came before to the least load, and from the largest of both to the load at the end.
+  double from = peak_, to = sample.lowest_load;
+  peak_ = std::max(peak_, sample.highest_load);
+  if (peak_ - balanced_load(sample) > from - to) {
+    from = peak_;
+    to = balanced_load(sample);
+  }
+  if (peak_ <= 0.0 || peak_ < detection_.arming_load) return {};
+  if (!(from > to) || to > *detection_.fraction_of_peak * from) return {};
+  std::ostringstream out;
+  out << "the load fell from " << from << " to " << to << " N";
+  return out.str();
+}
+
 namespace {
 
 constexpr int kUndoneAnswers = 3;  // in a row: a strand that is thrown about may be taken for another knot once
@@ -34,10 +53,9 @@ ProgramRunner::ProgramRunner(Program program, double sampling_rate, double longe
 
 Command ProgramRunner::next(const Sample& sample) {
   if (ended()) return command(last().sequence);
-  if (sample.sequence != last().sequence) {
+  if (sample.sequence != last().sequence)
     throw std::invalid_argument("the sample answers command " + std::to_string(sample.sequence) + ", not command " +
                                 std::to_string(last().sequence));
-  }
   if (course_.take(sample)) break_detector_.begin();
   undone_answers_ = is_undone(sample) ? std::min(undone_answers_ + 1, kUndoneAnswers) : 0;
   if (end_by_alarm(sample)) return command(last().sequence);

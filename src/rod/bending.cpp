@@ -8,7 +8,6 @@
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 /// The two edges of an inner node, as every term below needs them.

@@ -6,7 +6,6 @@
 #include "knot_utm/rod/thinned.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 bool has_frame(const RodState& state) { return state.twist.size() > 0; }

@@ -51,9 +51,7 @@ Points space_parallel_directors(const Points& position, const Vec3& first) {
   const Points t = tangents(position);
   Points d1(3, t.cols());
   d1.col(0) = normal_part(first, t.col(0));
-  for (Eigen::Index j = 1; j < t.cols(); ++j) {
-    d1.col(j) = transported_director(d1.col(j - 1), t.col(j - 1), t.col(j));
-  }
+  for (Eigen::Index j = 1; j < t.cols(); ++j) d1.col(j) = transported_director(d1.col(j - 1), t.col(j - 1), t.col(j));
   return d1;
 }
 
@@ -85,9 +83,7 @@ void transport_frames(const Points& position_before, RodState* state) {
   const Points before = tangents(position_before);
   const Points now = tangents(state->position);
   Points& d1 = state->reference_director;
-  for (Eigen::Index j = 0; j < now.cols(); ++j) {
-    d1.col(j) = transported_director(d1.col(j), before.col(j), now.col(j));
-  }
+  for (Eigen::Index j = 0; j < now.cols(); ++j) d1.col(j) = transported_director(d1.col(j), before.col(j), now.col(j));
   for (Eigen::Index i = 0; i + 1 < now.cols(); ++i) {
     const double angle = reference_twist(column(d1, i), column(now, i), column(d1, i + 1), column(now, i + 1));
     // The angle is known up to whole turns; the one next to the last value is the one that moved there.

@@ -8,14 +8,12 @@
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 void require_size(const char* key, Eigen::Index size, Eigen::Index expected) {
   if (size != expected)
     throw InvalidInput::sentence(
-        key, std::to_string(size),
-        std::string(key) + " has " + std::to_string(size) + " values, but must have " + std::to_string(expected));
+        key, std::string(key) + " has " + std::to_string(size) + " values, but must have " + std::to_string(expected));
 }
 
 constexpr double kLengthOfCut = 10.0;  // more than least_loop [h]

@@ -5,7 +5,6 @@
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 struct TwistCorner {

@@ -24,7 +24,7 @@ namespace {
 InvalidInput no_bag(const std::string& file, const std::string& why) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return InvalidInput::cannot_read(file);
-  return InvalidInput::sentence("bag", file, "the file is no bag that can be read: " + shown(why)).in_file(file);
+  return InvalidInput::sentence("bag", "the file is no bag that can be read: " + shown(why)).in_file(file);
 }
 
 /// The name in the bag of one of the package's topics, in whatever namespace. Empty where the bag does not have it.
@@ -37,9 +37,8 @@ std::string topic_named(const rosbag::Bag& bag, const std::string& file, const s
     const bool ends = topic.size() >= end.size() && topic.compare(topic.size() - end.size(), end.size(), end) == 0;
     if (!ends || topic == found) continue;
     if (!found.empty())
-      throw InvalidInput::sentence(
-          "topic " + name, topic,
-          "the bag has two topics " + name + ", " + shown(found) + " and " + shown(topic) + ", but must have one")
+      throw InvalidInput::sentence("topic " + name, "the bag has two topics " + name + ", " + shown(found) + " and " +
+                                                        shown(topic) + ", but must have one")
           .in_file(file);
     found = topic;
   }
@@ -49,8 +48,7 @@ std::string topic_named(const rosbag::Bag& bag, const std::string& file, const s
 std::string required_topic(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
   std::string topic = topic_named(bag, file, name);
   if (topic.empty())
-    throw InvalidInput::sentence("topic " + name, "none",
-                                 "the bag has no topic " + name + ", so it is not that of a test")
+    throw InvalidInput::sentence("topic " + name, "the bag has no topic " + name + ", so it is not that of a test")
         .in_file(file);
   return topic;
 }
@@ -111,8 +109,7 @@ std::vector<Reading> readings_of(const rosbag::Bag& bag, const std::string& file
     const auto found = at.find(message.header.stamp);
     if (found == at.end())
       throw InvalidInput::sentence(
-          "topic " + load_cell, "no command",
-          "a reading on topic " + shown(load_cell) + " has no command with the same time stamp")
+          "topic " + load_cell, "a reading on topic " + shown(load_cell) + " has no command with the same time stamp")
           .in_file(file);
     out.push_back(found->second);
     out.back().row.load = message.wrench.force.z;
@@ -125,13 +122,12 @@ std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file, i
   if (tests.empty() && wanted <= 1) return {};
   const std::string all = std::to_string(tests.size());
   if (wanted == 0 && tests.size() > 1)
-    throw InvalidInput::sentence("tests", all, "the bag holds " + all + " tests: choose one by --specimen 1 to " + all)
+    throw InvalidInput::sentence("tests", "the bag holds " + all + " tests: choose one by --specimen 1 to " + all)
         .in_file(file);
   const std::size_t index = wanted == 0 ? 0 : static_cast<std::size_t>(wanted - 1);
   if (index >= tests.size())
-    throw InvalidInput::sentence("tests", std::to_string(wanted),
-                                 "--specimen is " + std::to_string(wanted) + ", but the bag holds " + all +
-                                     (tests.size() == 1 ? " test" : " tests"))
+    throw InvalidInput::sentence("tests", "--specimen is " + std::to_string(wanted) + ", but the bag holds " + all +
+                                              (tests.size() == 1 ? " test" : " tests"))
         .in_file(file);
   return std::move(tests[index]);
 }
@@ -145,8 +141,7 @@ std::vector<CurveRow> read_curve_bag(const std::string& file, int test) {
   } catch (const ros::Exception& error) {
     throw no_bag(file, error.what());
   } catch (const std::invalid_argument& error) {
-    throw InvalidInput::sentence("message", error.what(), "a message is not that of a test: " + shown(error.what()))
-        .in_file(file);
+    throw InvalidInput::sentence("message", "a message is not that of a test: " + shown(error.what())).in_file(file);
   }
 }
 

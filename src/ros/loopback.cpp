@@ -23,9 +23,8 @@ void stay_on_loopback() {
     socklen_t length = sizeof listens;
     if (getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listens, &length) != 0 || listens == 0) continue;
     if (setsockopt(fd, SOL_SOCKET, SO_BINDTODEVICE, kLoopbackDevice, sizeof kLoopbackDevice) != 0)
-      throw InvalidInput::sentence("network", "false",
-                                   "this node cannot be kept from other machines (" + reason_of(errno) +
-                                       "), and ROS 1 has no authentication: allow it by network:=true");
+      throw InvalidInput::sentence("network", "this node cannot be kept from other machines (" + reason_of(errno) +
+                                                  "), and ROS 1 has no authentication: allow it by network:=true");
   }
 }
 

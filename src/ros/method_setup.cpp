@@ -17,7 +17,7 @@
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/run/load_test.hpp"
-#include "knot_utm/study/specimens.hpp"
+#include "knot_utm/study/batch.hpp"
 #include "knot_utm/verdict/run_facts.hpp"
 #include "knot_utm/words/number.hpp"
 
@@ -31,9 +31,8 @@ std::string following(const std::string& data, const Program& program) {
   const auto pull = std::find_if(program.rbegin(), program.rend(),
                                  [](const ProgramStep& step) { return step.as<PullStep>() != nullptr; });
   if (pull == program.rend())
-    throw InvalidInput::sentence(
-        "data", data,
-        "the method cannot follow " + shown(data) + ": no step of its program is a pull, which it would replace");
+    throw InvalidInput::sentence("data", "the method cannot follow " + shown(data) +
+                                             ": no step of its program is a pull, which it would replace");
   std::string quoted;
   for (const char c : data) quoted += c == '\'' ? "''" : std::string(1, c);
   return "program." + std::to_string(program.rend() - pull - 1) + "={follow: {record: '" + quoted + "'}}";
@@ -58,7 +57,7 @@ void check_specimen(const Method& method) {
   const std::string count = std::to_string(method.specimens.count);
   if (method.specimens.count > 1)
     throw InvalidInput::sentence(
-        "specimens.count", count,
+        "specimens.count",
         "specimens.count is " + count + ", but under ROS it must be 1: tensile_test and scripts/sweep test several");
   check_fits(method);
 }
@@ -130,9 +129,8 @@ MethodSetup set_up(const TestWords& words) {
   // The folder's name below out/.
   const std::string& name = setup.method.name;
   if (name == "." || name == "..")
-    throw InvalidInput::sentence("method", setup.file,
-                                 "the method file cannot be called \"" + shown(setup.file) +
-                                     "\": its name without its ending is that of the folder to write to");
+    throw InvalidInput::sentence("method", "the method file cannot be called \"" + shown(setup.file) +
+                                               "\": its name without its ending is that of the folder to write to");
   setup.out = (base / (words.out.empty() ? fs::path("out") / name : fs::path(words.out))).lexically_normal().string();
   return setup;
 }
@@ -186,9 +184,8 @@ TestOrder given_order(const ros::NodeHandle& node) {
     // It is no map of texts.
   }
   throw InvalidInput::sentence(
-      name, "",
-      "cannot read the parameter " + name +
-          ", which utm_node sets before each test: it is not there, or the ROS master does not answer");
+      name, "cannot read the parameter " + name +
+                ", which utm_node sets before each test: it is not there, or the ROS master does not answer");
 }
 
 ros::NodeHandle join_ros(int argc, char** argv, const char* name) {

@@ -13,7 +13,6 @@
 #include "knot_utm/ros/knot_node.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/run_bag.hpp"
-#include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
 #include "wall_time.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/grips/grip_bodies.hpp"
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/program/program.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/words/number.hpp"

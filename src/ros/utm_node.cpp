@@ -13,12 +13,11 @@
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/run/claimed_folder.hpp"
 #include "knot_utm/run/load_test.hpp"
-#include "knot_utm/run/progress_line.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/run/summary.hpp"
 #include "knot_utm/settings/accuracy.hpp"
-#include "knot_utm/verdict/foreseen.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
 #include "wall_time.hpp"
 
 namespace knot_utm {

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <filesystem>
+#include <sstream>
 #include <string_view>
-#include <utility>
+#include <system_error>
 
 #include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample_fields.hpp"
-#include "knot_utm/run/cannot_write.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #include "knot_utm/words/text_rows.hpp"
@@ -34,8 +35,6 @@ constexpr const char* kPhase = "phase";
 constexpr const char* kPhaseUnit = sample_unit(kPhase);
 constexpr Column kBalance = {"balance_offset", sample_unit("balance_offset"), &CurveRow::balance_offset};
 constexpr Column kTravel = {"crosshead_travel", sample_unit("raw_extension"), &CurveRow::crosshead_travel};
-/// Earlier versions called s so, and the travel of the crosshead `extension`.
-constexpr Column kEarlier = {"corrected_extension", sample_unit("extension"), &CurveRow::crosshead_travel};
 
 std::vector<Column> behind_the_phase(bool compliant_frame) {
   return compliant_frame ? std::vector<Column>{kBalance, kTravel} : std::vector<Column>{kBalance};
@@ -62,8 +61,7 @@ std::size_t place(const std::string& file, const std::vector<std::string_view>& 
                   const std::vector<std::string_view>& units, const char* name, const char* unit) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw InvalidInput::sentence("row 1", name,
-                                 "row 1 names no column " + std::string(name) + ", which a curve.csv has")
+    throw InvalidInput::sentence("row 1", "row 1 names no column " + std::string(name) + ", which a curve.csv has")
         .in_file(file);
   const std::size_t index = static_cast<std::size_t>(found - names.begin());
   const std::string given = index < units.size() ? "\"" + std::string(units[index]) + "\"" : "missing";
@@ -114,14 +112,13 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   std::array<std::string, 2> head;  // names and units
   for (std::string& row : head) {
     if (!text.next())
-      throw InvalidInput::sentence("rows", "fewer than 2", "a curve.csv begins with a row of names and a row of units")
-          .in_file(file);
+      throw InvalidInput::sentence("rows", "a curve.csv begins with a row of names and a row of units").in_file(file);
     row = text.text();
   }
   const std::vector<std::string_view> names = cells(head[0]);
   const std::vector<std::string_view> units = cells(head[1]);
   std::vector<Column> columns(kColumns.begin(), kColumns.end());
-  for (const Column& column : {kBalance, kTravel, kEarlier})
+  for (const Column& column : {kBalance, kTravel})
     if (std::find(names.begin(), names.end(), column.name) != names.end()) columns.push_back(column);
   std::vector<std::size_t> places;
   for (const Column& column : columns) places.push_back(place(file, names, units, column.name, column.unit));
@@ -131,12 +128,10 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   while (text.next()) {
     const std::string key = "row " + std::to_string(text.number());
     const std::vector<std::string_view> values = cells(text.text());
-    if (values.size() != names.size()) {
-      throw InvalidInput::sentence(key, text.text(),
-                                   key + " has " + std::to_string(values.size()) + " columns, but must have " +
-                                       std::to_string(names.size()) + " as row 1 has")
+    if (values.size() != names.size())
+      throw InvalidInput::sentence(key, key + " has " + std::to_string(values.size()) + " columns, but must have " +
+                                            std::to_string(names.size()) + " as row 1 has")
           .in_file(file);
-    }
     CurveRow row;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::optional<double> value = parse_number(values[places[i]]);
@@ -149,10 +144,9 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
     const std::optional<Phase> known = phase_named(phase);
     if (!known) throw InvalidInput(file, key + ": phase", "\"" + phase + "\"", "a phase of a test, such as pull");
     row.phase = *known;
-    if (columns.back().name == kEarlier.name) std::swap(row.extension, row.crosshead_travel);
     rows.push_back(row);
   }
-  if (!text.fault().empty()) throw InvalidInput::sentence("rows", "too many", text.fault()).in_file(file);
+  if (!text.fault().empty()) throw InvalidInput::sentence("rows", text.fault()).in_file(file);
   return rows;
 }
 
@@ -169,6 +163,80 @@ void write_centreline(const std::string& file, const Points& points, const std::
   }
   out.close();
   if (!out) throw CannotWrite(file);
+}
+
+namespace {
+
+bool pulled(const CurveRow& row) { return pulls(row.phase); }
+
+}  // namespace
+
+std::string curve_file_of(const std::string& given, std::optional<int> specimen) {
+  std::error_code error;
+  const std::filesystem::path folder(given);
+  if (!std::filesystem::is_directory(folder, error)) return given;
+  const auto refuse = [&](const std::string& why) { return InvalidInput::sentence("folder", why).in_file(given); };
+  const int wanted = specimen.value_or(0);
+  if (std::filesystem::exists(folder / "curve.csv", error)) {
+    if (wanted > 1)
+      throw refuse("--specimen is " + std::to_string(wanted) + ", but the folder is that of a single test");
+    return (folder / "curve.csv").string();
+  }
+  const std::size_t specimens = specimen_folders(given).size();
+  if (specimens == 0) throw refuse("the folder has no curve.csv, so it is not that of a run");
+  if (wanted < 1 || static_cast<std::size_t>(wanted) > specimens)
+    throw refuse("the folder holds " + std::to_string(specimens) + " specimens: " +
+                 (specimen ? "choose one by --specimen 1 to " + std::to_string(specimens) : "give the folder of one"));
+  return (std::filesystem::path(specimen_folder(given, wanted)) / "curve.csv").string();
+}
+
+bool is_curve_file(const std::string& file) {
+  const std::string content = read_input(file);
+  std::istringstream names(content.substr(0, content.find_first_of("\r\n")));
+  bool time = false, phase = false;
+  for (std::string name; std::getline(names, name, ',');) {
+    time |= name == "time";
+    phase |= name == "phase";
+  }
+  return time && phase;
+}
+
+std::vector<CurveRow> read_course(const std::string& file, const Tell& tell) {
+  if (!is_curve_file(file))
+    throw InvalidInput::sentence("names",
+                                 "the file is no curve.csv; import_instron makes one of what a testing machine exports")
+        .in_file(file);
+  std::vector<CurveRow> rows = read_curve(file);
+  const auto first = std::find_if(rows.begin(), rows.end(), pulled);
+  if (first == rows.end()) return {};
+  const auto begin = first == rows.begin() ? first : first - 1;
+  if (begin != first && balanced_between(*begin, *first))
+    begin->extension = begin->crosshead_travel = 0.0;  // zero is where it stood
+  const auto behind = std::find_if(rows.rbegin(), rows.rend(), pulled).base();
+  auto end = rows.end();
+  for (auto row = begin; row != end; ++row) {
+    const std::string reading = "reading " + std::to_string(row - rows.begin() + 1);
+    if (!std::isfinite(row->time) || !std::isfinite(row->extension))
+      throw InvalidInput::sentence(reading, reading + " has no time or no extension").in_file(file);
+    if (row == begin) continue;
+    if (row->time < (row - 1)->time)
+      throw InvalidInput::sentence(reading, "time goes back at " + reading + ", from " +
+                                                format_number((row - 1)->time) + " s to " + format_number(row->time) +
+                                                " s")
+          .in_file(file);
+    if (row->phase != Phase::kBalance && (row - 1 == begin || !balanced_between(*(row - 1), *row))) continue;
+    if (row < behind)
+      throw InvalidInput::sentence(reading,
+                                   "the test was balanced at " + reading +
+                                       ", between its pulls; a record that is followed must keep one zero of extension")
+          .in_file(file);
+    if (tell)
+      tell(file + ": followed to reading " + std::to_string(row - rows.begin()) +
+           ", behind which the test was balanced");
+    end = row;
+    break;
+  }
+  return {begin, end};
 }
 
 }  // namespace knot_utm

@@ -5,10 +5,9 @@
 #include <system_error>
 
 #include "knot_utm/program/loading_steps.hpp"
-#include "knot_utm/run/curve_file.hpp"
-#include "knot_utm/verdict/verdict.hpp"
+#include "knot_utm/run/csv.hpp"
+#include "knot_utm/verdict/result_keys.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
@@ -23,10 +22,10 @@ void check_speed(const FollowStep& step, const std::string& key) {
     const RecordedPlace &from = step.recorded[i - 1], &to = step.recorded[i];
     const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
     if (speed > kFastestCrosshead)
-      throw InvalidInput::sentence(key, step.record,
-                                   key + ": the crosshead of " + shown(step.record) + " moves at " +
-                                       format_number(speed) + " m/s at " + format_number(from.time) +
-                                       " s, but must be no faster than " + format_number(kFastestCrosshead) + " m/s");
+      throw InvalidInput::sentence(key, key + ": the crosshead of " + shown(step.record) + " moves at " +
+                                            format_number(speed) + " m/s at " + format_number(from.time) +
+                                            " s, but must be no faster than " + format_number(kFastestCrosshead) +
+                                            " m/s");
   }
 }
 
@@ -44,8 +43,7 @@ void read_record(const std::string& follow, FollowStep& step, const Tell& tell) 
   }
   if (step.recorded.size() < 2)
     throw InvalidInput::sentence(
-        key, step.record,
-        key + ": " + shown(step.record) + " has fewer than 2 readings of the pull at different times");
+        key, key + ": " + shown(step.record) + " has fewer than 2 readings of the pull at different times");
   check_speed(step, key);
 }
 

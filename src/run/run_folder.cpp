@@ -1,26 +1,27 @@
 #include "knot_utm/run/run_folder.hpp"
 
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <memory>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
 
 #include "knot_utm/program/loading_steps.hpp"
-#include "knot_utm/run/cannot_write.hpp"
-#include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/samples.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,7 +72,7 @@ void make_folder(const std::string& folder, const char* argument) {
   std::error_code error, other;
   fs::create_directories(folder, error);
   if (fs::is_directory(folder, other)) return;
-  throw InvalidInput::sentence(argument, folder,
+  throw InvalidInput::sentence(argument,
                                "cannot make the folder \"" + shown(folder) + "\": " + reason_of(error.value()));
 }
 
@@ -79,7 +80,7 @@ void require_new_file(const char* argument, const std::string& file, const std::
                       bool overwrite, const std::string& begins) {
   std::error_code error;
   const auto refuse = [&](const std::string& why) {
-    throw InvalidInput::sentence(argument, file, std::string(argument) + ": " + shown(file) + why);
+    throw InvalidInput::sentence(argument, std::string(argument) + ": " + shown(file) + why);
   };
   for (const std::string& input : inputs)
     if (fs::equivalent(file, input, error)) refuse(" is an input, and would be written over: give another name");
@@ -110,18 +111,17 @@ void require_no_record_in(const std::string& folder, const Method& method) {
   for (const ProgramStep& step : method.program)
     if (const FollowStep* follow = step.as<FollowStep>();
         follow && fs::equivalent(fs::path(follow->record).parent_path(), folder, error))
-      throw InvalidInput::sentence("--out", folder,
-                                   "the method follows " + shown(follow->record) + ", which stands in the folder " +
-                                       shown(folder) + " itself: choose another folder to write to");
+      throw InvalidInput::sentence("--out", "the method follows " + shown(follow->record) +
+                                                ", which stands in the folder " + shown(folder) +
+                                                " itself: choose another folder to write to");
 }
 
 void require_no_method_in(const std::string& folder, const std::string& method_file) {
   std::error_code error;
   const fs::path written = fs::path(folder) / "method.yaml";
   if (!fs::equivalent(written, method_file, error) || read_whole(method_file).rfind(kResolved, 0) == 0) return;
-  throw InvalidInput::sentence(
-      "--out", folder,
-      "the run would write over its own method, " + shown(written.string()) + ": choose another folder to write to");
+  throw InvalidInput::sentence("--out", "the run would write over its own method, " + shown(written.string()) +
+                                            ": choose another folder to write to");
 }
 
 void begin_run_folder(const std::string& folder, const Method& method, const std::string& options) {
@@ -225,6 +225,93 @@ std::string read_input(const std::string& file) {
   } catch (const std::runtime_error&) {
     throw InvalidInput::cannot_read(file);
   }
+}
+
+ClaimedFolder::ClaimedFolder(const std::string& folder) : ClaimedFolder() {
+  if (!claim(folder)) throw InvalidInput::sentence("--out", "another run is writing to the folder " + shown(folder));
+}
+
+ClaimedFolder ClaimedFolder::first_free(const std::string& folder) {
+  for (int number = 1;; ++number) {
+    const std::string candidate = numbered_folder(folder, number);
+    ClaimedFolder claimed;
+    // Another run may have written its results between the look and the claim.
+    if (!holds_run(candidate) && claimed.claim(candidate) && !holds_run(candidate)) return claimed;
+  }
+}
+
+bool ClaimedFolder::claim(const std::string& folder) {
+  make_run_folder(folder);
+  path_ = folder;
+  folder_.reset(opendir(folder.c_str()));
+  if (!folder_) throw InvalidInput::cannot_write("--out", folder, errno);
+  // A file system without locks leaves it to samples.csv, which nobody begins twice.
+  return flock(dirfd(folder_.get()), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+std::string free_folder(const std::string& folder) {
+  int number = 1;
+  while (holds_run(numbered_folder(folder, number))) ++number;
+  return numbered_folder(folder, number);
+}
+
+std::string moved_notice(const std::string& asked, const std::string& used) {
+  return asked + " holds a run already, which stays as it is; this one is written to " + used;
+}
+
+std::string point_latest_to(const std::string& folder) {
+  std::error_code error;
+  fs::path run = fs::absolute(folder, error).lexically_normal();
+  if (!run.has_filename()) run = run.parent_path();
+  if (fs::is_symlink(run, error)) run = run.parent_path() / fs::read_symlink(run, error);
+  if (error || run.parent_path().filename() != "out") return {};
+  const fs::path link = run.parent_path() / "latest";
+  const fs::file_status there = fs::symlink_status(link, error);
+  if (fs::exists(there) && !fs::is_symlink(there)) return {};
+  // Another run may end at the same time: the link is replaced at once, and is never missing.
+  const fs::path part = run.parent_path() / (".latest-" + std::to_string(getpid()));
+  fs::remove(part, error);
+  fs::create_directory_symlink(run.filename(), part, error);
+  if (error) return {};
+  fs::rename(part, link, error);
+  if (error) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    return {};
+  }
+  return fs::path(folder).is_absolute() ? link.string() : link.lexically_proximate(fs::current_path(error)).string();
+}
+
+namespace {
+
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
+
+std::string from_here(const fs::path& file) {
+  std::error_code error;
+  const fs::path here = fs::current_path(error), near = file.lexically_proximate(here);
+  return error || near.empty() || *near.begin() == ".." ? file.string() : near.string();
+}
+
+}  // namespace
+
+std::string command_line(int argc, const char* const* argv) { return command_line({argv, argv + argc}); }
+
+std::string command_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+  return line;
+}
+
+std::string program_beside(const std::string& name) {
+  std::error_code error;
+  const fs::path running = fs::read_symlink("/proc/self/exe", error);
+  return error ? name : from_here(running.parent_path() / name);
 }
 
 }  // namespace knot_utm

@@ -16,7 +16,7 @@
 
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample_fields.hpp"
-#include "knot_utm/run/cannot_write.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 
@@ -280,8 +280,7 @@ SamplesReader::SamplesReader(const std::string& folder)
   std::string begin(head().size(), '\0');
   in_.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   if (!in_ || begin != head())
-    throw InvalidInput::sentence("row 1", "other columns", "the columns are not those that this version writes")
-        .in_file(file_);
+    throw InvalidInput::sentence("row 1", "the columns are not those that this version writes").in_file(file_);
   whole_bytes_ = begin.size();
 }
 

@@ -1,5 +1,6 @@
 #include "knot_utm/run/summary.hpp"
 
+#include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -10,14 +11,18 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 #include <vector>
 
+#include "knot_utm/program/phases.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,9 +122,9 @@ class ResultFile {
     try {
       root_ = YAML::Load(read_input(file));
     } catch (const YAML::Exception& error) {
-      throw InvalidInput::sentence("file", file, shown(file) + " is not the result of a run: " + shown(error.msg));
+      throw InvalidInput::sentence("file", shown(file) + " is not the result of a run: " + shown(error.msg));
     }
-    if (!root_.IsMap()) throw InvalidInput::sentence("file", file, shown(file) + " is not the result of a run");
+    if (!root_.IsMap()) throw InvalidInput::sentence("file", shown(file) + " is not the result of a run");
   }
 
   std::string word(const std::string& key) const { return word_in(root_[key]); }
@@ -258,6 +263,85 @@ std::string comparison_summary(const Comparison& comparison, const std::string& 
          ", which both have, the loads differ by " + apart(d.rms) + share + " RMS, at most by " +
          apart(std::abs(d.largest)) + " at " + reading_text(d.largest_at, "m") + "\n";
   return out;
+}
+
+ProgressLine::ProgressLine(std::FILE* out) : out_(out && isatty(fileno(out)) != 0 ? out : nullptr) {}
+
+void ProgressLine::show(const Sample& sample, const ProgramRunner& program, double wall_time) {
+  if (!out_ || wall_time < next_) return;
+  next_ = wall_time + 0.2;
+  shown_ = true;
+  const double factor = sample.time / wall_time;
+  const double left = factor > 0.0 ? program.time_left() / factor : 0.0;
+  std::fprintf(out_, "\r%-8s %5.1f %%  s %8.2f mm  F %10.4g N  %6.1f x real time  %5.0f s left ",
+               phase_name(sample.phase), 100.0 * program.progress(), 1e3 * sample.extension, sample.load, factor, left);
+  std::fflush(out_);
+}
+
+void ProgressLine::show(int ended, int count) {
+  if (!out_) return;
+  shown_ = true;
+  const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  std::fprintf(out_, "\r%d of %d specimens tested  %5.0f s left ", ended, count, passed / ended * (count - ended));
+  std::fflush(out_);
+}
+
+void ProgressLine::end() {
+  if (shown_) std::fputc('\n', out_);
+  shown_ = false;
+}
+
+namespace {
+
+constexpr std::array<const char*, 5> kOfComparison{"comparison.yaml", "a.csv", "b.csv", "report.html", "report.pdf"};
+
+/// Whether something stands in the folder that a comparison would write over, but for the very same comparison, or a
+/// run, whose page it would take.
+bool holds_another(const fs::path& folder, const std::string& yaml) {
+  std::error_code error;
+  const fs::path before = folder / kOfComparison.front();
+  if (fs::is_regular_file(before, error)) return read_whole(before.string()) != yaml;
+  for (const char* name :
+       {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "statistics.yaml", "samples.csv"})
+    if (fs::is_regular_file(folder / name, error)) return true;
+  return false;
+}
+
+void require_room_for_comparison(const std::string& folder, const std::string& file_a, const std::string& file_b) {
+  const fs::path where(folder);
+  std::error_code error;
+  if (fs::exists(where / "result.yaml", error))
+    throw InvalidInput::sentence(
+        "--report",
+        "the folder " + shown(folder) + " holds a run: choose another folder for the report of the comparison");
+  for (const char* name : kOfComparison) {
+    for (const std::string& compared : {file_a, file_b}) {
+      if (fs::equivalent(where / name, compared, error))
+        throw InvalidInput::sentence("--report", "the report would write over " + shown((where / name).string()) +
+                                                     ", which is compared: choose another folder");
+    }
+  }
+}
+
+std::string pull_csv(const Pull& pull) {
+  std::string text = "extension,load\nm,N\n";
+  for (const PullPoint& point : pull) text += format_number(point.extension) + "," + format_number(point.force) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string write_comparison(const std::string& asked, const std::string& yaml, const Pull& a, const Pull& b,
+                             const std::string& file_a, const std::string& file_b, bool overwrite) {
+  require_room_for_comparison(asked, file_a, file_b);
+  std::string folder = asked;
+  for (int number = 2; !overwrite && holds_another(folder, yaml); ++number) folder = numbered_folder(asked, number);
+  require_room_for_comparison(folder, file_a, file_b);
+  const fs::path where(folder);
+  make_folder(folder, "--report");
+  const std::array<std::string, 3> texts{yaml, pull_csv(a), pull_csv(b)};
+  for (std::size_t i = 0; i < texts.size(); ++i) write_whole((where / kOfComparison[i]).string(), texts[i]);
+  return folder;
 }
 
 }  // namespace knot_utm

@@ -13,7 +13,6 @@
 #include "measured.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 using namespace measured;

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "axes.hpp"
+#include "force_term.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
-#include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/rod/thinned.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr Lanes kZero = {0.0, 0.0, 0.0, 0.0};

@@ -11,7 +11,6 @@
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
-#include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 

@@ -4,12 +4,16 @@
 #include <utility>
 #include <vector>
 
+#include "knot_utm/numeric/lanes.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/linear_system.hpp"
-#include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 
 namespace knot_utm {
+
+/// The unit vectors of a node's position, and of the spin that stands behind it in the fourth lane.
+inline constexpr Lanes kAxis[3] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}};
+inline constexpr Lanes kSpin = {0.0, 0.0, 0.0, 1.0};
 
 /// The interface of a force term of the time step's equation (increment.hpp). It has no base class, because no call in
 /// the inner loop is virtual. Every term has add_forces, add_stiffness and account, of which kIsForceTerm makes sure,

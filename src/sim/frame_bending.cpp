@@ -12,7 +12,6 @@
 #include "knot_utm/rod/turning_angle.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 /// The bending law of every node. That of the ropes behind the first one is of the same kind.

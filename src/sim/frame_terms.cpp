@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "axes.hpp"
+#include "force_term.hpp"
 #include "knot_utm/numeric/fours.hpp"
 #include "knot_utm/numeric/index.hpp"
-#include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/thinned.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 // Well above the rounding of the factorisation, far below anything that twists: over a thousand edges, a millionth of

@@ -1,7 +1,5 @@
 #include "motion_term.hpp"
 
-#include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {

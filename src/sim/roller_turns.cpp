@@ -8,7 +8,6 @@
 #include "surface_columns.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 double product(const std::vector<Lanes>& a, const std::vector<Lanes>& b) {

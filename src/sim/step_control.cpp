@@ -1,11 +1,9 @@
 #include "knot_utm/sim/step_control.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kGrowth = 1.2;

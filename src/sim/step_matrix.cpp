@@ -1,14 +1,11 @@
 #include "knot_utm/sim/step_matrix.hpp"
 
-#include <algorithm>
-#include <cstdlib>
 #include <string>
 
 #include "knot_utm/numeric/index.hpp"
 #include "surface_columns.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr int kRoomNodes = 4;  // of the other strand: three of a segment, one that it may slide on to

@@ -1,6 +1,5 @@
 #include "knot_utm/sim/step_readings.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <string>
 
@@ -11,7 +10,6 @@
 #include "knot_utm/sim/scene.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 /// Calls add(node, weight) with weights on three nodes of the sum 1, of which those below zero count as zero.

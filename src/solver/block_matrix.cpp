@@ -3,12 +3,10 @@
 #include <suitesparse/amd.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "knot_utm/numeric/index.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 /// Two lower blocks of a pivot, kept in registers while they meet all of its upper blocks: each entry of those is then

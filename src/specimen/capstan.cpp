@@ -7,11 +7,10 @@
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/limit_text.hpp"
-#include "shape_checks.hpp"
+#include "knot_utm/words/number.hpp"
+#include "path.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kPost = 12.0;          // diameter, as that of the paper's rollers [h]

@@ -1,16 +1,19 @@
 #include "knot_utm/specimen/centreline.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
+#include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/options.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/limit_text.hpp"
-#include "shape_checks.hpp"
+#include "knot_utm/words/number.hpp"
+#include "path.hpp"
 
 namespace knot_utm {
 
@@ -50,7 +53,7 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
                       const std::vector<double>& radii, const Vec3* origin) {
   const Points& points = centreline.points;
   const auto refuse = [&](const std::string& why) {
-    throw InvalidInput::sentence(key, value, std::string(key) + " " + shown(value) + ": " + why);
+    throw InvalidInput::sentence(key, std::string(key) + " " + shown(value) + ": " + why);
   };
   const auto length = [&](double metres) { return origin ? text(metres / radius) + " radii" : text(metres) + " m"; };
   // Strands touch along the smooth centreline, outwards of which a bent polyline cuts its corners. Those of a tight
@@ -87,10 +90,9 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
 Centreline straight(double length, double radius, double edge_length) {
   check_radius(radius);
   check_edge_length(edge_length, radius);
-  if (!(length >= 4.0 * edge_length && length <= 100.0)) {
+  if (!(length >= 4.0 * edge_length && length <= 100.0))
     throw InvalidInput("specimen.length", text(length),
                        limits_text(4.0 * edge_length, 100.0) + " m: at least four edges");
-  }
   const auto edges = static_cast<Eigen::Index>(std::round(length / edge_length));
   Centreline centreline;
   centreline.points = Points::Zero(3, edges + 1);
@@ -103,7 +105,7 @@ Centreline from_points(const Points& points, double radius, double edge_length, 
   check_radius(radius);
   check_edge_length(edge_length, radius);
   const auto refuse = [&](const std::string& why) {
-    throw InvalidInput::sentence("specimen.file", name, "specimen.file " + shown(name) + why);
+    throw InvalidInput::sentence("specimen.file", "specimen.file " + shown(name) + why);
   };
   if (!points.allFinite()) refuse(" has a point that is not finite");
   if (points.cols() < 2) refuse(" has " + std::to_string(points.cols()) + " points, but must have two or more");
@@ -121,6 +123,32 @@ Centreline from_points(const Points& points, double radius, double edge_length, 
   centreline.points = graded(points, radius, edge_length, refinement);
   check_no_overlap(centreline, radius, "specimen.file", name);
   return centreline;
+}
+
+namespace {
+
+constexpr double kLeastAcross = 0.01;  // of the axis x, its part across the rod
+
+/// alpha, once there are frames.
+double angle_of_side(const RodState& state) {
+  const Vec3 along = (state.position.col(1) - state.position.col(0)).normalized();
+  const Vec3 first = state.reference_director.col(0);
+  const Vec3 side = std::hypot(along.y(), along.z()) < kLeastAcross ? Vec3::UnitY() : Vec3::UnitX();
+  return std::atan2(side.dot(along.cross(first)), side.dot(first));
+}
+
+}  // namespace
+
+void give_rest_shape(const SpecimenOptions& specimen, const RodProperties& rod, RodState* state) {
+  const double curvature = specimen.natural_curvature;
+  if (curvature == 0.0) return;
+  initialise_frames(state);
+  const Eigen::Index inner = rod.nodes() - 2;
+  if (!state->curved_at_rest()) remember_bends(rod, state);
+  const double angle = angle_of_side(*state);
+  for (Eigen::Index i = 0; i < inner; ++i)
+    state->natural_curvature.col(i) =
+        curvature * rod.voronoi_length[i + 1] * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
 }  // namespace knot_utm

@@ -10,13 +10,10 @@
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/limit_text.hpp"
 #include "knot_utm/words/number.hpp"
 #include "path.hpp"
-#include "shape_checks.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kFineBeyondCoil = 3.0;   // of the strand that a coil holds [h]
@@ -80,16 +77,13 @@ KnotMarks draw_knot(const KnotFrame& frame, const Coil& coil, double c, double r
 void check_fisherman(const FishermanShape& shape) {
   check_radius(shape.radius);
   check_edge_length(shape.edge_length, shape.radius);
-  if (!(shape.looseness >= 3.9 && shape.looseness <= 8.0)) {
+  if (!(shape.looseness >= 3.9 && shape.looseness <= 8.0))
     throw InvalidInput("specimen.looseness", text(shape.looseness), "3.9 to 8 radii of the rod");
-  }
-  if (!(shape.tail >= 2.0 * shape.radius)) {
+  if (!(shape.tail >= 2.0 * shape.radius))
     throw InvalidInput("specimen.tail", text(shape.tail),
                        "at least the diameter of the rod, " + least_text(2.0 * shape.radius) + " m");
-  }
-  if (!(shape.end_to_end > 0.0 && shape.end_to_end <= 100.0)) {
+  if (!(shape.end_to_end > 0.0 && shape.end_to_end <= 100.0))
     throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0 and at most 100 m");
-  }
 }
 
 /// The coil that leaves equal gaps between standing part, threaded strand, tail and coil.
@@ -112,10 +106,9 @@ double narrowest_loop(const Coil& coil, double h) { return 0.5 * (coil.radius + 
 /// Distance of a rod on a roller from the roller's axis.
 double distance_on_roller(const FishermanShape& shape, const Coil& coil) {
   const double rolled = shape.roller_radius + shape.radius;
-  if (!(rolled >= narrowest_loop(coil, shape.radius))) {
+  if (!(rolled >= narrowest_loop(coil, shape.radius)))
     throw InvalidInput("machine.roller_diameter", text(2.0 * shape.roller_radius),
                        "at least " + least_text(coil.radius + 0.5 * shape.radius) + " m for the coils of this rod");
-  }
   return rolled;
 }
 
@@ -132,10 +125,9 @@ double knot_height(const FishermanShape& shape, const Coil& coil, double rolled)
   const double roller_reach = coil.radius > rolled ? rolled : std::sqrt(rolled * rolled - beside_axis * beside_axis);
   const double c_min = coil.inner + 1.25 * h;
   const double c_max = middle - std::max(strand_leaves(coil, h) + h, coil.outer + h + roller_reach);
-  if (!(c_max > c_min)) {
+  if (!(c_max > c_min))
     throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
                        "at least " + least_text(2.0 * (c_min + middle - c_max)) + " m for this rod and these rollers");
-  }
   if (!(c >= c_min)) {
     const double least = std::max(kLeastDistance * h, 2.0 * c_min + shape.outward_shift);
     throw InvalidInput("specimen.knot_distance", text(shape.knot_distance),

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "knot_utm/contact/closest_points.hpp"
-#include "knot_utm/topology/overhand_strand.hpp"
+#include "knot_utm/topology/crossings.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kMeeting = 1.05;              // distance of strands that touch [both radii]

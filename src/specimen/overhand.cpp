@@ -8,13 +8,10 @@
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/limit_text.hpp"
 #include "knot_utm/words/number.hpp"
 #include "path.hpp"
-#include "shape_checks.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kLength = 1.0;    // of the shipped method, for the paper's radius [m]
@@ -69,9 +66,8 @@ void check_overhand(const OverhandShape& shape) {
   check_radius(shape.radius);
   check_edge_length(shape.edge_length, shape.radius);
   if (shape.turns < 1 || shape.turns > 4) throw InvalidInput("specimen.turns", std::to_string(shape.turns), "1 to 4");
-  if (!(shape.length > 0.0 && shape.length <= 100.0)) {
+  if (!(shape.length > 0.0 && shape.length <= 100.0))
     throw InvalidInput("specimen.length", text(shape.length), "above 0 and at most 100 m");
-  }
 }
 
 /// What a loop of some radius leaves between the grips, with straight tails of 4 h at both ends [m].

@@ -8,7 +8,6 @@
 #include "knot_utm/numeric/pieces.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 /// Lays equal chords along a polyline.

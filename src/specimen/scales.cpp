@@ -8,7 +8,6 @@
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 // Between the times of nylon and polypropylene, 2.9e-4 and 1.6e-4 s. Of these, 3e-5 s takes 23 and 35 % more iterations

@@ -13,19 +13,14 @@
 #include <vector>
 
 #include "knot_utm/analysis/comparison.hpp"
-#include "knot_utm/analysis/raw_zero.hpp"
-#include "knot_utm/run/cannot_write.hpp"
-#include "knot_utm/run/command_hint.hpp"
-#include "knot_utm/run/curve_file.hpp"
-#include "knot_utm/run/report.hpp"
+#include "knot_utm/run/csv.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/summary.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 #include "knot_utm/words/number.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif
-#include "make_report.hpp"
 #include "run_python.hpp"
 #include "tool.hpp"
 
@@ -41,7 +36,7 @@ struct ReadingWords {
 
 struct Arguments {
   std::string a, b;
-  ZeroWanted zero;
+  bool as_it_is = false;  // raw data, too
   bool overwrite = false;
   bool yaml = false;  // prints all of it
   std::optional<double> tolerance;
@@ -92,7 +87,7 @@ CurveOfFile read_bag([[maybe_unused]] const std::string& file, [[maybe_unused]] 
 #ifdef KNOT_UTM_HAS_ROS
   return {file, read_curve_bag(file, specimen)};
 #else
-  throw InvalidInput::sentence("file", file, "cannot read a bag: this program was built without ROS").in_file(file);
+  throw InvalidInput::sentence("file", "cannot read a bag: this program was built without ROS").in_file(file);
 #endif
 }
 
@@ -121,7 +116,7 @@ CurveOfFile imported(const std::string& file, const ReadingWords& words, int spe
   if (code == kDone) return {file, read_curve(curve)};
   const std::string name = "import_instron: ";
   const std::string why = last.rfind(name, 0) == 0 ? last.substr(name.size()) : file + ": cannot be imported: " + last;
-  if (code == kWrongInput) throw InvalidInput::sentence("file", file, why);
+  if (code == kWrongInput) throw InvalidInput::sentence("file", why);
   throw std::runtime_error(why);
 }
 
@@ -140,10 +135,6 @@ CurveOfFile read(const std::string& file, const ReadingWords& words, int specime
 int run(Arguments arguments) {
   if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
     throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a finite number of at least 0");
-  if (arguments.zero.begins_at && arguments.zero.balance == false)
-    throw InvalidInput::sentence(
-        "--begins-at", format_number(*arguments.zero.begins_at),
-        "--begins-at says where raw data have their zero, so that --no-balance cannot stand beside it");
   const ReadingWords& words = arguments.words;
   if (!words.invert.empty() && words.invert != "falling" && words.invert != "extension" && words.invert != "load" &&
       words.invert != "both")
@@ -157,7 +148,7 @@ int run(Arguments arguments) {
   CurveOfFile first = read(arguments.a, words, of_a, note), second = read(arguments.b, words, of_b, note);
   if (!unused.empty() && has_its_zero(first.rows) && has_its_zero(second.rows))
     note("both curves are of knot_utm, for which " + unused);
-  const auto [a, b, comparison] = compare_curves(std::move(first), std::move(second), arguments.zero, note);
+  const auto [a, b, comparison] = compare_curves(std::move(first), std::move(second), !arguments.as_it_is, note);
   for (const std::string& line : told) tell(line);
   const std::string yaml = comparison_yaml(comparison, arguments.a, arguments.b);
   std::string page;
@@ -187,15 +178,9 @@ int main(int argc, char** argv) {
         "machine exported. Prints the main readings of both and their differences.");
     app.add_option("A", arguments.a, "the curve that B is compared with")->required();
     app.add_option("B", arguments.b, "the other curve")->required();
-    CLI::Option* balance = app.add_flag_callback(
-        "--balance", [&arguments] { arguments.zero.balance = true; },
-        "raw data: load and extension are zero where the crosshead begins to move; this is so by default");
-    app.add_flag_callback(
-           "--no-balance", [&arguments] { arguments.zero.balance = false; }, "raw data: take them as they are")
-        ->excludes(balance);
-    app.add_option("--begins-at", arguments.zero.begins_at,
-                   "extension of the first reading of raw data that were cut [m]; the load there is taken from the "
-                   "other curve");
+    app.add_flag(
+        "--no-balance", arguments.as_it_is,
+        "raw data: take them as they are; else load and extension are zero where the crosshead begins to move");
     app.add_option("--tolerance", arguments.tolerance, "end with exit code 1 where a relative difference is larger [-]")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--report", arguments.report, "a folder to write the page to, report.html and report.pdf");

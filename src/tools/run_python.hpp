@@ -11,6 +11,8 @@
 #include <system_error>
 #include <vector>
 
+#include "knot_utm/verdict/run_facts.hpp"
+
 namespace knot_utm {
 
 /// Runs a module of the Python package knot_utm, "knot_utm.report", with these words, and returns its exit code, 1
@@ -42,6 +44,13 @@ inline int run_python(const std::string& module, const std::vector<std::string>&
   if (failed != 0) return 1;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+/// Has the Python package knot_utm write report.html and report.pdf into the folder of a run or of a comparison.
+/// `command` is what the page names as its origin. Returns whether both are written; where they are not, Python has
+/// said why in one line. Nothing else in the folder changes.
+inline bool make_report(const std::string& folder, const std::string& command) {
+  return run_python("knot_utm.report", {"--command", command, "--version", version(), "--", folder}) == 0;
 }
 
 }  // namespace knot_utm

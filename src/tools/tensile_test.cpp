@@ -9,28 +9,23 @@
 #include <thread>
 #include <vector>
 
-#include "knot_utm/method/knot_sheet.hpp"
+#include "knot_utm/method/knot_file.hpp"
 #include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample_fields.hpp"
-#include "knot_utm/run/claimed_folder.hpp"
-#include "knot_utm/run/command_hint.hpp"
 #include "knot_utm/run/load_test.hpp"
-#include "knot_utm/run/progress_line.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/summary.hpp"
 #include "knot_utm/study/batch.hpp"
 #include "knot_utm/study/headless_run.hpp"
-#include "knot_utm/study/specimens.hpp"
-#include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/result_keys.hpp"
-#include "knot_utm/verdict/trust_limits.hpp"
-#include "knot_utm/words/known_names.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
 #endif
-#include "make_report.hpp"
+#include "run_python.hpp"
 #include "tool.hpp"
 
 namespace knot_utm {
@@ -54,8 +49,7 @@ void set_signals() {
 }
 
 /// Prints what is known of a knot before it is pulled, and has Python write its picture, KNOT.png, into a folder.
-/// Throws InvalidInput where there is no such knot, where it cannot be drawn, or where the picture exists and
-/// `overwrite` does not allow to replace it. `option`: what names the knot, for messages.
+/// `option`: what names the knot, for messages.
 int draw_knot(const std::string& knot, const char* option, const std::string& folder, bool overwrite) {
   const KnotSheet sheet = knot_sheet(knot, option);
   const std::string file = (std::filesystem::path(folder) / (sheet.name + ".png")).string();
@@ -247,7 +241,7 @@ int make_anew(const Arguments& arguments) {
 /// Refuses `--resume` for a single test: only a batch goes on where it stopped.
 void require_batch(const Arguments& arguments, const Method& method) {
   if (arguments.resume.empty() || method.specimens.count > 1) return;
-  throw InvalidInput::sentence("--resume", arguments.resume,
+  throw InvalidInput::sentence("--resume",
                                "--resume goes on with a batch, but " + shown(arguments.resume) +
                                    " holds a single test: run it anew, or make the results of what was measured by "
                                    "--from-samples");

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/run/command_hint.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/verdict/run_facts.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/known_names.hpp"
 
 namespace knot_utm {
 

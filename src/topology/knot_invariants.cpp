@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "knot_utm/topology/crossings.hpp"
 #include "knot_utm/topology/modular.hpp"
 
 namespace knot_utm {

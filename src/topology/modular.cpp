@@ -100,9 +100,8 @@ std::vector<std::uint64_t> interpolate(std::vector<std::uint64_t> values) {
   std::vector<std::uint64_t> result(n, 0);
   for (std::size_t i = n; i-- > 0;) {
     // result = result * (t - (i + 1)) + values[i]
-    for (std::size_t k = n - 1; k > 0; --k) {
+    for (std::size_t k = n - 1; k > 0; --k)
       result[k] = subtract(result[k - 1], multiply(result[k], static_cast<std::uint64_t>(i + 1)));
-    }
     result[0] = subtract(values[i], multiply(result[0], static_cast<std::uint64_t>(i + 1)));
   }
   return result;

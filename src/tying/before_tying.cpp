@@ -7,16 +7,14 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/settings/accuracy.hpp"
-#include "knot_utm/settings/specimen_centreline.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#include "knot_utm/words/limit_text.hpp"
 #include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 constexpr double kClosed = 2.0;        // radius of a coil that lies on the strands in it [h]

@@ -1,8 +1,6 @@
 #include "knot_utm/tying/tying.hpp"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "knot_utm/grips/grips.hpp"
 #include "knot_utm/record/command.hpp"
@@ -11,13 +9,10 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
-#include "knot_utm/tying/rest_watch.hpp"
-#include "knot_utm/tying/settling.hpp"
 #include "knot_utm/tying/tail_grips.hpp"
 #include "knot_utm/tying/tied_loop.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 /// Ties a knot between the machine's grips by pulling at its ends, as a drawing says (Centreline::tied). The drawn

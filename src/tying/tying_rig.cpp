@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "knot_utm/program/phases.hpp"
@@ -11,7 +10,6 @@
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
-
 namespace {
 
 // Places of the clamps, in rod radii from the middle of the loose coil. A knot that runs over its clamp reads wrong:
@@ -263,9 +261,8 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
       }
       break;
     case Stage::kClampsRest:
-      if (elapsed >= ramp_time_ && rest_.waited(time, stage_begin_, "the clamps were released")) {
+      if (elapsed >= ramp_time_ && rest_.waited(time, stage_begin_, "the clamps were released"))
         enter(Stage::kReleased, time);
-      }
       break;
     case Stage::kTailsRamp:
     case Stage::kClampsRamp:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/record/sample.hpp"

@@ -4,13 +4,66 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstddef>
 #include <system_error>
 
-#include "knot_utm/words/known_names.hpp"
-
 namespace knot_utm {
+namespace {
+
+constexpr std::size_t kLongest = 64;  // no name is longer
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// The optimal string alignment distance: each swap of neighbours, addition, omission or replacement counts one.
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before = above;
+    above = row;
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+/// How many mistakes a name of this length may have: more would make it another name.
+std::size_t mistakes(std::size_t length) { return length < 3 ? 0 : length < 6 ? 1 : length < 10 ? 2 : 3; }
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& names, const char* before_last) {
+  std::string all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) all += i + 1 == names.size() ? before_last : ", ";
+    all += names[i];
+  }
+  return all;
+}
+
+std::string nearest_name(const std::string& given, const std::vector<std::string>& known) {
+  if (given.size() > kLongest) return {};
+  std::string nearest;
+  std::size_t fewest = mistakes(given.size()) + 1;
+  for (const std::string& name : known) {
+    const std::size_t apart = distance(lower(given), lower(name));
+    if (apart < fewest) {
+      fewest = apart;
+      nearest = name;
+    }
+  }
+  return nearest;
+}
+
 namespace {
 
 /// Not a reason of its own: whoever asks was not content with what the file holds.
@@ -47,58 +100,51 @@ std::string reason_of(int error) {
   return reason;
 }
 
-InvalidInput::InvalidInput(const Parts& parts, const std::string& line)
-    : std::runtime_error(line), file(parts.file), key(parts.key), value(parts.value), allowed(parts.allowed) {}
+InvalidInput::InvalidInput(const Place& place, const std::string& line)
+    : std::runtime_error(line), file(place.file), key(place.key) {}
 
-InvalidInput::InvalidInput(const std::string& key_, const std::string& value_, const std::string& allowed_)
-    : InvalidInput(Parts{"", key_, value_, allowed_},
-                   shown(key_) + " is " + shown(value_) + ", but must be " + allowed_) {}
+InvalidInput::InvalidInput(const std::string& key_, const std::string& value, const std::string& allowed)
+    : InvalidInput(Place{"", key_}, shown(key_) + " is " + shown(value) + ", but must be " + allowed) {}
 
-InvalidInput::InvalidInput(const std::string& file_, const std::string& key_, const std::string& value_,
-                           const std::string& allowed_)
-    : InvalidInput(InvalidInput(key_, value_, allowed_).in_file(file_)) {}
+InvalidInput::InvalidInput(const std::string& file_, const std::string& key_, const std::string& value,
+                           const std::string& allowed)
+    : InvalidInput(InvalidInput(key_, value, allowed).in_file(file_)) {}
 
 InvalidInput InvalidInput::missing(const std::string& key, const std::string& give) {
-  return {Parts{"", key, "nothing", give}, shown(key) + " is missing: give " + give};
+  return sentence(key, shown(key) + " is missing: give " + give);
 }
 
-InvalidInput InvalidInput::unknown_key(const std::string& section, const std::string& key, const std::string& value,
+InvalidInput InvalidInput::unknown_key(const std::string& section, const std::string& key,
                                        const std::vector<std::string>& known, const std::string& of) {
-  const std::string prefix = section.empty() ? "" : section + ".";
-  const std::string path = prefix + key;
-  const std::string nearest = nearest_name(key, known);
+  const std::string prefix = section.empty() ? "" : section + ".", nearest = nearest_name(key, known);
   std::string hint = question(nearest.empty() ? "" : prefix + nearest);
   if (nearest.empty() && known.empty()) hint = "; " + section + " takes no keys";
   if (nearest.empty() && !known.empty())
     hint = "; the keys of " + (section.empty() ? of : section) + " are " + listed(known, " and ");
-  return {Parts{"", path, value, listed(known, " and ") + " (no other keys)"},
-          shown(path) + " is no key of " + of + shown(hint)};
+  return sentence(prefix + key, shown(prefix + key) + " is no key of " + of + shown(hint));
 }
 
 InvalidInput InvalidInput::unknown_name(const std::string& key, const std::string& value, const std::string& allowed,
                                         const std::vector<std::string>& known) {
-  return {Parts{"", key, value, allowed},
-          shown(key) + " is \"" + shown(value) + "\", but must be " + allowed + question(nearest_name(value, known))};
+  return sentence(
+      key, shown(key) + " is \"" + shown(value) + "\", but must be " + allowed + question(nearest_name(value, known)));
 }
 
 InvalidInput InvalidInput::cannot_read(const std::string& file, const std::string& key) {
   const std::string line = "cannot read " + shown(file) + ": " + why_unreadable(file);
-  if (key.empty()) return {Parts{file, "file", file, "a file that can be read"}, line};
-  return {Parts{"", key, file, "a file that can be read"}, shown(key) + ": " + line};
+  if (key.empty()) return {Place{file, "file"}, line};
+  return sentence(key, shown(key) + ": " + line);
 }
 
 InvalidInput InvalidInput::cannot_write(const std::string& key, const std::string& file, int error) {
-  return {Parts{"", key, file, "a place that can be written to"},
-          "cannot write " + shown(file) + ": " + reason_of(error)};
+  return sentence(key, "cannot write " + shown(file) + ": " + reason_of(error));
 }
 
-InvalidInput InvalidInput::sentence(const std::string& key, const std::string& value, const std::string& text) {
-  return {Parts{"", key, value, text}, text};
-}
+InvalidInput InvalidInput::sentence(const std::string& key, const std::string& text) { return {Place{"", key}, text}; }
 
 InvalidInput InvalidInput::in_file(const std::string& name) const {
   if (!file.empty() || name.empty() || key.rfind("--", 0) == 0) return *this;
-  return {Parts{name, key, value, allowed}, shown(name) + ": " + what()};
+  return {Place{name, key}, shown(name) + ": " + what()};
 }
 
 }  // namespace knot_utm

@@ -8,11 +8,10 @@
 #include <optional>
 #include <random>
 
-#include "knot_utm/analysis/cycles.hpp"
 #include "knot_utm/analysis/pull_readings.hpp"
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/analysis/sample_readings.hpp"
-#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

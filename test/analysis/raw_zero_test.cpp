@@ -1,6 +1,4 @@
 // The zero of raw data: a curve that is held against itself as a machine would have recorded it differs by rounding.
-#include "knot_utm/analysis/raw_zero.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -106,15 +104,6 @@ TEST(RawZero, ACurveDiffersFromItsOwnRawDataByRounding) {
           raw = recorded(rows, units, offset);
           EXPECT_EQ(zero_at_rest(raw).readings, 21u);
           expect_the_same(pull, pull_of(balanced(raw, zero_at_rest(raw, pull))));
-          // Behind: it was cut.
-          for (const std::ptrdiff_t cut : {2, 9}) {
-            raw = recorded({ours.begin() + cut, ours.end()}, units, offset);
-            const auto zero = zero_of_cut(raw, (ours.begin() + cut)->extension, pull);
-            ASSERT_TRUE(zero);
-            const std::optional<CurveDifference> difference = curve_difference(pull, pull_of(balanced(raw, *zero)));
-            ASSERT_TRUE(difference);
-            EXPECT_LT(std::abs(difference->largest), 1e-10 * difference->load);
-          }
         }
 }
 
@@ -206,8 +195,8 @@ CurveOfFile raw(double from = 0.0, double offset = 0.0) {
 
 struct Told {
   std::vector<std::string> lines;
-  ComparedCurves compare(const CurveOfFile& a, const CurveOfFile& b, const ZeroWanted& zero = {}) {
-    return compare_curves(a, b, zero, [&](const std::string& line) { lines.push_back(line); });
+  ComparedCurves compare(const CurveOfFile& a, const CurveOfFile& b) {
+    return compare_curves(a, b, true, [&](const std::string& line) { lines.push_back(line); });
   }
 };
 
@@ -223,7 +212,7 @@ TEST(ComparedCurves, SayTheZeroOfEachFileFromItsOwnReadings) {
     rest.load = 5.0 + more;
     resting.rows.insert(resting.rows.begin(), rest);
   }
-  const ComparedCurves compared = told.compare(offset, resting, {true, std::nullopt});
+  const ComparedCurves compared = told.compare(offset, resting);
   EXPECT_NEAR(compared.comparison.difference->largest, 0.0, 1e-9);
   EXPECT_THAT(told.lines,
               testing::Contains(HasSubstr("raw.csv: zero is 5 N at 0.01 m, the mean of its 3 readings before the "
@@ -233,7 +222,7 @@ TEST(ComparedCurves, SayTheZeroOfEachFileFromItsOwnReadings) {
   EXPECT_THAT(yaml, HasSubstr("zero_b: {extension: 0.01, load: 5, readings: 3, load_there: 0.25}\n"));
   const ComparedCurves as_they_are = told.compare(offset, offset);
   EXPECT_THAT(comparison_yaml(as_they_are.comparison, "a", "b"), testing::Not(HasSubstr("zero_")));
-  const ComparedCurves both = told.compare(resting, raw(0.01, 7.0), {true, std::nullopt});
+  const ComparedCurves both = told.compare(resting, raw(0.01, 7.0));
   EXPECT_EQ(both.comparison.zeros->a->load, 5.0);
   EXPECT_EQ(both.comparison.zeros->b->load, 7.0);
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/program/break_detector.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

@@ -1,5 +1,3 @@
-#include "knot_utm/breaking/fracture.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,9 +5,10 @@
 #include <vector>
 
 #include "knot_utm/analysis/results.hpp"
+#include "knot_utm/breaking/break_watch.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/program/loading_steps.hpp"
-#include "knot_utm/program/run_test.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"

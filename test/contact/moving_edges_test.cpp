@@ -1,5 +1,3 @@
-#include "knot_utm/contact/moving_edges.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

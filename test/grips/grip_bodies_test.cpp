@@ -1,9 +1,8 @@
-#include "knot_utm/grips/grip_bodies.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 

@@ -12,7 +12,7 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/preparing_steps.hpp"
-#include "knot_utm/program/run_test.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"

@@ -11,7 +11,6 @@
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/record/command.hpp"
-#include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/words/invalid_input.hpp"

@@ -12,7 +12,7 @@
 
 #include "complaint.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/settings/specimen_centreline.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"

@@ -10,7 +10,7 @@
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/settings/specimen_centreline.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {

@@ -17,7 +17,7 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/verdict/foreseen.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
 
 namespace knot_utm {
 namespace {

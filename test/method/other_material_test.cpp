@@ -3,8 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "knot_utm/breaking/break_watch.hpp"
 #include "knot_utm/breaking/breaking_laws.hpp"
-#include "knot_utm/breaking/fracture.hpp"
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/program/loading_steps.hpp"
@@ -12,7 +13,6 @@
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"

@@ -9,7 +9,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/grips/grips.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/program/run_test.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/load_test.hpp"
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/program/load_control.hpp"
+#include "knot_utm/program/course.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/tying/take_up.hpp"
+#include "knot_utm/tying/tied_loop.hpp"
 #include "program/programs.hpp"
 
 namespace knot_utm {

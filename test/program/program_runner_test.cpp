@@ -9,7 +9,6 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/phases.hpp"
-#include "knot_utm/program/run_test.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "program/programs.hpp"

@@ -10,7 +10,6 @@
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/program/program_runner.hpp"
-#include "knot_utm/program/run_test.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 

@@ -15,7 +15,6 @@
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/run_bag.hpp"
-#include "knot_utm/run/cannot_write.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "run/command.hpp"

@@ -1,6 +1,4 @@
 // Nothing that was measured is written over without being asked for.
-#include "knot_utm/run/claimed_folder.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,9 +6,8 @@
 #include <string>
 
 #include "knot_utm/method/shipped.hpp"
-#include "knot_utm/run/command_hint.hpp"
-#include "knot_utm/run/report.hpp"
 #include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/run/summary.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"

@@ -13,7 +13,6 @@
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/csv.hpp"
-#include "knot_utm/run/curve_file.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "knot_utm/contact/centreline_curve.hpp"
-#include "knot_utm/program/run_test.hpp"
+#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/specimen/knot.hpp"

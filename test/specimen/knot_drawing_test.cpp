@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "complaint.hpp"
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/settings/specimen_centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/polyline.hpp"
+#include "knot_utm/topology/crossings.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
-#include "knot_utm/topology/overhand_strand.hpp"
 #include "knot_utm/tying/tying_rig.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 

@@ -1,7 +1,5 @@
 // Rods that are curved at rest, against what they need to be held straight and what they become when free.
 
-#include "knot_utm/specimen/rest_shape.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
+#include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/options.hpp"
 #include "sim/balance.hpp"
 #include "sim/scenes.hpp"

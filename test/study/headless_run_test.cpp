@@ -14,7 +14,6 @@
 #include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/batch.hpp"
-#include "knot_utm/study/specimens.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "run/own_folder.hpp"
 

@@ -1,5 +1,3 @@
-#include "knot_utm/study/readings.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -8,6 +6,7 @@
 
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/batch.hpp"
+#include "knot_utm/study/headless_run.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "run/own_folder.hpp"
 

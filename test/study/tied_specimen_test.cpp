@@ -1,5 +1,3 @@
-#include "knot_utm/study/tied_specimen.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

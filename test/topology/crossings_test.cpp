@@ -9,8 +9,6 @@
 #include <random>
 #include <tuple>
 
-#include "knot_utm/topology/loop_turn.hpp"
-
 namespace knot_utm {
 namespace {
 

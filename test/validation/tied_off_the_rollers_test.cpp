@@ -7,7 +7,6 @@
 
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/command.hpp"
-#include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "rod/materials.hpp"
 

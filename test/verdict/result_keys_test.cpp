@@ -13,9 +13,7 @@
 #include <set>
 
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/verdict/foreseen.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
-#include "knot_utm/verdict/verdict.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #include "run/command.hpp"

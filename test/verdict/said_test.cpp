@@ -9,7 +9,7 @@
 #include <string>
 
 #include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/verdict/foreseen.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
 

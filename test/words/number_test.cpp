@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "knot_utm/words/known_names.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/text_rows.hpp"
 
 namespace knot_utm {

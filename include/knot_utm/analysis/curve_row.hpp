@@ -1,12 +1,17 @@
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "knot_utm/analysis/curve_readings.hpp"
-#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/command.hpp"
 
 namespace knot_utm {
+
+/// Receives lines about what was read, which a user should see.
+using Tell = std::function<void(const std::string& line)>;
 
 struct Sample;
 

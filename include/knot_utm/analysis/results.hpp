@@ -105,7 +105,7 @@ struct Results {
 
   std::optional<Relaxation> relaxation;  ///< of the last hold under load in which the crosshead stood still
 
-  // Readings of the last step that cycles (cycles.hpp).
+  // Readings of the last step that cycles (pull_readings.hpp).
   std::size_t cycles = 0;                  ///< number of closed cycles
   std::optional<double> hysteresis;        ///< of the last closed cycle [J]
   std::optional<Elongations> elongations;  ///< of the last closed cycle

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "knot_utm/breaking/breaking_law.hpp"
-#include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/numeric/law_registry.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/material.hpp"
 

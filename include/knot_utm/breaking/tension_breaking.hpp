@@ -1,7 +1,7 @@
 #pragma once
 
 #include "knot_utm/breaking/breaking_law.hpp"
-#include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/numeric/law_registry.hpp"
 #include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/numeric/law_registry.hpp"
 
 namespace knot_utm {
 

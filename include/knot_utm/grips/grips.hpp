@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "knot_utm/grips/loop_pins.hpp"
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/time_step.hpp"
@@ -13,6 +13,24 @@
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+/// A pin in a slack loop that becomes one of its rollers: while the loop is put on, it moves to the roller's place and
+/// widens to the roller's radius.
+struct Pin {
+  Vec3 place = Vec3::Zero();  ///< where it begins [m]
+  double radius = 0.0;        ///< with which it begins [m]
+
+  void state(Archive& archive) { archive(place, radius); }
+};
+
+/// Two pins along y, the lower and the upper one, that stand in the loop and clear its rod by `clearance` [m]. The loop
+/// lies about the plane across y. Each pin is as wide as the loop allows, but no wider than `widest` [m], and as far
+/// out. Empty: there is no room in one half of the loop.
+std::vector<Pin> pins_in(const Points& loop, double widest, double clearance);
+
+/// Gives a roller the place and the radius of its pin while the fraction `left` of the way from one to the other
+/// remains.
+void widen(const Pin& pin, double left, Roller& roller);
 
 /// The grips of the machine: two rollers in the loop of a fisherman's knot, or held nodes. A clamp holds two nodes and
 /// the material frame between them. Where fixed posts and dead loads bear the specimen's lower end, its first post is
@@ -110,5 +128,24 @@ class Grips {
   std::optional<SpringHold> far_middle_;  // keeps the loop from turning on the rollers; relative to half-way
   bool holds_far_side_ = false;
 };
+
+struct Material;
+
+/// A body that holds or bears the specimen, for pictures: a cylinder for a roller, a post or a piece of a ring, a block
+/// for a clamp or another holder of a node.
+struct GripBody {
+  bool goes_up = false;           ///< moves with the upper grip; else it stands still
+  Vec3 from_grip = Vec3::Zero();  ///< of its middle, from the middle of the upper grip, or of the lower one [m]
+  double cylinder_radius = 0.0;   ///< 0: a block [m]
+  Vec3 axis = Vec3::UnitY();      ///< of a cylinder
+  Vec3 half_box(double h) const;  ///< half the edges of its bounding box beside a rod of radius h [m]
+  double piece = 0.0;             ///< length of a cylinder that is a piece of a ring; 0: of another one [m]
+  /// Half the length with which a cylinder is drawn [m].
+  double half_length(double h) const { return piece > 0.0 ? 0.5 * piece : 6.0 * h; }
+};
+
+/// The lower grip first, then the upper one, then posts other than those that are grips, and the other pieces of rings.
+std::vector<GripBody> grip_bodies(const SpecimenOptions& specimen, const MachineOptions& machine,
+                                  const Material& material);
 
 }  // namespace knot_utm

@@ -33,8 +33,7 @@ struct Material;
 /// passed_balance asks for shorter steps. The curve of F over g does not contain this lag.
 class Frame {
  public:
-  /// `strands`: their number n. `moved`: length of rod that moves with the grip, m_a/(rho A) [m]. Throws InvalidInput
-  /// for a stiffness that is not positive.
+  /// `strands`: their number n. `moved`: length of rod that moves with the grip, m_a/(rho A) [m].
   Frame(double stiffness, const Material& material, int strands, double moved);
 
   bool rigid() const;

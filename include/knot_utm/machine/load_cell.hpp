@@ -20,7 +20,6 @@ namespace knot_utm {
 /// number of the run. The n-th readings of two cells with the same seed and run have the same noise.
 class LoadCell {
  public:
-  /// Throws InvalidInput where a number is out of range.
   explicit LoadCell(const LoadCellOptions& options);
 
   void balance(double true_force);  ///< from now on this force reads zero

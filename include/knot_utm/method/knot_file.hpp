@@ -27,7 +27,18 @@ struct KnotDrawing;
 ///       - {upper: 1, upper_tail: 0.5}        # one that is pulled again has this part from then on
 ///     weights: {upper_tail: 0.1}             # on free ends or landmarks, once it is tied: parts of F_p, along -z
 ///
-/// `name`: what a method calls it. Throws InvalidInput with the file and the key.
+/// `name`: what a method calls it.
 std::shared_ptr<const KnotDrawing> read_knot_file(const std::filesystem::path& file, const std::string& name);
+
+/// What is shown of a knot before anything pulls it.
+struct KnotSheet {
+  std::string name;   ///< of its file or as a method calls it
+  std::string facts;  ///< a line each: title, use, strands, held, pulled, crossings, type, distance, bend
+  std::string shape;  ///< JSON, of which python/knot_utm/knot_picture.py makes a picture
+};
+
+/// Of a knot that comes with the package or of a user's file, in the rod of the default material. Its free ends and the
+/// strands to the grips are cut short. `option`: what names the knot, for messages.
+KnotSheet knot_sheet(const std::string& knot, const std::string& option);
 
 }  // namespace knot_utm

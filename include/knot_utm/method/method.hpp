@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/method/report_options.hpp"
 #include "knot_utm/program/program.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/machine_options.hpp"
@@ -14,6 +13,31 @@
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
+
+enum class ForceUnit { kNewton, kKilonewton, kPoundForce };
+enum class LengthUnit { kMillimetre, kInch, kMetre };
+
+/// What a report says in addition to the results. None of it changes a number of the test. The test's files stay in SI
+/// units.
+struct ReportOptions {
+  std::string specimen_id;
+  std::string standard;
+  std::string conditioning;  ///< of the specimens before the test
+  std::string terminations;  ///< of the specimen's ends in the grips
+  std::string notes;
+  ForceUnit force = ForceUnit::kNewton;
+  LengthUnit length = LengthUnit::kMillimetre;
+};
+
+/// A requirement on one number of result.yaml, in the unit of that file. At least one of the limits is set.
+struct Requirement {
+  std::string key;
+  std::optional<double> min;
+  std::optional<double> max;
+};
+
+/// The requirements in the order of the method. Empty: there are none.
+using Specification = std::vector<Requirement>;
 
 /// The `ends` section of a method: what ends a test before its program does. A rod that parts, the end of the
 /// crosshead's travel (`machine.travel`) and the operator end it in any case.

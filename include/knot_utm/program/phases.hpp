@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/command.hpp"
 
 namespace knot_utm {
 

@@ -4,15 +4,39 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "knot_utm/program/break_detector.hpp"
 #include "knot_utm/program/course.hpp"
 #include "knot_utm/program/program.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/ended_by.hpp"
 
 namespace knot_utm {
+
+struct Sample;
+
+/// What a testing machine takes for a break: the load has fallen to a fraction of its peak. It judges loads only. A rod
+/// that parts in the simulation (break_watch.hpp) ends the test without it.
+struct BreakDetection {
+  std::optional<double> fraction_of_peak;  ///< [-]; unset: no fall is a break
+  double arming_load = 0.0;                ///< falls count only after the load has reached this [N]
+};
+
+/// Watches the load while the crosshead moves outwards. It uses the largest and the smallest load over all time steps
+/// of a command (Sample::highest_load, lowest_load) and not the cell's readings, so that it sees a drop between two
+/// readings.
+class BreakDetector {
+ public:
+  explicit BreakDetector(const BreakDetection& detection) : detection_(detection) {}
+
+  void begin() { peak_ = 0.0; }  ///< begins a motion outwards
+
+  /// Takes the next sample. Returns the break that it shows, as a message; empty: none.
+  std::string judge(const Sample& sample);
+
+ private:
+  BreakDetection detection_;
+  double peak_ = 0.0;  // [N]
+};
 
 struct Sample;
 
@@ -93,5 +117,26 @@ class ProgramRunner {
   EndedBy ended_by_ = EndedBy::kNotYet;
   std::string reason_;
 };
+
+struct Command;
+struct Sample;
+
+/// Runs a whole test, or the rest of one: the program's commands go to the bench and its samples back until the test
+/// has ended. `observe(command, sample)` sees each answer before the program does and may call `program.stop()`.
+/// `interrupted()` may end the run between commands, where bench and program can be saved and continued later. A Bench
+/// has `Sample respond(const Command&)`.
+template <class Bench, class Observer, class Interrupted>
+void run_test(Bench& bench, ProgramRunner& program, Observer observe, Interrupted interrupted) {
+  Command command = program.last();
+  while (!program.ended() && !interrupted()) {
+    const Sample sample = bench.respond(command);
+    observe(command, sample);
+    command = program.next(sample);
+  }
+}
+template <class Bench, class Observer>
+void run_test(Bench& bench, ProgramRunner& program, Observer observe) {
+  run_test(bench, program, observe, [] { return false; });
+}
 
 }  // namespace knot_utm

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/record/per_knot.hpp"
-#include "knot_utm/record/phase.hpp"
 
 namespace knot_utm {
 

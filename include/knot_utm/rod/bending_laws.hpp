@@ -15,7 +15,7 @@ using BendingLaws = std::variant<ElasticBending, PlasticBending, FrictionalBendi
 
 using BendingRegistry = LawRegistry<BendingLaws>;
 
-/// The law that a material names, with its parameters. Throws InvalidInput where one is missing.
+/// The law that a material names, with its parameters.
 inline BendingLaws bending_law_of(const RodMaterial& material) {
   return BendingRegistry::of(material.bending.law, material);
 }

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/numeric/law_registry.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/yielding_bend.hpp"
 

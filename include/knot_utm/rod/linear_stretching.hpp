@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/numeric/law_registry.hpp"
 #include "knot_utm/rod/stretching_law.hpp"
 
 namespace knot_utm {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/numeric/law_registry.hpp"
 
 namespace knot_utm {
 

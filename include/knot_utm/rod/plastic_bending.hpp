@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/numeric/law_registry.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/yielding_bend.hpp"
 #include "knot_utm/words/invalid_input.hpp"
@@ -33,7 +33,7 @@ struct PlasticBending {
   static PlasticBending of(const RodMaterial& material) {
     if (!material.yield_strain)
       throw InvalidInput::sentence(
-          "material.yield_strain", "none",
+          "material.yield_strain",
           "material.yield_strain is missing: give the strain of the outermost fibre at which the "
           "rod yields, which bending_law: plastic needs");
     return {*material.yield_strain / material.radius, material.bending.number(kHardening)};

@@ -11,7 +11,7 @@ struct RodLaws {
   BendingLaws bending;        ///< of its inner nodes; without a natural curvature in the state the elastic one
                               ///< (isotropic_bending.hpp), which is all that require_fits allows there
 
-  /// Those that a material names. Throws InvalidInput where a value of theirs is missing.
+  /// Those that a material names.
   static RodLaws of(const RodMaterial& material) { return {stretching_law_of(material), bending_law_of(material)}; }
 };
 

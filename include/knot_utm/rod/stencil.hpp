@@ -73,9 +73,7 @@ inline StencilMatrix on_nodes(const EdgePairHessian& s) {
   h.block<3, 1>(4, 7) = s.e_theta_f - s.f_theta_f;
   h.block<3, 1>(8, 7) = s.f_theta_f;
   for (const Eigen::Index angle : {3, 7}) {
-    for (const Eigen::Index node : {0, 4, 8}) {
-      h.block<1, 3>(angle, node) = h.block<3, 1>(node, angle).transpose();
-    }
+    for (const Eigen::Index node : {0, 4, 8}) h.block<1, 3>(angle, node) = h.block<3, 1>(node, angle).transpose();
   }
   h(3, 3) = s.theta_e_theta_e;
   h(7, 7) = s.theta_f_theta_f;

@@ -7,8 +7,7 @@ namespace knot_utm {
 ///
 ///     T = dW/dlambda,   l0 W the energy that the edge stores.
 ///
-/// A law is one header and one line in `StretchingLaws` (stretching_laws.hpp). It is a plain struct, which
-/// has
+/// A law is one header and one line in `StretchingLaws` (stretching_laws.hpp). It is a plain struct, which has
 ///
 ///     static constexpr const char* kName          the name that methods use (material.stretching_law)
 ///     static constexpr std::array kKeys           its keys in `material` (LawKey), or NoKeys

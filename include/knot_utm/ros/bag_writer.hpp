@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "knot_utm/run/cannot_write.hpp"
+#include "knot_utm/run/run_folder.hpp"
 
 namespace knot_utm {
 

@@ -14,7 +14,7 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/run/record.hpp"
+#include "knot_utm/run/samples.hpp"
 
 namespace knot_utm {
 

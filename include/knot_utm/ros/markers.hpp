@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "knot_utm/grips/grip_bodies.hpp"
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/color_scale.hpp"

@@ -15,7 +15,7 @@
 
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/run/claimed_folder.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
 #include "knot_utm/run/samples.hpp"
 

@@ -11,8 +11,8 @@
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
-#include "knot_utm/run/record.hpp"
-#include "knot_utm/settings/specimen_centreline.hpp"
+#include "knot_utm/run/samples.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 
 namespace knot_utm {
 

@@ -1,13 +1,32 @@
 #pragma once
 
+#include <dirent.h>
+
+#include <cerrno>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/record/ended_by.hpp"
+#include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
+
+/// A file that cannot be written. The message has the form "cannot write FILE: no space left on device", with the
+/// reason that the operating system gave last (errno).
+struct CannotWrite : std::runtime_error {
+  explicit CannotWrite(const std::string& file, int error_ = errno)
+      : std::runtime_error("cannot write " + file + (error_ == 0 ? "" : ": " + reason_of(error_))), error(error_) {}
+
+  /// Whether the file did not fit: the disk is full, the quota is used up or the file is too large. Otherwise the
+  /// folder was a wrong choice.
+  bool out_of_room() const { return error == ENOSPC || error == EDQUOT || error == EFBIG; }
+
+  int error;  ///< value of errno
+};
 
 /// Makes the folder that a command-line argument such as "--report" names. Throws InvalidInput where that cannot be
 /// done.
@@ -75,5 +94,47 @@ void write_whole(const std::string& file, const std::string& text);
 std::string read_whole(const std::string& file);
 /// The same for a file that the user named. Throws InvalidInput where it cannot be read.
 std::string read_input(const std::string& file);
+
+/// The folder of a run or a batch, which no other program writes to as long as this object is there. The operating
+/// system holds the claim, and lets it go when the process ends, however it does.
+class ClaimedFolder {
+ public:
+  /// Makes the folder where it is not there, and claims it whatever it holds. Throws InvalidInput (key "--out") where
+  /// it cannot be made, or another program is writing to it.
+  explicit ClaimedFolder(const std::string& folder);
+
+  /// The folder or, where that holds a run already (complete, cut off or under way), the first free one of `folder-2`,
+  /// `folder-3` and so on, so that nothing measured is overwritten. Throws InvalidInput where it cannot be made.
+  static ClaimedFolder first_free(const std::string& folder);
+
+  const std::string& path() const { return path_; }
+
+ private:
+  ClaimedFolder() : folder_(nullptr, &closedir) {}
+  bool claim(const std::string& folder);
+
+  std::string path_;
+  std::unique_ptr<DIR, int (*)(DIR*)> folder_;
+};
+
+/// The folder that ClaimedFolder::first_free would use now.
+std::string free_folder(const std::string& folder);
+
+/// The notice for the user when a run goes to another folder than the one asked for.
+std::string moved_notice(const std::string& asked, const std::string& used);
+
+/// Makes the link `out/latest` lead to the folder of a run that stands in a folder called `out`, such as `out/tighten`
+/// or `out/tighten-2`, so that a command that reads `out/latest` reads the run that was written last. Returns the path
+/// of the link. Returns an empty text, and makes no link, where the run stands elsewhere, where something that is no
+/// link has that name, or where the file system has no links.
+std::string point_latest_to(const std::string& folder);
+
+/// A command line that a shell reads back to the same words: those with blanks and the like are quoted.
+std::string command_line(int argc, const char* const* argv);
+std::string command_line(const std::vector<std::string>& words);
+
+/// How a user calls another program of the package that stands beside the running one: by its path, which is counted
+/// from the current folder where it lies below it.
+std::string program_beside(const std::string& name);
 
 }  // namespace knot_utm

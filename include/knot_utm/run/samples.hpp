@@ -6,11 +6,48 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/ended_by.hpp"
-#include "knot_utm/run/record.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+/// What a picture colours the rod by, beside its tension. A vector is empty where its values are not known.
+struct RodReadings {
+  Eigen::VectorXd twist_rate;    ///< of each inner node (twist_rates) [rad/m]
+  Eigen::VectorXd contact_load;  ///< normal forces on each node per length (TestingMachine::contact_load) [N/m]
+
+  void state(Archive& archive);
+};
+
+/// All that is kept of one command. The files of a run are made from its records alone.
+struct Record {
+  Command command;
+  Sample answer;
+  std::vector<Sample> steps;            ///< the accepted time steps of this command, in order
+  Points shape;                         ///< nodes after the command [m]; no columns where no shape is due
+  Eigen::VectorXd tension;              ///< of each edge, tension positive [N]; empty where no shape is due
+  std::optional<RodReadings> readings;  ///< where they are asked for and a shape is due
+  double wall_time = 0.0;               ///< wall time since the beginning of the test [s]
+
+  void state(Archive& archive);
+};
+
+/// The row of curve.csv that belongs to a command; null: none does. It is the answer at a sampling instant of the load
+/// cell, and also where the cell was balanced, so that the curve contains its zero. If the rod parted, it is the time
+/// step in which it parted; this step ends the curve, and lies between two sampling instants as a rule. A machine that
+/// failed gives no row.
+const Sample* cell_reading(const Record& record);
+
+/// Whether the rod's shape is part of the record of a command: it is, at every reading of the load cell, and once the
+/// rod has parted.
+inline bool shape_is_due(const Command& command, const Sample& answer) {
+  return command.read_cell || answer.status == BenchStatus::kBroken;
+}
 
 /// How a test ended.
 struct TestEnd {
@@ -35,11 +72,9 @@ std::string samples_file(const std::string& folder);
 /// Reads the records in order, up to the last command that is whole.
 class SamplesReader {
  public:
-  /// Throws InvalidInput where the folder has no samples.csv, or one with other columns than this version writes.
   explicit SamplesReader(const std::string& folder);
 
-  /// Reads the next record. False where no whole command is left. Throws InvalidInput, which names row and column,
-  /// where a whole row cannot be understood.
+  /// Reads the next record. False where no whole command is left.
   bool next(Record& record);
 
   std::uint64_t records() const { return records_; }  ///< number of records read so far
@@ -75,7 +110,7 @@ class SamplesReader {
   std::uint64_t shape_bytes_ = 0;  ///< length of `shape_` in the file, where it was read and not yet taken; else 0
 };
 
-/// Appends to the samples of a run whose folder is claimed (claimed_folder.hpp). All functions throw CannotWrite, and
+/// Appends to the samples of a run whose folder is claimed (run_folder.hpp). All functions throw CannotWrite, and
 /// then leave the file as it was, so that it ends with a whole command.
 class SamplesWriter {
  public:

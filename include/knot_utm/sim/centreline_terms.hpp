@@ -6,7 +6,6 @@
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/sim/linear_system.hpp"
-#include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 

@@ -13,7 +13,6 @@
 #include "knot_utm/sim/frame_bending.hpp"
 #include "knot_utm/sim/linear_system.hpp"
 #include "knot_utm/sim/scene.hpp"
-#include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
@@ -54,9 +53,8 @@ namespace knot_utm {
 /// around the tangents t_f, t_e, t_e^n of the two edges of a node. It follows from a product of four quaternions (1 +
 /// a.b, a x b), without transporting a frame, and without an arctangent while it is small. d1 is transported once in
 /// each step. Where friction acts at the rod's surface, its couples exert torques on the spins (surface_contact.hpp).
-/// Friction on the centreline does not turn the rod about itself.
-/// Source: Bergou et al. 2010, sections 3 and 4; Jawed, Novelia, O'Reilly 2018, chapters 4 to 7; the derivative along
-/// the moving frame our own.
+/// Friction on the centreline does not turn the rod about itself. Source: Bergou et al. 2010, sections 3 and 4; Jawed,
+/// Novelia, O'Reilly 2018, chapters 4 to 7; the derivative along the moving frame our own.
 class FrameTerms {
  public:
   /// The unknowns x_{i-1}, s_{i-1}, x_i, s_i, x_{i+1}, s_{i+1} of an inner node; the last one takes no part.

@@ -4,7 +4,7 @@
 
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/sim/solved_step.hpp"
+#include "knot_utm/sim/step_account.hpp"
 
 namespace knot_utm {
 

@@ -6,7 +6,6 @@
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/contact_force.hpp"
-#include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 
 namespace knot_utm {

@@ -4,16 +4,31 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/scene.hpp"
-#include "knot_utm/sim/step_diagnosis.hpp"
 #include "knot_utm/sim/step_readings.hpp"
 #include "knot_utm/solver/newton.hpp"
 
 namespace knot_utm {
+
+/// Where the solution of a step that was not accepted failed: the node with the largest residual or, where Newton's
+/// method converged, the one that moved the furthest; and the deepest contact of that node.
+struct StepDiagnosis {
+  int node = -1;                      ///< -1: none
+  double arclength = 0.0;             ///< of the node, at rest [m]
+  double residual = 0.0;              ///< of the node, divided by its tolerance scaling (scene.hpp) [N]
+  double motion = 0.0;                ///< of the node in this step [m]
+  bool in_contact = false;            ///< the members below are valid
+  int roller = -1;                    ///< that it touches; -1: a strand
+  double contact_arclengths[2] = {};  ///< of the two strands; on a roller the first only [m]
+  double overlap = 0.0;               ///< [m]
+  bool slides = false;                ///< friction is saturated there
+
+  /// One line.
+  std::string text() const;
+};
 
 /// How the increment of a time step is solved. kTangents is Newton's method with tangents. kTangentsAbandonedEarly uses
 /// predicted tensions and pressures, and is abandoned early where a shorter step costs less. kSecants, for iterates
@@ -45,8 +60,8 @@ class TimeStep {
  public:
   virtual ~TimeStep() = default;
 
-  /// `state.twist` empty: the scene does not solve for twist (three unknowns a node); else four, from the frames of
-  /// the state (initialise_frames). Throws InvalidInput where rod and state do not fit together.
+  /// `state.twist` empty: the scene does not solve for twist (three unknowns a node); else four, from the frames of the
+  /// state (initialise_frames).
   static std::unique_ptr<TimeStep> make(const RodProperties& rod, const RodState& state, const StepSettings& settings);
 
   StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, SolveStrategy::kTangents); }

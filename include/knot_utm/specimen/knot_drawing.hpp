@@ -79,8 +79,7 @@ struct DrawnSize {
 /// A drawing as a rod. Each strand is a centripetal Catmull-Rom curve through its points. A held end runs on straight
 /// along z to its grip, and a free one straight on. The shape is smoothed along its arclength by a Gaussian of standard
 /// deviation h. The lower grip is at z = 0, and the knot half-way between the grips. Ropes are joined to one rod by cut
-/// edges. Throws InvalidInput (specimen.knot, specimen.end_to_end) where strands overlap each other or a post, or where
-/// the knot does not fit between the grips.
+/// edges.
 ///
 /// Source of the curve: Yuksel, Schaefer, Keyser 2011, "Parameterization and applications of Catmull-Rom curves".
 Centreline draw(const KnotDrawing& drawing, const DrawnSize& size);

@@ -27,7 +27,7 @@ struct SpecimenOptions {
   double wrap = 3.141592653589793;             ///< capstan: angle by which the rod lies around the post [rad]
   double post_diameter = 0.0381;               ///< capstan [m]
   std::optional<double> tail_load;             ///< capstan: T1 [N]; unset: auto
-  double natural_curvature = 0.0;              ///< kappa_0 (rest_shape.hpp) [1/m]
+  double natural_curvature = 0.0;              ///< kappa_0 (centreline.hpp) [1/m]
   double edge_length = 0.0032;                 ///< discretisation [m]
   std::optional<double> refinement;            ///< edges between and within knots are shorter by this; unset: auto
   bool to_be_tied =

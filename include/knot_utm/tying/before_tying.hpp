@@ -42,7 +42,6 @@ double closing_preload(const Material& material);
 /// R that a pre-load [N] bends a free coil to [m].
 double coil_radius(const Material& material, double preload);
 
-/// Throws InvalidInput where the pre-load cannot move the drawn coils, or where their bend would part the rod.
 void check_tying(const SpecimenOptions& specimen, const Material& material);
 
 /// Warnings of what makes tying doubtful but not impossible, one line each with its number.

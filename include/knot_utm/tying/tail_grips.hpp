@@ -1,15 +1,69 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/scene.hpp"
-#include "knot_utm/tying/rest_watch.hpp"
+#include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
+
+/// How a drawn shape settles before it is tied: under a strong drag that fades. The energy of the drawn shape is an
+/// artefact of the drawing and would otherwise throw the strands about.
+class Settling {
+ public:
+  static constexpr double kTime = 0.3;   ///< [s]
+  static constexpr double kWave = 17.0;  ///< waves of this length relax in about a tenth of it [h]
+
+  explicit Settling(const RodMaterial& material) : drag_(settling_drag(material, kWave * material.radius, kTime)) {}
+
+  /// So long after it began [s].
+  static bool over(double passed) { return passed >= kTime; }
+  double drag(double passed) const {
+    const double left = std::clamp(1.0 - passed / kTime, 0.0, 1.0);
+    return drag_ * left * left;
+  }
+
+ private:
+  double drag_;  // [N s/m^2]
+};
+
+/// Waits for a specimen to come to rest: every node slower than a speed, for a while. Where rest does not come in time,
+/// as where a knot creeps open, it is waited for no longer, and `not_equilibrated` says so.
+class RestWatch {
+ public:
+  struct Options {
+    double speed = 0.0;      ///< every node slower than this ... [m/s]
+    double duration = 0.3;   ///< ... for this long: at rest [s]
+    double patience = 60.0;  ///< without rest for this long it is waited for no longer [s]
+  };
+  explicit RestWatch(const Options& options) : options_(options) {}
+
+  /// From now on it has not rested yet.
+  void begin() { rested_ = 0.0; }
+  /// Follows an accepted step of length `dt` [s].
+  void follow(const Points& velocity, double dt);
+  /// Whether everything is at rest, or rest has been waited for long enough by `time`, since `begin` [s], when what
+  /// `since` says happened.
+  bool waited(double time, double begin, const char* since);
+
+  double patience() const { return options_.patience; }
+  /// What had not come to rest; empty: nothing.
+  const std::string& not_equilibrated() const { return not_equilibrated_; }
+  void forget() { not_equilibrated_.clear(); }
+
+  void state(Archive& archive) { archive(rested_, fastest_, not_equilibrated_); }
+
+ private:
+  Options options_;
+  double rested_ = 0.0, fastest_ = 0.0;  // [s], [m/s]
+  std::string not_equilibrated_;
+};
 
 /// Grips that tie a knot: each pulls an end along its direction, and slips at its load. An end is so pulled by
 /// displacement against a grip that slips, and what comes out depends on neither drag, step nor speed.

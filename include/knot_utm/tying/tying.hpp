@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/sim/scene.hpp"
 
 namespace knot_utm {

@@ -7,8 +7,6 @@
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"
-#include "knot_utm/tying/rest_watch.hpp"
-#include "knot_utm/tying/settling.hpp"
 #include "knot_utm/tying/tail_grips.hpp"
 
 namespace knot_utm {

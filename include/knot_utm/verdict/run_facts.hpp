@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/method/report_options.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/settings/accuracy.hpp"
 #include "knot_utm/specimen/machine_options.hpp"
 #include "knot_utm/specimen/material.hpp"

@@ -6,6 +6,13 @@
 
 namespace knot_utm {
 
+/// "a, b or c"; other words than " or " may stand before the last one.
+std::string listed(const std::vector<std::string>& names, const char* before_last = " or ");
+
+/// The known name that a misspelt one most likely means: the fewest letters added, left out, replaced or swapped, upper
+/// and lower case alike. Empty where none is near, or the text is too long to be a name.
+std::string nearest_name(const std::string& given, const std::vector<std::string>& known);
+
 /// Text from outside as a message shows it: on one line, without control characters, shortened where it is too long for
 /// a line.
 std::string shown(const std::string& text);
@@ -16,7 +23,7 @@ std::string reason_of(int error);
 /// Input outside what is allowed. `what()` is one line, a sentence that says what is wrong, where, and what is allowed.
 /// Its most frequent form is "KEY is VALUE, but must be ALLOWED"; the functions below make the others. A file's name
 /// stands before the sentence, "FILE: ", where it is known: whoever read the input from a file adds it with `in_file`.
-/// Whatever comes from outside is shown as `shown` does.
+/// Whatever comes from outside is shown as `shown` does. Whatever reads or checks what a user gave may throw it.
 struct InvalidInput : std::runtime_error {
   /// "specimen.turns is 7, but must be 1 to 4".
   InvalidInput(const std::string& key, const std::string& value, const std::string& allowed);
@@ -27,7 +34,7 @@ struct InvalidInput : std::runtime_error {
 
   /// "specimen.prelaod is no key of a method; did you mean specimen.preload?", or the known keys where none is near.
   /// `section` is the dotted path of the map that the key stands in, empty for a file's top.
-  static InvalidInput unknown_key(const std::string& section, const std::string& key, const std::string& value,
+  static InvalidInput unknown_key(const std::string& section, const std::string& key,
                                   const std::vector<std::string>& known, const std::string& of);
 
   /// "material is "nyln", but must be ALLOWED; did you mean nylon?", without the question where no name is near.
@@ -41,22 +48,20 @@ struct InvalidInput : std::runtime_error {
   /// "cannot write FILE: permission denied", for a place that the user chose.
   static InvalidInput cannot_write(const std::string& key, const std::string& file, int error);
 
-  /// Any other sentence about this value of this key, with nothing foreign in it that has not been `shown`.
-  static InvalidInput sentence(const std::string& key, const std::string& value, const std::string& text);
+  /// Any other sentence about this key, with nothing foreign in it that has not been `shown`.
+  static InvalidInput sentence(const std::string& key, const std::string& text);
 
   /// The same with a file's name, unless it has one already or is about an argument ("--out"), which stands in no file.
   InvalidInput in_file(const std::string& name) const;
 
-  std::string file;     ///< where the input stands; empty: not known
-  std::string key;      ///< dotted path, e.g. "specimen.edge_length"
-  std::string value;    ///< as given
-  std::string allowed;  ///< e.g. "0.0005 to 0.0064 m (at most twice the radius)", or the whole sentence
+  std::string file;  ///< where the input stands; empty: not known
+  std::string key;   ///< dotted path, e.g. "specimen.edge_length"
 
  private:
-  struct Parts {
-    std::string file, key, value, allowed;
+  struct Place {
+    std::string file, key;
   };
-  InvalidInput(const Parts& parts, const std::string& line);
+  InvalidInput(const Place& place, const std::string& line);
 };
 
 }  // namespace knot_utm
