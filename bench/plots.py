@@ -41,22 +41,6 @@ def strips(file, groups, label):
     save(figure, file)
 
 
-def work_precision(file, scenes):
-    """Cost over error, one panel a scene. `scenes`: title -> {"points": {name: (error, cost)},
-    "others": the same, of other simulators}."""
-    figure, all_axes = row_of_axes(scenes, 5.6, 6.8)
-    for axes, scene in zip(all_axes, scenes.values()):
-        marked = [(name, point, "o") for name, point in scene["points"].items()]
-        marked += [(name, point, "s") for name, point in scene.get("others", {}).items()]
-        for i, (name, (error, cost), marker) in enumerate(marked):
-            if error and cost:  # none is known, or there is none to be seen
-                axes.plot([error], [cost], marker, color=plt.cm.tab20(i % 20), label=name)
-        axes.set(xscale="log", yscale="log", xlabel="error", ylabel="CPU seconds a simulated second")
-        axes.margins(0.15)
-        axes.legend(fontsize="xx-small", ncol=2, loc="upper center", bbox_to_anchor=(0.5, -0.12))
-    save(figure, file)
-
-
 def statuses(file, colours, maps, linear=()):
     """Runs over two values of each, coloured by status. `maps`: (x label, y label) -> status -> points; `linear`: y labels of axes
     that are not logarithmic."""

@@ -97,10 +97,6 @@ class Run:
         """Simulated over CPU time."""
         return divide(self.value("simulated_time"), self.cpu_time)
 
-    def cost(self):
-        """CPU time a simulated second."""
-        return divide(self.cpu_time, self.value("simulated_time"))
-
     def nodes(self):
         return len(self.shape["x"]) if self.shape else None
 
@@ -152,24 +148,6 @@ def deviation(values):
 def standard_error(values):
     there = known(values)
     return divide(deviation(there), math.sqrt(len(there)))
-
-
-def relative_change(value, reference):
-    """|value - reference|/|reference|"""
-    return None if value is None or not reference else abs(value - reference) / abs(reference)
-
-
-def mean_relative_difference(curve, reference, parts=200, averaged=1):
-    """Mean of |y - y_ref|/|y_ref| over equal parts of x, as far as both curves go; y is the mean of so many places of a
-    part. Curves: (x, y), x rising."""
-    if not curve[0] or not reference[0]:
-        return None
-    low, high = max(curve[0][0], reference[0][0]), min(curve[0][-1], reference[0][-1])
-    if low >= high:
-        return None
-    x = low + (np.arange(parts * averaged) + 0.5) * (high - low) / (parts * averaged)
-    own, expected = (np.interp(x, *one).reshape(parts, averaged).mean(axis=1) for one in (curve, reference))
-    return float(np.mean(np.abs(own - expected) / np.abs(expected)))
 
 
 def read_yaml(file):

@@ -13,7 +13,7 @@ import pandas as pd
 import yaml
 from scipy import stats
 
-from knot_utm import method_keys, tool
+from knot_utm import tool
 from knot_utm.arguments import folder_of, jobs_of, make_folder, method_of, path_of, settings_map, shown
 from knot_utm.errors import WrongInput
 from knot_utm.fitting import Record, Search, pull_of_table, read_pull, value_at
@@ -260,9 +260,6 @@ def _require_free(names, asked):
         for file, given in asked[1:]:
             if given.get(name) != asked[0][1].get(name):
                 raise WrongInput(f"--also {file}: {name} is set, but it is free, and free keys are the same for all records")
-    method_keys.require_known([name for name in names if not OFFSET.fullmatch(name)], "--free: ")
-    for where, (_, given) in zip(["--set: ", *(f"--also {file}: " for file, _ in asked[1:])], asked):
-        method_keys.require_known(given, where)
 
 
 def _require_room(out, inputs, overwrite):

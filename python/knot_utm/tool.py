@@ -82,11 +82,6 @@ def result_keys():
     return listing("results")
 
 
-def method_keys():
-    """The keys that methods may have, but for those of sections that do not act on the test, such as report."""
-    return tuple(row["key"] for row in listing("method-keys"))
-
-
 def find_method(name, folder):
     """The file of a method, from a folder, or of one that comes with the package, as tensile_test finds it. Raises WrongInput."""
     shipped = [CONFIG] if os.sep in name else [CONFIG, os.path.join(CONFIG, "standards"), os.path.join(CONFIG, "validation")]

