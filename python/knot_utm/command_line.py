@@ -7,24 +7,13 @@ import yaml
 
 from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
-from knot_utm.report.commands import OneLineParser, refuse
+from knot_utm.report.commands import OneLineParser
 from knot_utm.yaml_text import value_of
-
-
-class WordsParser(OneLineParser):
-    """Refuses words in a line, which says where all of them are told."""
-
-    def __init__(self, prog):
-        super().__init__(prog=prog, add_help=False, allow_abbrev=False)
-
-    def error(self, message):
-        told = f"{self.prog} --help" if tool.IN_SOURCES else " ".join(self.format_usage().split())
-        refuse(os.path.basename(self.prog), f"{message} ({told})")
 
 
 def parser_of(program, *read):
     """Of a command that reads files, writes a folder, and makes many runs at a time."""
-    parser = WordsParser(prog=program)
+    parser = OneLineParser(prog=program, add_help=False, allow_abbrev=False)
     for name in read:
         parser.add_argument(name)
     parser.add_argument("--out")

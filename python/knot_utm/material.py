@@ -33,8 +33,6 @@ INSTEAD = {"kept_radius": ("chord", "sag")}  # the keys that may stand instead o
 MAY_BE_ADDED = {"capstan": ("post_radius",)}
 SEVERAL = ("masses", "speeds", "rises")      # the keys with a list of readings
 FEWEST = {"creeping": (2, "two readings"), "rolled": (1, "one reading")}
-WITHDRAWN = {"incline": "incline is no longer read, because the weight of a piece alone presses it too little; measure rolled instead, "
-                        "pieces under a loaded board (doc/measure.md)"}
 NEEDED = ("diameter", "weighed", "stretched", "capstan")
 NEEDS = {"light_cantilever": "mandrel", "pulled": "mandrel"}  # of these groups, the one without which they tell nothing
 
@@ -399,7 +397,7 @@ def read(text):
         if group in ("name", "notes"):
             continue
         if group not in GROUPS:
-            raise Wrong(WITHDRAWN.get(group) or f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
+            raise Wrong(f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
         for key, (value, error) in read_group(group, content).items():
             values[group, key], errors[group, key] = value, error
     missing = [group for group in NEEDED if group not in given]
@@ -500,20 +498,6 @@ def which_density(density):
             "weighed.length and the diameter in m?")
 
 
-def questions(here):
-    """What no rod is like: most likely a slip of a unit. A test asks of density, moduli and strength (src/verdict/foreseen.cpp)."""
-    if not 0.01 <= here["friction_coefficient"] <= 2:
-        yield f"the friction coefficient is {here['friction_coefficient']:.3g}, and ropes have 0.05 to 1: is capstan.angle in rad?"
-    if here.get("friction_moment", 1.0) < 3e-3:
-        yield f"the friction moment is {here['friction_moment']:.2g} k_b/h, and ropes have 0.01 to 0.3: is what mandrel keeps in m?"
-    if not 0.05 <= here["twisting_stiffness"] / here["bending_stiffness"] <= 3:
-        yield (f"it twists {here['twisting_stiffness'] / here['bending_stiffness']:.2g} times as stiffly as it bends, and ropes do about 1/4, "
-               "solid rods 2/3 times: is twisted.period in s, there and back?")
-    if limpness(here) > ROPE and not 0.03 <= here.get("rolling_resistance", 0.1) <= 0.42:
-        yield (f"the resistance to rolling is {here['rolling_resistance']:.2g}, and ropes have 0.1 to 0.35: did the pieces roll, and the "
-               "board not slide on them?")
-
-
 def doubts_of_rolling(here, values, errors):
     power, error = power_of_rolling(values, errors)
     grows, law = f"rolled: the rises grow as the mass to the power {power:.2g} +- {error:.2g}", values["rolled", "law"]
@@ -535,7 +519,6 @@ def doubts_of_rolling(here, values, errors):
 
 def warnings(here, uncertain, values, errors):
     """`uncertain` is of the properties, `errors` of the readings."""
-    yield from questions(here)
     h = here["radius"]
     if limpness(here) > ROPE and "friction_moment" not in here:
         yield ("it is a rope, but its bends are taken as elastic, with which the knots of most ropes open: measure cantilever and mandrel, "

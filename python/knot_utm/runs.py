@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from knot_utm import spelling, tool
+from knot_utm import tool
 from knot_utm.arguments import jobs_of, method_of, path_of, whole
 from knot_utm.errors import RunFailed, RunWarning, WrongInput
 from knot_utm.yaml_text import load
@@ -24,7 +24,7 @@ class Readings(Mapping):
 
     def __getitem__(self, key):
         if key not in self._readings.index:
-            raise KeyError(f"there is no reading {key!r}{spelling.hint(key, self._readings.index)}")
+            raise KeyError(f"there is no reading {key!r}{tool.hint(key, self._readings.index)}")
         return self._readings.loc[key]
 
     def __iter__(self):
@@ -32,13 +32,6 @@ class Readings(Mapping):
 
     def __len__(self):
         return len(self._readings.index)
-
-    def __getattr__(self, name):
-        # Called for names that are not there. What copies an object asks for some before it has any of its own.
-        if name.startswith("_"):
-            raise AttributeError(name)
-        near = spelling.hint(name, dir(self)) or (f"; it is a reading: [{name!r}]" if name in self._readings.index else "")
-        raise AttributeError(f"{type(self).__name__} has no attribute {name!r}{near}")
 
     __hash__ = object.__hash__
 

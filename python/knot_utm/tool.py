@@ -1,5 +1,6 @@
 """tensile_test, as this package calls it."""
 import csv
+import difflib
 import errno
 import functools
 import os
@@ -9,7 +10,6 @@ import shutil
 import subprocess
 
 import knot_utm
-from knot_utm import spelling
 from knot_utm.errors import WrongInput
 from knot_utm.yaml_text import text_of
 
@@ -91,7 +91,13 @@ def find_method(name, folder):
             return os.path.abspath(place)
     known = [os.path.splitext(file)[0] for of in shipped for file in os.listdir(of) if file.endswith(".yaml")]
     raise WrongInput(f"method is {name}, but must be a file, from {folder}, or the name of a method that comes with the "
-                     f"package{spelling.hint(name, known)}")
+                     f"package{hint(name, known)}")
+
+
+def hint(word, known):
+    """"; did you mean WORD?" of the known word that is spelt nearly so; empty where there is none."""
+    near = difflib.get_close_matches(str(word), list(known), 1)
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def command(method, settings, out, *more):
