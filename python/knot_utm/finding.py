@@ -14,7 +14,7 @@ import yaml
 from scipy import stats
 
 from knot_utm import tool
-from knot_utm.arguments import folder_of, jobs_of, make_folder, method_of, path_of, settings_map, shown
+from knot_utm.arguments import folder_of, jobs_of, make_folder, shown
 from knot_utm.errors import WrongInput
 from knot_utm.fitting import Record, Search, pull_of_table, read_pull, value_at
 from knot_utm.study import Study
@@ -71,15 +71,13 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     value})], more records and what is other for them; `out`: the folder for fit.yaml, method.yaml and, with `report`, report.html, unless
     given out/ and the name of the measured file; `command`: that the page names; `overwrite`: whether another fit in the folder is
     replaced. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it was cut short."""
-    measured, settings = path_of("measured", measured, "the file of a curve"), settings_map(settings)
+    measured, settings = os.fspath(measured), dict(settings or {})
     if not isinstance(free, (tuple, list)) or not all(isinstance(word, str) for word in free):
         raise WrongInput(f"free is {shown(free)}, but must be a list of words such as 'material.radius=0.001:0.002'")
     asked = [(measured, settings)]
-    if not isinstance(also, (tuple, list)) or not all(isinstance(pair, (tuple, list)) and len(pair) == 2 for pair in also):
-        raise WrongInput(f"also is {shown(also)}, but must be a list of (file, settings)")
-    asked += [(path_of("also", file, "files of curves"), {**settings, **settings_map(given)}) for file, given in also]
+    asked += [(os.fspath(file), {**settings, **given}) for file, given in also]
     out = folder_of(out, os.path.join("out", os.path.splitext(os.path.basename(measured))[0] + "_fit"))
-    method, jobs = tool.find_method(method_of(method), os.getcwd()), jobs_of(jobs)
+    method, jobs = tool.find_method(os.fspath(method), os.getcwd()), jobs_of(jobs)
     _require_room(out, [method, *(file for file, _ in asked)], overwrite)
     ranges = dict(_parsed(word, list(free)) for word in free)
     _require_free(list(ranges), asked)
