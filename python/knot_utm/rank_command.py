@@ -62,7 +62,7 @@ def main(words):
     parser.add_argument("--specimens", type=int, default=3)
     parser.add_argument("--method", default="knot")
     parser.add_argument("--set", action="append", default=[])
-    return exit_code_of(PROGRAM, lambda: _rank(parsed(parser, words)), tool.command_to_paste("rank", words))
+    return exit_code_of(PROGRAM, lambda: _rank(parsed(parser, words)), goes_on=True)
 
 
 def _rank(asked):

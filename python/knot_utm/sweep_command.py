@@ -10,7 +10,7 @@ PROGRAM = tool.program("sweep")
 
 
 def main(words):
-    return exit_code_of(PROGRAM, lambda: _sweep(_arguments(words)), tool.command_to_paste("sweep", words))
+    return exit_code_of(PROGRAM, lambda: _sweep(_arguments(words)), goes_on=True)
 
 
 def _sweep(asked):

@@ -5,7 +5,6 @@ import errno
 import functools
 import os
 import re
-import shlex
 import shutil
 import subprocess
 
@@ -49,12 +48,6 @@ def program(name):
     script = os.path.join(SHARE, "scripts", name)
     near = os.path.relpath(script)
     return script if near.startswith(os.pardir) else near
-
-
-def command_to_paste(name, words):
-    """The same with its words, as a shell reads it."""
-    called = program(name)
-    return " ".join([shlex.quote(called) if IN_SOURCES else called, shlex.join(words)])
 
 
 @functools.cache

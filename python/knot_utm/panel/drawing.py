@@ -98,21 +98,9 @@ class Drawing:
         self._fill_table(readings.table())
         for chart in self._charts(small is not None):
             chart.draw(curve, measured, earlier)
-        for cell in self.cells():
+        for cell in (cell for row in self._cells for cell in row):
             self.figure.draw_artist(cell)
         return numpy.asarray(self.canvas.buffer_rgba())[:, :, :3]
-
-    def cells(self):
-        return [cell for row in self._cells for cell in row]
-
-    def texts(self):
-        """All texts of the picture that are to be read."""
-        charts = [chart.axes for chart in self._charts(self._small.axes.get_visible())]
-        axes = [text for axes in (*charts, self._bar) for axis in (axes.xaxis, axes.yaxis)
-                for text in (*axis.get_ticklabels(), axis.label, axis.get_offset_text()) if shown(axis, text)]
-        legend = self._all.axes.get_legend()
-        return [text for text in (*self.cells(), *axes, self._bar.title, *(legend.get_texts() if legend else ()))
-                if text.get_visible() and text.get_text()]
 
     def _fill_table(self, table):
         for index, row in enumerate(self._cells):
@@ -176,12 +164,3 @@ def joined(curves):
     """Points of several curves, with a gap behind each."""
     gap = numpy.full((1, 2), numpy.nan)
     return numpy.vstack([numpy.empty((0, 2)), *(part for curve in curves for part in (numpy.array(curve), gap))])
-
-
-def shown(axis, text):
-    """Whether a label of an axis stands within its limits: matplotlib keeps some that do not."""
-    if text is axis.label or text is axis.get_offset_text():
-        return True
-    low, high = sorted(axis.get_view_interval())
-    place = text.get_position()[0 if axis.axis_name == 'x' else 1]
-    return low - 1e-9 <= place <= high + 1e-9
