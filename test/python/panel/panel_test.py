@@ -13,7 +13,7 @@ ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), '../../..'))
 
 from knot_utm import tool
 from knot_utm.panel.drawing import HEIGHT, WIDTH, Drawing
-from knot_utm.panel.readings import BROKEN, CROSSED, CURVES, ENDED, FAILED, MOST_WAITING, PAUSED, PREPARATION, Readings
+from knot_utm.panel.readings import BROKEN, CROSSED, ENDED, FAILED, MOST_WAITING, PAUSED, PREPARATION, Readings
 
 
 def state(**fields):
@@ -89,19 +89,11 @@ class ReadingsTest(unittest.TestCase):
         readings.take_state(0.0, state())
         self.assertEqual(readings.curve(), [])
 
-    def test_another_test_has_a_curve_of_its_own_beside_the_earlier_ones(self):
+    def test_another_test_has_a_curve_of_its_own(self):
         readings = pull(Readings(), [1.0, 2.0])
         readings.take_load(10.0, 3.0)  # of the second test, before its state
         readings.take_state(10.0, state(run=2, extension=0.0))
         self.assertEqual(readings.curve(), [(0.0, 3.0)])
-        self.assertEqual(readings.earlier(), [[(0.0, 1.0), (0.001, 2.0)]])
-
-    def test_the_oldest_curves_are_forgotten(self):
-        readings = Readings()
-        for run in range(1, CURVES + 5):
-            pull(readings, [float(run)], begin=10.0 * run, run=run)
-        self.assertEqual(len(readings.earlier()), CURVES - 1)
-        self.assertEqual(readings.earlier()[-1], [(0.0, CURVES + 3.0)])
 
     def test_the_recorded_curve_is_that_of_its_topics(self):
         readings = Readings()
@@ -223,20 +215,15 @@ class DrawingTest(unittest.TestCase):
         self.assertIn('grey: of a rod that has parted no tension is known', [text.get_text() for text in texts_of(drawing)])
         self.assert_legible(drawing)
 
-    def test_with_earlier_tests(self):
-        readings = pull(pull(Readings(), [0.0, 40.0, 20.0]), [0.0, 10.0], begin=10.0, run=2)
+    def test_with_a_measured_curve(self):
+        readings = pull(Readings(), [0.0, 10.0])
         readings.bar = color_bar()
         drawing = Drawing()
-        drawing.draw(readings)
-        texts = [text.get_text() for text in texts_of(drawing)]
-        self.assertIn('earlier tests', texts)
-        self.assertIn('50', texts)  # the axis has room for them
-        self.assert_legible(drawing)
         for stamp in (20.0, 21.0):
             readings.take_measured_extension(stamp, 0.001 * stamp)
             readings.take_measured_load(stamp, 30.0)
         drawing.draw(readings)
-        self.assertTrue({'simulated', 'earlier tests', 'measured'} <= {text.get_text() for text in texts_of(drawing)})
+        self.assertTrue({'simulated', 'measured', '30'} <= {text.get_text() for text in texts_of(drawing)})
         self.assert_legible(drawing)
 
     def test_what_changes_is_drawn_anew_without_the_rest(self):
