@@ -1,4 +1,5 @@
 """What functions of this package and its commands are given: each refuses what cannot be meant in one line."""
+import contextlib
 import os
 from numbers import Integral
 
@@ -36,3 +37,16 @@ def make_folder(path):
         if tool.is_of_a_full_disk(error.strerror):
             raise
         raise WrongInput(f"cannot make the folder {error.filename}: {error.strerror.lower()}") from error
+
+
+def write_whole(path, content):
+    """The bytes of a file, which is there whole or as it was. Raises OSError, which names it."""
+    part = path + ".part"
+    try:
+        with open(part, "wb") as file:
+            file.write(content)
+        os.replace(part, path)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            os.remove(part)
+        raise OSError(error.errno, error.strerror, path) from error

@@ -14,7 +14,7 @@ import yaml
 from scipy import stats
 
 from knot_utm import tool
-from knot_utm.arguments import folder_of, jobs_of, make_folder, shown
+from knot_utm.arguments import folder_of, jobs_of, make_folder, shown, write_whole
 from knot_utm.errors import WrongInput
 from knot_utm.fitting import Record, Search, pull_of_table, read_pull, value_at
 from knot_utm.study import Study
@@ -172,10 +172,7 @@ class Fitted:
                  **{"method.yaml" if i == 1 else f"method_{i}.yaml": text for i, text in enumerate(methods, start=1)}}
         os.makedirs(folder, exist_ok=True)
         for name, text in texts.items():
-            path = os.path.join(folder, name)
-            with open(path + ".part", "w", encoding="utf-8") as file:
-                file.write(text)
-            os.replace(path + ".part", path)
+            write_whole(os.path.join(folder, name), text.encode())
 
     def _of_keys(self, keys, best):
         """What the data do not tell of single keys, in words."""
