@@ -55,18 +55,14 @@ def cases_of(materials):
 
 
 def report(runner, materials, seeds=COUNT):
-    return report_of(runner, cases_of(materials), seeds, "Specimens: how the readings scatter, and whether their mean holds still",
-                     " Edges h/3 and h/5: the edges in the knots are the radius over 3 and 5 long, where `normal` "
-                     "has h/2.25, and for nylon, which is tied hard, h/3.")
-
-
-def report_of(runner, cases, seeds, title, more):
-    tables, pictures = tables_of(runner, cases, seeds)
-    return Report(title, f"`config/tighten.yaml` with {seeds} specimens of each variant, whose knot distance (1 %), tails (5 %) "
+    tables, pictures = tables_of(runner, cases_of(materials), seeds)
+    return Report("Specimens: how the readings scatter, and whether their mean holds still",
+                  f"`config/tighten.yaml` with {seeds} specimens of each variant, whose knot distance (1 %), tails (5 %) "
                   f"and tying speed (10 %) are drawn, in brackets the standard deviation, with seed {SEED}. The change "
                   "of the mean is that of the same specimens, and its standard error is that of the mean of their "
                   "differences. A gate holds where the change is at most 2 % beyond its standard error and every "
-                  "specimen has its reading. The picture has every specimen, and the mean with its standard error." + more,
+                  "specimen has its reading. The picture has every specimen, and the mean with its standard error. Edges h/3 and h/5: the "
+                  "edges in the knots are the radius over 3 and 5 long, where `normal` has h/2.25, and for nylon, which is tied hard, h/3.",
                   tables, lambda file: plots.strips(file, pictures, "plateau or peak force [N]"))
 
 
