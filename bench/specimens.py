@@ -44,13 +44,6 @@ def meshes(material):
     return edges if SLIDES.get(material, True) else {}
 
 
-def tolerances(material):
-    """What scripts/bench convergence reports beside the gated variants."""
-    residual = 2e-4  # of `normal` [k_b/h^2]
-    return {"edges x3/4": {"specimen.edge_length": 0.75 * EDGE}, "residual /10": {"physics.residual": residual / 10},
-            "draft": {"physics.accuracy": "draft"}, "fine": {"physics.accuracy": "fine"}}
-
-
 def cases_of(materials):
     """Name -> material and settings."""
     out = {}
@@ -62,32 +55,22 @@ def cases_of(materials):
 
 
 def report(runner, materials, seeds=COUNT):
-    return report_of(runner, cases_of(materials), seeds, meshes, "Specimens: how the readings scatter, and whether their mean holds still",
-                     " Edges h/3 and h/5: the edges in the knots are the radius over 3 and 5 long, where `normal` "
-                     "has h/2.25, and for nylon, which is tied hard, h/3.")
-
-
-def convergence(runner, materials, seeds=3):
-    """What moves the readings beside mesh, step and tolerances: what is reported only, over a few specimens of the shipped test."""
-    cases = {material: (material, {"material": material}) for material in materials}
-    return report_of(runner, cases, seeds, tolerances, "Convergence of the readings")
-
-
-def report_of(runner, cases, seeds, others, title, more=""):
-    tables, pictures = tables_of(runner, cases, seeds, others)
-    return Report(title, f"`config/tighten.yaml` with {seeds} specimens of each variant, whose knot distance (1 %), tails (5 %) "
+    tables, pictures = tables_of(runner, cases_of(materials), seeds)
+    return Report("Specimens: how the readings scatter, and whether their mean holds still",
+                  f"`config/tighten.yaml` with {seeds} specimens of each variant, whose knot distance (1 %), tails (5 %) "
                   f"and tying speed (10 %) are drawn, in brackets the standard deviation, with seed {SEED}. The change "
                   "of the mean is that of the same specimens, and its standard error is that of the mean of their "
                   "differences. A gate holds where the change is at most 2 % beyond its standard error and every "
-                  "specimen has its reading. The picture has every specimen, and the mean with its standard error." + more,
+                  "specimen has its reading. The picture has every specimen, and the mean with its standard error. Edges h/3 and h/5: the "
+                  "edges in the knots are the radius over 3 and 5 long, where `normal` has h/2.25, and for nylon, which is tied hard, h/3.",
                   tables, lambda file: plots.strips(file, pictures, "plateau or peak force [N]"))
 
 
-def tables_of(runner, cases, seeds, others):
+def tables_of(runner, cases, seeds):
     tables, pictures = [], {}
     for name, (material, settings) in cases.items():
         gated = gated_variants(material)
-        variants = {NORMAL: {}, **gated, **others(material)}
+        variants = {NORMAL: {}, **gated, **meshes(material)}
         folder = name.replace(", ", "_").replace(" ", "")
         done = runner.run_all([(f"{folder}/{variant.replace(' ', '_').replace('/', '_')}/{k}", {**settings, **specimen, **change})
                                for variant, change in variants.items() for k, specimen in enumerate(specimens(seeds))])

@@ -6,7 +6,6 @@ import signal
 import sys
 
 import numpy as np
-import plots
 from draws import METHODS, PAPER_RADIUS, PAPER_SPEED, Draw
 from runs import known, median
 from table import Report, Table, at_most
@@ -30,9 +29,6 @@ STATUS = {
 NEVER = ["crash", "hang", "nan", "tunnelled", "mute"]
 GAVE_UP = "solver"
 GAVE_UP_SHARE = 0.01  # of the runs that the solver may give up, each with its reason
-COLOURS = {"ended": "tab:green", "refused": "0.6", "not at rest": "tab:orange", "solver": "tab:red"}  # else black
-MAP_AXES = {"radius": "radius h [m]", "bending_stiffness": "k_b [N m²]", "stretching": "k_s h²/k_b",
-            "friction_coefficient": "μ", "bending_time": "h² √(ρA/k_b) [s]", "speed": "speed / (1.04 h/s)"}
 
 
 class Outcome:
@@ -134,7 +130,7 @@ class Matrix:
         self.outcomes = outcomes
         self.drawn = list(dict.fromkeys(key for outcome in outcomes for key in outcome.draw.values))
         self.CSV_HEADER = ["run"] + self.drawn + Outcome.FACTS + Outcome.READINGS
-        self.tables = [self.statuses(), self.readings(), self.shares()]
+        self.tables = [self.statuses(), self.readings()]
 
     def csv_rows(self):
         for outcome in self.outcomes:
@@ -181,16 +177,6 @@ class Matrix:
             table.add(name, unit, quantiles(known(values)), digits=".3g")
         return table
 
-    def shares(self):
-        """Where runs did not end: what they have in common shows."""
-        table = Table("Runs that did not end, of those with the same choice", ["did not end", "of"])
-        for key in ["knot", "grips", "friction.law", "twist", "accuracy"]:
-            for option in sorted({str(o.get(key)) for o in self.outcomes if o.get(key) is not None}):
-                chosen = [outcome for outcome in self.outcomes if str(outcome.get(key)) == option]
-                table.add(f"{key}: {option}", "runs",
-                          [sum(o.status not in ("ended", "refused") for o in chosen), len(chosen)])
-        return table
-
     def diagnoses(self):
         lines = ["## Each run that did not end or was refused", ""]
         for status in STATUS:
@@ -198,17 +184,6 @@ class Matrix:
                 lines += [f"- {status}: {o.draw.number}, {o.get('knot')}, {o.phase or 'not begun'}: {o.reason}"
                           for o in self.with_status(status)]
         return "\n".join(lines if len(lines) > 2 else lines + ["None."]) + "\n"
-
-    def draw(self, file):
-        def points(x, y):
-            return {status: [(o.get(x), o.get(y)) for o in self.with_status(status)]
-                    for status in reversed(STATUS) if self.with_status(status)}
-
-        plots.statuses(
-            file, {status: COLOURS.get(status, "black") for status in STATUS},
-            {(MAP_AXES[x], MAP_AXES[y]): points(x, y)
-             for x, y in [("radius", "bending_stiffness"), ("stretching", "friction_coefficient"),
-                          ("bending_time", "speed")]}, linear=[MAP_AXES["friction_coefficient"]])
 
 
 def quantiles(values):
@@ -227,4 +202,4 @@ def report(runner, seed, numbers, jobs, quick=False, keep=False):
         f"in radii; speed x1 is the source paper's {1e3 * PAPER_SPEED:g} mm/s for h = {1e3 * PAPER_RADIUS:g} mm, "
         f"{PAPER_SPEED / PAPER_RADIUS:.3g} h/s. Each pulls its specimen by some 10 h, overhands by as much as they hide, "
         "and ends at a load of 500 k_b/h² at the latest. `scripts/stress --only RUN` repeats one.")
-    return Report("Stability", introduction, [matrix], matrix.draw)
+    return Report("Stability", introduction, [matrix])

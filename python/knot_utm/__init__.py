@@ -3,8 +3,6 @@ over (sweep), the values with which a test produces a measured curve (fit). doc/
 import importlib
 import pkgutil
 
-from knot_utm import spelling
-
 # The messages of ROS are in the same package, elsewhere on the path: knot_utm.msg is theirs.
 __path__ = pkgutil.extend_path(__path__, __name__)
 
@@ -19,7 +17,7 @@ def __getattr__(name):
     if name == "__version__":
         return importlib.import_module(f"{__name__}.tool").package_version()
     if name not in _MODULES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}{spelling.hint(name, _MODULES)}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(importlib.import_module(f"{__name__}.{_MODULES[name]}"), name)
 
 

@@ -1,6 +1,6 @@
 """What functions of this package and its commands are given: each refuses what cannot be meant in one line."""
+import contextlib
 import os
-from collections.abc import Mapping
 from numbers import Integral
 
 from knot_utm import tool
@@ -24,28 +24,9 @@ def jobs_of(jobs):
     return len(os.sched_getaffinity(0)) if jobs is None else whole("jobs", jobs, 1)
 
 
-def path_of(name, value, what):
-    """As text. `what`: what it must be, in words."""
-    if not isinstance(value, (str, os.PathLike)) or not isinstance(os.fspath(value), str):
-        raise WrongInput(f"{name} is {shown(value)}, but must be {what}")
-    return os.fspath(value)
-
-
 def folder_of(out, usual):
     """The absolute path of the folder to write to; `usual`: where none is given."""
-    return os.path.abspath((None if out is None else path_of("out", out, "the path of a folder")) or usual)
-
-
-def method_of(method):
-    return path_of("method", method, "a file, or the name of a method that comes with the package")
-
-
-def settings_map(settings):
-    """{key: value} over a method; None: there are none."""
-    settings = {} if settings is None else settings
-    if not isinstance(settings, Mapping) or not all(isinstance(key, str) for key in settings):
-        raise WrongInput(f"settings is {shown(settings)}, but must be a dict such as {{'specimen.preload': 20}}")
-    return dict(settings)
+    return os.path.abspath(os.fspath(out or usual))
 
 
 def make_folder(path):
@@ -56,3 +37,16 @@ def make_folder(path):
         if tool.is_of_a_full_disk(error.strerror):
             raise
         raise WrongInput(f"cannot make the folder {error.filename}: {error.strerror.lower()}") from error
+
+
+def write_whole(path, content):
+    """The bytes of a file, which is there whole or as it was. Raises OSError, which names it."""
+    part = path + ".part"
+    try:
+        with open(part, "wb") as file:
+            file.write(content)
+        os.replace(part, path)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            os.remove(part)
+        raise OSError(error.errno, error.strerror, path) from error

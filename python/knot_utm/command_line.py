@@ -7,24 +7,13 @@ import yaml
 
 from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
-from knot_utm.report.commands import OneLineParser, refuse
+from knot_utm.report.commands import OneLineParser
 from knot_utm.yaml_text import value_of
-
-
-class WordsParser(OneLineParser):
-    """Refuses words in a line, which says where all of them are told."""
-
-    def __init__(self, prog):
-        super().__init__(prog=prog, add_help=False, allow_abbrev=False)
-
-    def error(self, message):
-        told = f"{self.prog} --help" if tool.IN_SOURCES else " ".join(self.format_usage().split())
-        refuse(os.path.basename(self.prog), f"{message} ({told})")
 
 
 def parser_of(program, *read):
     """Of a command that reads files, writes a folder, and makes many runs at a time."""
-    parser = WordsParser(prog=program)
+    parser = OneLineParser(prog=program, add_help=False, allow_abbrev=False)
     for name in read:
         parser.add_argument(name)
     parser.add_argument("--out")
@@ -53,9 +42,10 @@ def settings_of(words, option="--set"):
     return found
 
 
-def exit_code_of(program, work, goes_on=""):
+def exit_code_of(program, work, goes_on=False):
     """Calls `work`, and returns its exit code, or what it ended by: 2 for bad input, 1 for all else that is no mistake of ours.
-    Says why in a line. `goes_on`: the command that goes on where the work was cut off."""
+    Says why in a line. `goes_on`: whether the same command goes on where the work was cut off."""
+    again = "; the same command goes on" if goes_on else ""
     try:
         return work()
     except WrongInput as wrong:
@@ -64,15 +54,11 @@ def exit_code_of(program, work, goes_on=""):
         return say(program, "it was interrupted", 1)
     except OSError as error:
         why = f"{error.filename}: {error.strerror.lower()}" if error.filename else str(error)
-        return say(program, _and_how(why, goes_on if tool.is_of_a_full_disk(why) else ""), 1)
+        return say(program, why + again * tool.is_of_a_full_disk(why), 1)
     except Interrupted as error:
-        return say(program, _and_how(error, goes_on), 1)
+        return say(program, f"{error}{again}", 1)
     except RuntimeError as error:
         return say(program, error, 1)
-
-
-def _and_how(why, goes_on):
-    return f"{why}; the same command goes on: {goes_on}" if goes_on else why
 
 
 def say(program, why, code):

@@ -13,8 +13,8 @@ import pandas as pd
 import yaml
 from scipy import stats
 
-from knot_utm import method_keys, tool
-from knot_utm.arguments import folder_of, jobs_of, make_folder, method_of, path_of, settings_map, shown
+from knot_utm import tool
+from knot_utm.arguments import folder_of, jobs_of, make_folder, shown, write_whole
 from knot_utm.errors import WrongInput
 from knot_utm.fitting import Record, Search, pull_of_table, read_pull, value_at
 from knot_utm.study import Study
@@ -71,15 +71,13 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     value})], more records and what is other for them; `out`: the folder for fit.yaml, method.yaml and, with `report`, report.html, unless
     given out/ and the name of the measured file; `command`: that the page names; `overwrite`: whether another fit in the folder is
     replaced. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it was cut short."""
-    measured, settings = path_of("measured", measured, "the file of a curve"), settings_map(settings)
+    measured, settings = os.fspath(measured), dict(settings or {})
     if not isinstance(free, (tuple, list)) or not all(isinstance(word, str) for word in free):
         raise WrongInput(f"free is {shown(free)}, but must be a list of words such as 'material.radius=0.001:0.002'")
     asked = [(measured, settings)]
-    if not isinstance(also, (tuple, list)) or not all(isinstance(pair, (tuple, list)) and len(pair) == 2 for pair in also):
-        raise WrongInput(f"also is {shown(also)}, but must be a list of (file, settings)")
-    asked += [(path_of("also", file, "files of curves"), {**settings, **settings_map(given)}) for file, given in also]
+    asked += [(os.fspath(file), {**settings, **given}) for file, given in also]
     out = folder_of(out, os.path.join("out", os.path.splitext(os.path.basename(measured))[0] + "_fit"))
-    method, jobs = tool.find_method(method_of(method), os.getcwd()), jobs_of(jobs)
+    method, jobs = tool.find_method(os.fspath(method), os.getcwd()), jobs_of(jobs)
     _require_room(out, [method, *(file for file, _ in asked)], overwrite)
     ranges = dict(_parsed(word, list(free)) for word in free)
     _require_free(list(ranges), asked)
@@ -174,10 +172,7 @@ class Fitted:
                  **{"method.yaml" if i == 1 else f"method_{i}.yaml": text for i, text in enumerate(methods, start=1)}}
         os.makedirs(folder, exist_ok=True)
         for name, text in texts.items():
-            path = os.path.join(folder, name)
-            with open(path + ".part", "w", encoding="utf-8") as file:
-                file.write(text)
-            os.replace(path + ".part", path)
+            write_whole(os.path.join(folder, name), text.encode())
 
     def _of_keys(self, keys, best):
         """What the data do not tell of single keys, in words."""
@@ -260,9 +255,6 @@ def _require_free(names, asked):
         for file, given in asked[1:]:
             if given.get(name) != asked[0][1].get(name):
                 raise WrongInput(f"--also {file}: {name} is set, but it is free, and free keys are the same for all records")
-    method_keys.require_known([name for name in names if not OFFSET.fullmatch(name)], "--free: ")
-    for where, (_, given) in zip(["--set: ", *(f"--also {file}: " for file, _ in asked[1:])], asked):
-        method_keys.require_known(given, where)
 
 
 def _require_room(out, inputs, overwrite):

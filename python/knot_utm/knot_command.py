@@ -5,18 +5,17 @@ import subprocess
 import tempfile
 
 from knot_utm import tool
-from knot_utm.command_line import WordsParser
 from knot_utm.errors import WrongInput
 from knot_utm.knot_drawing import knot_text, strands_of
 from knot_utm.knot_shapes import curves_of
-from knot_utm.report.commands import in_one_line, refuse, why_not
+from knot_utm.report.commands import in_one_line, OneLineParser, refuse, why_not
 
 SMALLER = 0.94  # radius of the rope of the next attempt
 ATTEMPTS = 12
 
 
 def asked():
-    parser = WordsParser(prog=tool.program("knot"))
+    parser = OneLineParser(prog=tool.program("knot"), add_help=False, allow_abbrev=False)
     parser.add_argument("command", choices=["import"])
     parser.add_argument("shape")
     parser.add_argument("--out", required=True)

@@ -24,7 +24,7 @@ PRESSED = 10.0     # [N/m] of strands in knots at the least
 
 # What may be measured: of each group the keys, all of them needed but for those that may be added.
 GROUPS = {"diameter": None, "weighed": ("length", "mass"), "stretched": ("length", "mass", "elongation"),
-          "cantilever": ("overhang", "drop"), "loop": ("length", "height"), "capstan": ("angle", "light", "heavy"),
+          "cantilever": ("overhang", "drop"), "capstan": ("angle", "light", "heavy"),
           "mandrel": ("radius", "kept_radius"), "light_cantilever": ("overhang", "drop"), "pulled": ("mass", "kept_radius"),
           "rolled": ("masses", "rises", "run", "length"), "twisted": ("length", "mass", "radius", "period"),
           "creeping": ("masses", "speeds"),
@@ -33,9 +33,7 @@ INSTEAD = {"kept_radius": ("chord", "sag")}  # the keys that may stand instead o
 MAY_BE_ADDED = {"capstan": ("post_radius",)}
 SEVERAL = ("masses", "speeds", "rises")      # the keys with a list of readings
 FEWEST = {"creeping": (2, "two readings"), "rolled": (1, "one reading")}
-WITHDRAWN = {"incline": "incline is no longer read, because the weight of a piece alone presses it too little; measure rolled instead, "
-                        "pieces under a loaded board (doc/measure.md)"}
-NEEDED = ("diameter", "weighed", "stretched", "capstan")
+NEEDED = ("diameter", "weighed", "stretched", "cantilever", "capstan")
 NEEDS = {"light_cantilever": "mandrel", "pulled": "mandrel"}  # of these groups, the one without which they tell nothing
 
 
@@ -80,7 +78,7 @@ def cantilever_stiffness(weight, overhang, drop, group="cantilever"):
     least, share = sag(LEAST_ANGLE)[1], drop / overhang
     if not least < share < 0.9:
         raise Wrong(f"{group}: the drop is {share:.4f} of the overhang, but must be between {least:.4f} and 0.9; "
-                    "of a rope that hangs straight down, measure a shorter piece or, without a mandrel, a loop")
+                    "of a rope that hangs straight down, measure a shorter piece")
     return weight * overhang ** 3 / sag(0.5 * math.pi - math.exp(steepness(share)))[0]
 
 
@@ -111,33 +109,6 @@ def rubbing_stiffness(weight, overhang, drop, kept, stuck, ratio):
         raise Wrong(f"cantilever: at the clamp it is bent by less than {OVERCOME} times the moment at which the fibres slide, as the kept "
                     "bend tells, so that it does not show k_b; measure a longer overhang")
     return k_b
-
-
-@functools.cache
-def heights_of_loops():
-    """(heaviness w L^3/k_b, height over L) of loops whose two ends are held side by side, straight up, from none on."""
-    def end(clamp, heaviness):
-        def slope(s, y):  # angle from straight down, its slope, sideways, down
-            return [y[1], clamp[1] * math.cos(y[0]) + heaviness * (0.5 - s) * math.sin(y[0]), math.sin(y[0]), math.cos(y[0])]
-        return integrate.solve_ivp(slope, (0.0, 0.5), [0.0, clamp[0], 0.0, 0.0], "LSODA", rtol=1e-8, atol=1e-10).y[:, -1]
-
-    clamp, heaviness, table = [6.055, -39.65], 1e-3, []  # of the loop without weight
-    while heaviness < 1e3:
-        found = optimize.root(lambda at: end(at, heaviness)[[0, 2]] + [0.5 * math.pi, 0.0], clamp)
-        if not found.success:
-            break
-        clamp = found.x
-        table.append((heaviness, end(clamp, heaviness)[3]))
-        heaviness *= 1.2 if heaviness > 1 else 4
-    return np.array(table)
-
-
-def loop_stiffness(weight, length, height):
-    heaviness, heights = heights_of_loops().T
-    if not heights[0] < height / length < heights[-1]:
-        raise Wrong(f"loop: its height over its length is {height / length:.4f}, but must be between {heights[0]:.4f}, a "
-                    f"loop without weight, and {heights[-1]:.4f}")
-    return weight * length ** 3 / math.exp(np.interp(height / length, heights, np.log(heaviness)))
 
 
 # ---- friction: around a post, among fibres, and the speed of creep -----------------------------------------------
@@ -175,9 +146,7 @@ def least_bend(kept, ratio):
 def bending(m, weight, h):
     """The keys of bending."""
     if ("mandrel", "radius") not in m:
-        if ("cantilever", "drop") in m:
-            return {"bending_stiffness": cantilever_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"])}
-        return {"bending_stiffness": loop_stiffness(weight, m["loop", "length"], m["loop", "height"])}
+        return {"bending_stiffness": cantilever_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"])}
     kept, stuck, ratio = kept_curvature(m, "mandrel"), None, m.get(("stick_ratio", ""))
     if h * kept > 1:
         raise Wrong(f"mandrel: the rope keeps a radius of {1 / kept:.3g} m, but must keep one of more than its own, {h:.3g} m")
@@ -235,24 +204,20 @@ def power_of_rolling(values, errors):
     return power, math.sqrt(share ** 2 @ squares)
 
 
-def law_of_rolling(values, errors):
-    """A constant mu_r (power 0), a wide elastic contact that loses a share of its work (1/2), "open" where the readings go with both
-    within two standard uncertainties, or "neither"."""
+def grows_with_load(values, errors):
+    """Whether the readings say more than twice their uncertainty that mu_r grows with the load, or falls."""
     power, error = power_of_rolling(values, errors)
-    constant, root = (abs(power - law) <= 2 * error for law in (0.0, 0.5))
-    return ("open" if root else "constant") if constant else "root" if root else "neither"
+    return abs(power) > 2 * error
 
 
 def rolling(m, out):
     """The key of rolling: pieces that roll between a board and a loaded board, each with the couple mu_r h p at both, let the upper one
-    go by 2 h for each rad, so that its push is mu_r W whatever their radius (doc/developers/material_readings.md). Of a solid rod whose
+    go by 2 h for each rad, so that its push is mu_r W whatever their radius (doc/developers/material_readings.md). Of a solid rod, whose
     mu_r grows as sqrt W, the share of work that contacts lose (RollingResistance::growth_of_hysteresis)."""
     masses = [m["rolled", f"masses[{i}]"] for i in range(m["rolled", "masses"])]
     slopes = [m["rolled", f"rises[{i}]"] / m["rolled", "run"] for i in range(len(masses))]
-    if m["rolled", "law"] in ("constant", "open"):
-        return {"rolling_resistance": sum(slopes) / len(slopes)}
-    if m["rolled", "law"] == "neither" or limpness(out) >= SOLID:
-        return {"rolling_resistance": slopes[masses.index(max(masses))]}
+    if limpness(out) >= SOLID:
+        return {"rolling_resistance": slopes[masses.index(max(masses))] if m["rolled", "grows"] else sum(slopes) / len(slopes)}
     widths = [math.sqrt(3 * out["radius"] * line_load(m, mass) / out["stretching_stiffness"]) for mass in masses]  # a/h
     return {"rolling_hysteresis": sum(1.5 * math.pi * slope / width for slope, width in zip(slopes, widths)) / len(slopes)}
 
@@ -399,23 +364,19 @@ def read(text):
         if group in ("name", "notes"):
             continue
         if group not in GROUPS:
-            raise Wrong(WITHDRAWN.get(group) or f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
+            raise Wrong(f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
         for key, (value, error) in read_group(group, content).items():
             values[group, key], errors[group, key] = value, error
     missing = [group for group in NEEDED if group not in given]
-    if not ({"cantilever", "loop"} & set(given)):
-        missing.append("cantilever or loop")
     if missing:
         raise Wrong("missing: " + ", ".join(missing))
     for group, other in NEEDS.items():
         if group in given and other not in given:
             raise Wrong(f"{group} tells nothing without {other}")
-    if "mandrel" in given and "cantilever" not in given:
-        raise Wrong("mandrel needs cantilever; a loop will not do, because how its fibres slid depends on how it was formed")
     if "mandrel" in given and "light_cantilever" not in given:
         values["stick_ratio", ""], errors["stick_ratio", ""] = STICK_RATIO
     if "rolled" in given:
-        values["rolled", "law"], errors["rolled", "law"] = law_of_rolling(values, errors), 0.0
+        values["rolled", "grows"], errors["rolled", "grows"] = grows_with_load(values, errors), 0.0
     if values["capstan", "heavy"] <= values["capstan", "light"]:
         raise Wrong("capstan: the heavy mass must be more than the light one")
     angle = values["capstan", "angle"]
@@ -444,7 +405,6 @@ HOW = {"radius": "measured: half the diameter", "density": "measured: mass over 
        "friction_moment": "measured: kept bend", "stick_ratio": "measured: light over heavy cantilever",
        "compaction": "measured: kept bend after a pull", "rolling_resistance": "measured: rolled",
        "rolling_hysteresis": "measured: rolled, grows as the root of the load"}
-HOW_ROLLED = {"constant": ", the same under each mass", "root": ", under the heaviest mass", "neither": ", under the heaviest mass", "open": ""}
 # Of the numbers that may come out wrong, those which a method takes, and the group that gives them.
 TAKEN = (("friction_coefficient", 0.0, 5.0, "capstan"), ("stick_ratio", 1.01, 1e3, "light_cantilever"), ("compaction", 0.0, 1.0, "pulled"),
          ("rolling_resistance", 0.0, 1.0, "rolled"), ("rolling_hysteresis", 0.0, 1.0, "rolled"), ("rate_speed", 1e-9, 1.0, "creeping"))
@@ -461,7 +421,7 @@ def how_found(name, given, values):
         return "assumed"
     if name == "twisting_stiffness" and "twisted" in given:
         return "measured: torsion pendulum"
-    return HOW[name] + (HOW_ROLLED[values["rolled", "law"]] if name == "rolling_resistance" else "")
+    return HOW[name] + (", under the heaviest mass" if name == "rolling_resistance" and values["rolled", "grows"] else "")
 
 
 def material(given, here, errors, values):
@@ -500,33 +460,13 @@ def which_density(density):
             "weighed.length and the diameter in m?")
 
 
-def questions(here):
-    """What no rod is like: most likely a slip of a unit. A test asks of density, moduli and strength (src/verdict/run_warnings.cpp)."""
-    if not 0.01 <= here["friction_coefficient"] <= 2:
-        yield f"the friction coefficient is {here['friction_coefficient']:.3g}, and ropes have 0.05 to 1: is capstan.angle in rad?"
-    if here.get("friction_moment", 1.0) < 3e-3:
-        yield f"the friction moment is {here['friction_moment']:.2g} k_b/h, and ropes have 0.01 to 0.3: is what mandrel keeps in m?"
-    if not 0.05 <= here["twisting_stiffness"] / here["bending_stiffness"] <= 3:
-        yield (f"it twists {here['twisting_stiffness'] / here['bending_stiffness']:.2g} times as stiffly as it bends, and ropes do about 1/4, "
-               "solid rods 2/3 times: is twisted.period in s, there and back?")
-    if limpness(here) > ROPE and not 0.03 <= here.get("rolling_resistance", 0.1) <= 0.42:
-        yield (f"the resistance to rolling is {here['rolling_resistance']:.2g}, and ropes have 0.1 to 0.35: did the pieces roll, and the "
-               "board not slide on them?")
-
-
 def doubts_of_rolling(here, values, errors):
     power, error = power_of_rolling(values, errors)
-    grows, law = f"rolled: the rises grow as the mass to the power {power:.2g} +- {error:.2g}", values["rolled", "law"]
     if math.isinf(error):
         yield "rolled: one mass does not tell whether the resistance to rolling grows with the load: add one that is four times as heavy"
-    elif law == "open":
-        yield (f"{grows}, which does not tell a constant (0) from a square root (1/2): take masses further apart, or the mean of more "
-               "readings; their mean is taken as constant")
-    elif law == "neither":
-        yield f"{grows}, neither as a constant (0) nor as a square root (1/2): are the pieces straight, and do they roll?"
-    elif law == "root" and "rolling_resistance" in here:
-        yield (f"{grows}, as of an elastic contact, but the stretching stiffness of a rope does not tell how wide it is: that of the heaviest "
-               "mass is taken")
+    elif values["rolled", "grows"] and "rolling_resistance" in here:
+        yield (f"rolled: the rises grow as the mass to the power {power:.2g} +- {error:.2g}: that of the heaviest mass is taken; are the "
+               "pieces straight, and do they roll?")
     pressed = max(line_load(values, values["rolled", f"masses[{i}]"]) for i in range(values["rolled", "masses"]))
     if pressed < PRESSED:
         yield (f"rolled: the pieces bear at most {pressed:.2g} N/m, and strands in knots {PRESSED:g} to 1e5: take a heavier board; are "
@@ -535,7 +475,6 @@ def doubts_of_rolling(here, values, errors):
 
 def warnings(here, uncertain, values, errors):
     """`uncertain` is of the properties, `errors` of the readings."""
-    yield from questions(here)
     h = here["radius"]
     if limpness(here) > ROPE and "friction_moment" not in here:
         yield ("it is a rope, but its bends are taken as elastic, with which the knots of most ropes open: measure cantilever and mandrel, "

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from knot_utm import tool
-from knot_utm.arguments import folder_of, jobs_of, method_of, settings_map, shown, whole
+from knot_utm.arguments import folder_of, jobs_of, shown, whole
 from knot_utm.command_line import exit_code_of, parsed, parser_of, say, settings_of
 from knot_utm.errors import WrongInput
 from knot_utm.groups import rod_of
@@ -23,7 +23,7 @@ MEANS = {"slip_load": "N", "break_load": "N", "efficiency": "of the strength wit
 def rank(knots, material, specimens=3, out=None, jobs=None, method="knot", settings=None):
     """A pandas.DataFrame with a row for each knot, in the order of the largest mean load that it bore, as scripts/rank tells and as it is
     in rank.csv of the folder. `.attrs` has the units of its means and the folder. Raises WrongInput."""
-    settings, name = settings_map(settings), str(material)
+    settings, name = dict(settings or {}), str(material)
     if isinstance(knots, str) or not knots or len(set(map(str, knots))) < len(list(knots)):
         raise WrongInput(f"knots is {shown(knots)}, but must be a list of different knots: names or files")
     for key in {"specimen.knot", "specimen", "material", tool.COUNT, "specimens"} & set(settings):
@@ -31,7 +31,7 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method="knot", setti
     # A knot and a material may be files as seen from here; a method would look for them from its own folder.
     points = [{key: os.path.abspath(given) if os.path.isfile(given) else str(given)
                for key, given in (("specimen.knot", knot), ("material", name))} | settings for knot in knots]
-    study = Study("the ranking", tool.find_method(method_of(method), os.getcwd()), points,
+    study = Study("the ranking", tool.find_method(os.fspath(method), os.getcwd()), points,
                   whole("specimens", specimens, 2, ": one start is no reading"), (), "list", {})
     out = folder_of(out, os.path.join("out/rank", re.sub(r"[^\w.-]+", "_", os.path.splitext(os.path.basename(name))[0])))
     runs, pulled = Sweep(study, out).all(jobs_of(jobs)), value_of(tool.resolved(study.method, points[0]))
@@ -62,7 +62,7 @@ def main(words):
     parser.add_argument("--specimens", type=int, default=3)
     parser.add_argument("--method", default="knot")
     parser.add_argument("--set", action="append", default=[])
-    return exit_code_of(PROGRAM, lambda: _rank(parsed(parser, words)), tool.command_to_paste("rank", words))
+    return exit_code_of(PROGRAM, lambda: _rank(parsed(parser, words)), goes_on=True)
 
 
 def _rank(asked):

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from knot_utm import spelling, tool
-from knot_utm.arguments import jobs_of, method_of, path_of, whole
+from knot_utm import tool
+from knot_utm.arguments import jobs_of, whole
 from knot_utm.errors import RunFailed, RunWarning, WrongInput
 from knot_utm.yaml_text import load
 
@@ -24,7 +24,7 @@ class Readings(Mapping):
 
     def __getitem__(self, key):
         if key not in self._readings.index:
-            raise KeyError(f"there is no reading {key!r}{spelling.hint(key, self._readings.index)}")
+            raise KeyError(f"there is no reading {key!r}{tool.hint(key, self._readings.index)}")
         return self._readings.loc[key]
 
     def __iter__(self):
@@ -32,13 +32,6 @@ class Readings(Mapping):
 
     def __len__(self):
         return len(self._readings.index)
-
-    def __getattr__(self, name):
-        # Called for names that are not there. What copies an object asks for some before it has any of its own.
-        if name.startswith("_"):
-            raise AttributeError(name)
-        near = spelling.hint(name, dir(self)) or (f"; it is a reading: [{name!r}]" if name in self._readings.index else "")
-        raise AttributeError(f"{type(self).__name__} has no attribute {name!r}{near}")
 
     __hash__ = object.__hash__
 
@@ -94,7 +87,7 @@ class Run(Readings):
 
 def read(folder):
     """The run in a folder. Raises WrongInput where there is none."""
-    folder = os.path.abspath(path_of("folder", folder, "the path of a folder"))
+    folder = os.path.abspath(folder)
     results = pd.Series(load(os.path.join(folder, "result.yaml")), dtype=object)
     results.attrs["units"] = {row["key"]: row["unit"] for row in tool.result_keys()}
     return Run(folder, load(os.path.join(folder, "method.yaml")), results, read_table(os.path.join(folder, "curve.csv")))
@@ -141,12 +134,12 @@ def make(method, out, specimens, overrides, overwrite, *more):
     if tool.COUNT in overrides:
         raise WrongInput(f"{tool.COUNT} is {overrides[tool.COUNT]}, but run tests one specimen, and batch as many as its argument "
                          "specimens says")
-    out, method = os.path.abspath(path_of("out", out, "the path of a folder")), method_of(method)
+    out = os.path.abspath(out)
     if overwrite:
         more += ("--overwrite",)
     elif any(os.path.exists(os.path.join(out, name)) for name in OF_A_RUN):
         raise WrongInput(f"{out} holds a run already: choose another folder, or overwrite=True")
-    method = tool.find_method(method, os.getcwd())
+    method = tool.find_method(os.fspath(method), os.getcwd())
     words = tool.command(method, overrides, out, "--quiet", "--specimens", str(specimens), *more)
     done = subprocess.run(words, check=False, text=True, errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
     if done.returncode == tool.REFUSED:
@@ -221,7 +214,7 @@ def batch(method, out, specimens=8, jobs=None, overwrite=False, **overrides):
 
 def read_batch(folder):
     """The batch in a folder, whoever made it. Raises WrongInput where there is none that has ended."""
-    folder = os.path.abspath(path_of("folder", folder, "the path of a folder"))
+    folder = os.path.abspath(folder)
     told = load(os.path.join(folder, STATISTICS))
     rejected = {one["specimen"]: one["reason"] for one in told["rejected"]}
     units = {row["key"]: row["unit"] for row in tool.result_keys()}

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 from knot_utm import design, groups, tool
 from knot_utm.errors import WrongInput
-from knot_utm.method_keys import require_known
 from knot_utm.yaml_text import load, text_of
 
 KEYS = ("method", "for_each", "vary", "below", "design", "runs", "repeat", "seed")
@@ -101,7 +100,6 @@ def _keys(given, name):
     for key in keys:
         if key in (tool.COUNT, "specimens"):
             raise WrongInput(f"{name} has the key {key}, but a run of a study is one specimen: give repeat")
-    require_known(keys, f"{name}.")
     return keys
 
 

@@ -10,7 +10,11 @@ PROGRAM = tool.program("sweep")
 
 
 def main(words):
-    return exit_code_of(PROGRAM, lambda: _sweep(_arguments(words)), tool.command_to_paste("sweep", words))
+    parser = parser_of(PROGRAM, "study")
+    parser.add_argument("--only")
+    parser.add_argument("--plot", action="append", default=[])
+    parser.add_argument("--readings")
+    return exit_code_of(PROGRAM, lambda: _sweep(parsed(parser, words)), goes_on=True)
 
 
 def _sweep(asked):
@@ -32,14 +36,6 @@ def _tell(work, table):
         out = work.folder.path
     failed = int((table["exit_code"] != 0).sum())
     print(f"{len(table)} runs, {failed} of which failed: the table is in {out}/table.csv and {out}/table.h5")
-
-
-def _arguments(words):
-    parser = parser_of(PROGRAM, "study")
-    parser.add_argument("--only")
-    parser.add_argument("--plot", action="append", default=[])
-    parser.add_argument("--readings")
-    return parsed(parser, words)
 
 
 if __name__ == "__main__":

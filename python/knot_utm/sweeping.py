@@ -3,7 +3,7 @@ import os
 
 from knot_utm import tool
 from knot_utm.address import Addresses
-from knot_utm.arguments import folder_of, jobs_of, path_of
+from knot_utm.arguments import folder_of, jobs_of
 from knot_utm.errors import WrongInput
 from knot_utm.plots import require_plottable, write_plots
 from knot_utm.study import Study, load_study
@@ -29,7 +29,7 @@ class Sweep:
 
     def __init__(self, study, out=None, plots=(), readings=None):
         require_plottable(plots)
-        self.study = study if isinstance(study, Study) else load_study(path_of("study", study, "the file of a study"))
+        self.study = study if isinstance(study, Study) else load_study(os.fspath(study))
         self.plots = plots
         self.readings = readings  # the word of tensile_test's --readings; None: all
         self.folder = SweepFolder(folder_of(out, os.path.join("out", self.study.name)))

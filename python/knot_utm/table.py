@@ -1,5 +1,4 @@
 """The table of a study: one row a run."""
-import contextlib
 import csv
 import functools
 import io
@@ -10,6 +9,7 @@ import warnings
 import pandas as pd
 
 from knot_utm import tool
+from knot_utm.arguments import write_whole
 from knot_utm.yaml_text import text_of
 
 # What the machine was, and not the test: it would differ each time.
@@ -64,8 +64,8 @@ class Table:
         """table.csv and table.h5, each there whole or as it was; none of no runs."""
         if not self.rows:
             return
-        _replace(os.path.join(folder, "table.csv"), self.csv().encode())
-        _replace(os.path.join(folder, "table.h5"), self.hdf())
+        write_whole(os.path.join(folder, "table.csv"), self.csv().encode())
+        write_whole(os.path.join(folder, "table.h5"), self.hdf())
 
     def hdf(self):
         """The bytes of an HDF5 file: made in memory, so that a full disk is one error and not HDF5's many."""
@@ -105,15 +105,3 @@ def shown(value):
 
 def _is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool)
-
-
-def _replace(path, content):
-    part = path + ".part"
-    try:
-        with open(part, "wb") as file:
-            file.write(content)
-        os.replace(part, path)
-    except OSError as error:
-        with contextlib.suppress(FileNotFoundError):
-            os.remove(part)
-        raise OSError(error.errno, error.strerror, path) from error

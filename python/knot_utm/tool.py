@@ -1,15 +1,14 @@
 """tensile_test, as this package calls it."""
 import csv
+import difflib
 import errno
 import functools
 import os
 import re
-import shlex
 import shutil
 import subprocess
 
 import knot_utm
-from knot_utm import spelling
 from knot_utm.errors import WrongInput
 from knot_utm.yaml_text import text_of
 
@@ -51,12 +50,6 @@ def program(name):
     return script if near.startswith(os.pardir) else near
 
 
-def command_to_paste(name, words):
-    """The same with its words, as a shell reads it."""
-    called = program(name)
-    return " ".join([shlex.quote(called) if IN_SOURCES else called, shlex.join(words)])
-
-
 @functools.cache
 def version():
     return _said("--version").strip()
@@ -82,11 +75,6 @@ def result_keys():
     return listing("results")
 
 
-def method_keys():
-    """The keys that methods may have, but for those of sections that do not act on the test, such as report."""
-    return tuple(row["key"] for row in listing("method-keys"))
-
-
 def find_method(name, folder):
     """The file of a method, from a folder, or of one that comes with the package, as tensile_test finds it. Raises WrongInput."""
     shipped = [CONFIG] if os.sep in name else [CONFIG, os.path.join(CONFIG, "standards"), os.path.join(CONFIG, "validation")]
@@ -96,7 +84,13 @@ def find_method(name, folder):
             return os.path.abspath(place)
     known = [os.path.splitext(file)[0] for of in shipped for file in os.listdir(of) if file.endswith(".yaml")]
     raise WrongInput(f"method is {name}, but must be a file, from {folder}, or the name of a method that comes with the "
-                     f"package{spelling.hint(name, known)}")
+                     f"package{hint(name, known)}")
+
+
+def hint(word, known):
+    """"; did you mean WORD?" of the known word that is spelt nearly so; empty where there is none."""
+    near = difflib.get_close_matches(str(word), list(known), 1)
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def command(method, settings, out, *more):

@@ -1,7 +1,7 @@
 """What numbers of a table say: shares, powers, thresholds and differences, each with its error; and what it says of points between its
 runs, by those that are nearest."""
 import functools
-from dataclasses import dataclass
+from collections import namedtuple
 
 import numpy as np
 import pandas as pd
@@ -49,13 +49,8 @@ def powers(table, keys, result):
                          "scatter": np.sqrt(variance)})
 
 
-@dataclass(frozen=True)
-class Threshold:
-    """The x at which something happens in half of the cases, and its 95 % interval."""
-
-    value: float
-    low: float
-    high: float
+# The x at which something happens in half of the cases, and its 95 % interval.
+Threshold = namedtuple("Threshold", "value low high")
 
 
 def threshold(x, happened):

@@ -8,8 +8,8 @@
 namespace knot_utm::measured {
 
 // Longest step [s], residual [k_b/h^2], contact tolerance [h], presliding displacement [h], refinement [-].
-// `scripts/bench convergence` reduces each tolerance of `normal` and compares the readings with those of `fine`:
-// bench/results/convergence.md.
+// The bench `convergence` reduced each tolerance of `normal` and compared the readings with those of `fine`:
+// bench/results/convergence.md (doc/developers/history.md).
 inline constexpr Tolerances kDraft{0.34, 2e-4, 0.06, 4e-3, 1.3};
 inline constexpr Tolerances kNormal{0.17, 1e-4, 0.005, 2e-3, 2.25};
 inline constexpr Tolerances kFine{0.05, 1e-5, 0.0025, 1e-3, 3.0};

@@ -330,5 +330,28 @@ def readings_of(record):
     return [(time, 1e3 * extension, load) for time, extension, load in zip(*(record.columns[name] for name in ("time", "extension", "load")))]
 
 
+class Balance(unittest.TestCase):
+    COMPARE = os.path.join(os.environ.get("KNOT_UTM_TOOLS_DIR", os.path.join(HERE, "../../build/devel/lib/knot_utm")), "compare")
+
+    def test_zero_is_that_of_compare(self):
+        # At rest with some noise, a touch backwards, and then a pull.
+        rows = [(0.0, 10.0, 3.1), (0.1, 10.0004, 3.3), (0.2, 9.9998, 3.2), (0.3, 10.0, 3.4)] + [(0.4 + i, 10.1 + i, 4.0 + 7 * i) for i in range(5)]
+        with tempfile.TemporaryDirectory() as folder:
+            raw, plain, balanced = (os.path.join(folder, name) for name in ("raw.csv", "plain.csv", "balanced.csv"))
+            with open(raw, "w", encoding="utf-8") as file:
+                file.write("Time (s),Extension (mm),Load (N)\n" + "".join(f"{t},{s},{f}\n" for t, s, f in rows))
+            for out, *more in ((plain, "--quiet"), (balanced, "--balance")):
+                said = subprocess.run([sys.executable, PROGRAM, raw, out, *more], check=True, capture_output=True, text=True).stdout
+            self.assertIn("zero is 3.25 N at", said)
+            with open(balanced, encoding="utf-8") as file:
+                first, *_, last = [[float(cell) for cell in line.split(",")[:3]] for line in file.read().splitlines()[2:]]
+            self.assertEqual((first[0], last[0]), (0.3, 4.4))
+            self.assertAlmostEqual(first[2], 0.15, places=12)
+            if not os.path.exists(self.COMPARE):
+                self.skipTest("compare is not built")
+            told = subprocess.run([self.COMPARE, plain, balanced], check=True, capture_output=True, text=True).stderr
+            self.assertIn(said[said.index("zero is "):].splitlines()[0], told)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -19,6 +19,8 @@ from knot_utm.report.commands import OneLineParser, why_not
 
 PROGRAM = "import_instron"
 HELPER = "write_curve_bag"
+PULLS = "pull", "cycle", "follow"
+MOVED, STILL = 0.01, 0.001  # of all growth of the extension: the pull has begun; at the same place
 BEGINS = {True: b"#ROSBAG", False: b"time,"}  # of what --overwrite replaces: a bag, or a curve.csv
 
 
@@ -37,10 +39,11 @@ def _import(asked):
     file, out, is_bag = asked.raw_data, asked.out, not asked.out.endswith(".csv")
     _require_new(out, file, asked.overwrite, BEGINS[is_bag])
     record = read_record(file, reading_of(asked, is_bag))
-    notes = record.notes
     given = [f"--{name}" for name in ("columns", "units", "invert", "specimen") if getattr(asked, name) is not None]
     if record.is_own and given:
-        notes.append(f"{file}: the curve is one of knot_utm, for which {' and '.join(given)} change{'s' * (len(given) == 1)} nothing")
+        record.notes.append(f"{file}: the curve is one of knot_utm, for which {' and '.join(given)} change{'s' * (len(given) == 1)} nothing")
+    if asked.balance:
+        record = balanced(record, file)
     if is_bag:
         _write_bag(out, record, file)
     else:
@@ -48,7 +51,7 @@ def _import(asked):
     if not asked.quiet:
         times = record.columns["time"]
         over = f" over {times[-1] - times[0]:g} s" if times and math.isfinite(times[0]) else ""
-        print(*notes, f"{len(times)} {'reading' if len(times) == 1 else 'readings'}{over} written to {out}", sep="\n")
+        print(*record.notes, f"{len(times)} {'reading' if len(times) == 1 else 'readings'}{over} written to {out}", sep="\n")
     return 0
 
 
@@ -59,6 +62,31 @@ def reading_of(asked, needs_time):
     if asked.specimen is not None and asked.specimen < 1:
         raise WrongInput(f"--specimen is {asked.specimen}, but must be a number from 1 on")
     return Reading(columns, units, asked.specimen or 0, asked.invert or "", needs_time)
+
+
+def balanced(record, file):
+    """From the last reading at rest on, with load and extension zero there, as `compare` balances raw data (analysis/raw_zero.hpp). A
+    curve that has its zero stays as it is. Raises WrongInput."""
+    s, load = record.columns["extension"], record.columns["load"]
+    if any(map(math.isfinite, record.columns["end_to_end"])):
+        return record._replace(notes=[*record.notes, f"{file}: the curve has its zero, so that --balance changes nothing"])
+    rows = [row for row, phase in enumerate(record.columns["phase"]) if phase in PULLS]
+    growth = max((s[row] - s[rows[0]] for row in rows), default=0.0)
+    if not growth > 0.0:
+        raise WrongInput(f"{file}: nothing is pulled, so that --balance finds no zero: no reading has a larger extension than the first one")
+    begun = next(i for i, row in enumerate(rows) if s[row] > s[rows[0]] + MOVED * growth)
+    first = max(i for i in range(begun) if s[rows[i]] <= s[rows[0]])
+    last, rest = rows[first], []
+    for row in rows[first::-1]:
+        if abs(s[row] - s[last]) > STILL * growth:
+            break
+        rest.append(row)
+    zeros = {name: values[last] + sum(values[row] - values[last] for row in rest) / len(rest)
+             for name, values in (("extension", s), ("load", load))}
+    columns = {name: [values[row] - zeros[name] if name in zeros else values[row] for row in rows[first:]]
+               for name, values in record.columns.items()}
+    count = f"the mean of its {len(rest)} readings before the crosshead moves" if len(rest) > 1 else "its first reading: it shows no rest"
+    return record._replace(columns=columns, notes=[*record.notes, f"{file}: zero is {zeros['load']:.6g} N at {zeros['extension']:.6g} m, {count}"])
 
 
 def write_curve(file, record):
@@ -104,6 +132,7 @@ def _parser():
     parser.add_argument("--units", help="time=s,extension=in,load=lbf, or one or two of these")
     parser.add_argument("--specimen", type=int, help="which specimen of a file with several, from 1")
     parser.add_argument("--invert", choices=INVERT, help="turn the sign of what falls in the pull, or, as --invert=load, of these")
+    parser.add_argument("--balance", action="store_true", help="begin where the crosshead begins to move, with the zero there")
     parser.add_argument("--overwrite", action="store_true", help="replace a file that an import wrote")
     parser.add_argument("--quiet", action="store_true", help="say only what went wrong")
     parser.add_argument("--version", action="store_true", help="say which version this is")

@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 UNPULLED = 0.01, 1.0  # ends of the axes before anything is pulled [m, N]
 WIDTH, HEIGHT, DPI = 430, 786, 100  # of the picture [px, px, px/in]
 BACKGROUND, FAINT, NAME, VALUE = '#26282e', '#4a4d55', '#a9adb7', '#f4f4f6'
-OURS, EARLIER, MEASURED = '#ffc531', '#8d7434', '#59d5f2'
+OURS, MEASURED = '#ffc531', '#59d5f2'
 NOT_KNOWN = 'grey: of a rod that has parted no tension is known'
 ROWS = 10  # of the table, at most
 TOP, ROW = 0.976, 0.0342  # of the table, in heights of the picture
@@ -35,7 +35,6 @@ class Chart:
 
     def __init__(self, figure, name):
         self.axes = figure.add_axes(ALONE, facecolor=BACKGROUND)
-        self.earlier, = self.axes.plot([], [], color=EARLIER, linewidth=1.2, animated=True, zorder=1)
         self.measured, = self.axes.plot([], [], color=MEASURED, linewidth=1.4, animated=True, zorder=2)
         self.curve, = self.axes.plot([], [], color=OURS, linewidth=1.8, animated=True, zorder=3)
         self.now, = self.axes.plot([], [], 'o', color=OURS, markersize=6, animated=True, zorder=4)
@@ -53,8 +52,8 @@ class Chart:
         self.axes.xaxis.label.set_visible(is_lowest)
         self.axes.tick_params(labelbottom=is_lowest)
 
-    def draw(self, curve, measured, earlier):
-        for line, points in ((self.earlier, earlier), (self.measured, measured), (self.curve, curve), (self.now, curve[-1:])):
+    def draw(self, curve, measured):
+        for line, points in ((self.measured, measured), (self.curve, curve), (self.now, curve[-1:])):
             line.set_data(1e3 * points[:, 0], points[:, 1])
             self.axes.draw_artist(line)
 
@@ -88,31 +87,16 @@ class Drawing:
         """The picture as an array of bytes: height, width, red green blue."""
         curve = numpy.array(readings.curve()).reshape(-1, 2)
         measured = numpy.array(readings.measured()).reshape(-1, 2)
-        earlier = joined(readings.earlier())
-        lines = ((self._all.earlier, earlier), (self._all.measured, measured))
-        beside = [line for line, points in lines if len(points) > 0]
         small = readings.small_load()
-        self._draw_background(numpy.vstack([curve, measured, earlier]), None if small is None else limit(small), beside,
+        self._draw_background(numpy.vstack([curve, measured]), None if small is None else limit(small), len(measured) > 0,
                               (readings.bar, readings.colours_are_known()))
         self.canvas.restore_region(self._background)
         self._fill_table(readings.table())
         for chart in self._charts(small is not None):
-            chart.draw(curve, measured, earlier)
-        for cell in self.cells():
+            chart.draw(curve, measured)
+        for cell in (cell for row in self._cells for cell in row):
             self.figure.draw_artist(cell)
         return numpy.asarray(self.canvas.buffer_rgba())[:, :, :3]
-
-    def cells(self):
-        return [cell for row in self._cells for cell in row]
-
-    def texts(self):
-        """All texts of the picture that are to be read."""
-        charts = [chart.axes for chart in self._charts(self._small.axes.get_visible())]
-        axes = [text for axes in (*charts, self._bar) for axis in (axes.xaxis, axes.yaxis)
-                for text in (*axis.get_ticklabels(), axis.label, axis.get_offset_text()) if shown(axis, text)]
-        legend = self._all.axes.get_legend()
-        return [text for text in (*self.cells(), *axes, self._bar.title, *(legend.get_texts() if legend else ()))
-                if text.get_visible() and text.get_text()]
 
     def _fill_table(self, table):
         for index, row in enumerate(self._cells):
@@ -124,8 +108,8 @@ class Drawing:
         return (self._all, self._small) if two else (self._all,)
 
     def _draw_background(self, points, small, beside, bar):
-        """small: where the axes of the small loads end [N]; None: there are none. beside: the lines that are drawn beside
-        the curve of this test. bar: the colour bar, and whether the colours mean anything."""
+        """small: where the axes of the small loads end [N]; None: there are none. beside: whether a measured
+        curve is drawn beside that of this test. bar: the colour bar, and whether the colours mean anything."""
         points = points[~numpy.isnan(points).any(axis=1)]
         low, high = points.min(axis=0, initial=0.0), points.max(axis=0, initial=0.0)
         limits = [(-limit(-low[i]) if low[i] < -1e-3 * high[i] else 0.0, limit(high[i], UNPULLED[i]))
@@ -153,10 +137,7 @@ class Drawing:
             chart.axes.get_legend().remove()
         if not beside:
             return
-        names = {chart.curve: 'simulated' if chart.measured in beside else 'this test',
-                 chart.earlier: 'earlier tests', chart.measured: 'measured'}
-        lines = [chart.curve, *beside]
-        chart.axes.legend(lines, [names[line] for line in lines], loc='lower center', ncol=3, columnspacing=1.2,
+        chart.axes.legend([chart.curve, chart.measured], ['simulated', 'measured'], loc='lower center', ncol=2, columnspacing=1.2,
                           bbox_to_anchor=(0.5, 1.0), frameon=False, labelcolor=NAME, fontsize=9)
 
     def _draw_bar(self, bar, is_known):
@@ -170,18 +151,3 @@ class Drawing:
         self._bar.set_xticks(bar.places, ['%g' % tick for tick in bar.ticks])
         title = '%s of the rod [%s]' % (bar.quantity, bar.unit) if is_known else NOT_KNOWN
         self._bar.set_title(title, color=NAME, fontsize=10, pad=6)
-
-
-def joined(curves):
-    """Points of several curves, with a gap behind each."""
-    gap = numpy.full((1, 2), numpy.nan)
-    return numpy.vstack([numpy.empty((0, 2)), *(part for curve in curves for part in (numpy.array(curve), gap))])
-
-
-def shown(axis, text):
-    """Whether a label of an axis stands within its limits: matplotlib keeps some that do not."""
-    if text is axis.label or text is axis.get_offset_text():
-        return True
-    low, high = sorted(axis.get_view_interval())
-    place = text.get_position()[0 if axis.axis_name == 'x' else 1]
-    return low - 1e-9 <= place <= high + 1e-9

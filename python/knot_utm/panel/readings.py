@@ -1,5 +1,4 @@
-"""What the panel shows, as it comes in messages: the latest readings, the curve, and beside it those of earlier tests and
-of a record."""
+"""What the panel shows, as it comes in messages: the latest readings, the curve, and beside it that of a record."""
 import collections
 import math
 import statistics
@@ -13,7 +12,6 @@ MANY = 8.0  # loads above this many of those of sliding hide them: these get axe
 ENDS = {'break': 'broke', 'untangled': 'came undone', 'solver': 'the physics gave up',
         'operator': 'ended by the operator', 'program': 'ended with its program'}
 MOST_WAITING = 1000  # states that wait for the reading of the load cell of the same stamp, and the other way round
-CURVES = 20  # that are shown, this one among them
 
 # What the curve takes of a state. `zero`: its balance offset; `slides`: whether the knots slide.
 Place = collections.namedtuple('Place', 'run phase extension zero slides')
@@ -58,12 +56,12 @@ class Readings:
         self.stamp = -1.0
         self.state = None
         self._pairs = Pairs()
-        self._curves = {}  # number of the test -> points, in the order of the tests
         self._begin_test()
 
     def _begin_test(self):
         self.load = math.nan
         self.load_at_break = None
+        self._curve = []
         self._zero = None     # balance offset of the curve
         self._sliding = []    # loads while the knots slid
         self._measured_pairs = Pairs()
@@ -107,16 +105,14 @@ class Readings:
         if point is None or point[0].phase in PREPARATION:
             return
         place, load = point
-        if self.state is not None and place.run == self.state.run:
-            if place.zero != self._zero:
-                self._curves.pop(place.run, None)
-                self._sliding = []
-            self._zero = place.zero
-            if place.slides:
-                self._sliding.append(load)
-        self._curves.setdefault(place.run, []).append((place.extension, load))
-        if len(self._curves) > CURVES:
-            del self._curves[next(iter(self._curves))]
+        if self.state is None or place.run != self.state.run:
+            return
+        if place.zero != self._zero:
+            self._curve, self._sliding = [], []
+        self._zero = place.zero
+        if place.slides:
+            self._sliding.append(load)
+        self._curve.append((place.extension, load))
 
     def take_measured_extension(self, stamp, extension):
         self._take_measured(self._measured_pairs.add(0, stamp, extension))
@@ -130,11 +126,7 @@ class Readings:
 
     def curve(self):
         """Extension and load at each reading of the load cell in this test."""
-        return list(self._curves.get(self.state.run, [])) if self.state else []
-
-    def earlier(self):
-        """The curves of the tests before this one."""
-        return [list(points) for run, points in self._curves.items() if self.state and run != self.state.run]
+        return list(self._curve)
 
     def measured(self):
         """The same of the experiment, as its topics have it."""

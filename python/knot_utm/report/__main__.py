@@ -32,16 +32,10 @@ def main():
         parser.error(f"{arguments.folder}: none of {', '.join(PAGES)} is there")
     command = arguments.command or "scripts/report " + shlex.quote(arguments.folder)
     with in_one_line("report"):
-        make(maker, arguments.folder, command, arguments.version)
+        module, function = maker.split(".")
+        html = getattr(importlib.import_module(f"knot_utm.report.{module}"), function)(arguments.folder, command, arguments.version)
+        importlib.import_module("knot_utm.report.page").write(arguments.folder, html)
     gc.freeze()  # nor does Python look for garbage as it ends
-
-
-def make(maker, folder, command, version):
-    module, function = maker.split(".")
-    html = getattr(importlib.import_module(f"knot_utm.report.{module}"), function)(folder, command, version)
-    from knot_utm.report import page
-
-    page.write(folder, html)
 
 
 if __name__ == "__main__":

@@ -37,12 +37,8 @@ Tested = namedtuple("Tested", "number pull largest warnings checks asked version
 OUTCOME = ("rejected", "ended_by", "motion_pattern")
 
 
-class Specimen:
-    """A row of specimens.csv. `drawn`, `readings`: by key, in SI; a reading that the test does not have is None."""
-
-    def __init__(self, number, outcome, drawn, readings):
-        self.number, self.drawn, self.readings = number, drawn, readings
-        self.rejected, self.ended_by, self.motion_pattern = outcome[0] == "true", outcome[1], outcome[2]
+# A row of specimens.csv. `drawn`, `readings`: by key, in SI; a reading that the test does not have is None.
+Specimen = namedtuple("Specimen", "number rejected ended_by motion_pattern drawn readings")
 
 
 def read_specimens(folder):
@@ -61,7 +57,7 @@ def read_specimens(folder):
     def row(keys, i):
         return {key: values[key][i] if is_number(values[key][i]) else None for key in keys}
 
-    return [Specimen(int(number), [columns[name][i] for name in OUTCOME], row(drawn, i), row(readings, i))
+    return [Specimen(int(number), columns["rejected"][i] == "true", columns["ended_by"][i], columns["motion_pattern"][i], row(drawn, i), row(readings, i))
             for i, number in enumerate(values["specimen"])]
 
 

@@ -8,6 +8,7 @@ import stat
 import sys
 import tempfile
 
+from knot_utm import tool
 from knot_utm.errors import WrongInput
 
 # Debian's name of what a module is in.
@@ -35,8 +36,12 @@ def in_one_line(program):
 
 
 class OneLineParser(argparse.ArgumentParser):
+    """Refuses words in a line, which says where all of them are told."""
+
     def error(self, message):
-        refuse(self.prog, message)
+        if not self.add_help:
+            message += f" ({self.prog} --help)" if tool.IN_SOURCES else f" ({' '.join(self.format_usage().split())})"
+        refuse(os.path.basename(self.prog), message)
 
 
 def refuse(program, message):

@@ -6,6 +6,7 @@ from collections import namedtuple
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from knot_utm.arguments import write_whole
 from knot_utm.report.commands import CannotReport
 from knot_utm.report.run import printable
 from knot_utm.report.style import embedded
@@ -100,12 +101,8 @@ def write(folder, html):
     for name, content in (("report.pdf", as_pdf(html)), ("report.html", html.encode("utf-8"))):
         file = os.path.join(folder, name)
         try:
-            with open(file + ".part", "wb") as out:
-                out.write(content)
-            os.replace(file + ".part", file)
+            write_whole(file, content)
         except OSError as why:
-            if os.path.isfile(file + ".part"):
-                os.remove(file + ".part")
             raise CannotReport(f"{file}: cannot be written: {why.strerror}") from why
 
 

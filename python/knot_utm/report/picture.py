@@ -1,15 +1,24 @@
 """Draws runs of one test: the rod as a shaded tube on its rollers, and its curve with its phases. The PNG carries what it shows and
 how it was made as texts, which a test holds against what the program says today."""
+import contextlib
 import os
+import re
 import shlex
+import signal
+import socket
 import string
+import subprocess
 import sys
+import tempfile
+import time
 
 import numpy as np
+from matplotlib import pyplot
 from matplotlib.colors import to_rgb
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
+from knot_utm import tool
 from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, refuse, why_not
 from knot_utm.report.curves import course, force_extension
 from knot_utm.report.marks import Mark
@@ -23,6 +32,9 @@ from knot_utm.report.tube import to_picture
 # The rod's two halves, each with one knot.
 FIRST_HALF, SECOND_HALF = np.array(to_rgb(ORANGE)), np.array(to_rgb(BLUE))
 READINGS = {"plateau_force": "N", "lock_extension": "m"}
+COLUMNS = 5  # of the knots
+# Who must listen before the test begins: else its curve would be none.
+LISTENERS = {"/knot/markers": "rviz", "/view/panel": "rviz", "/utm/load_cell": "panel_node"}
 
 
 def facts_of_run(folder, command):
@@ -35,20 +47,39 @@ def facts_of_run(folder, command):
 
 def main():
     parser = OneLineParser(prog="picture", description=__doc__)
-    parser.add_argument("runs", nargs="+", metavar="RUN")
+    parser.add_argument("words", nargs="*", metavar="RUN")
+    parser.add_argument("--knots", action="store_true", help="all shipped knots instead")
+    parser.add_argument("--rviz", action="store_true", help="what rviz shows at the end of a test; the words are arguments of its launch")
     parser.add_argument("--out", required=True, metavar="PNG")
     parser.add_argument("--overwrite", action="store_true", help="write over a picture that exists")
     asked = parser.parse_args()
-    if why := why_not(asked.out, [file for folder in asked.runs for file in files_of(folder)], asked.overwrite):
+    of_runs = not asked.knots and not asked.rviz
+    for word in () if of_runs else asked.words:
+        if asked.knots or not re.match(r"(?!record:|out:)\w+:=", word):
+            refuse("picture", f"--{'knots' if asked.knots else 'rviz'} takes no {word} (scripts/picture --help)")
+    if why := why_not(asked.out, [file for folder in asked.words for file in files_of(folder)] if of_runs else [], asked.overwrite):
         refuse("picture", f"--out: {why}")
+    command = shlex.join(["scripts/picture", *(word for word in sys.argv[1:] if word != "--overwrite")])
+    if of_runs:
+        return draw(runs_of(asked.words), asked.out, command)
+    with tempfile.TemporaryDirectory() as folder:
+        shot = os.path.join(folder, "shot.png")
+        facts = shot_of_knots(folder, shot) if asked.knots else shot_of_rviz(folder, shot, asked.words)
+        with Image.open(shot) as picture:
+            save(picture.convert("RGB"), asked.out, {**facts, "command": command})
+
+
+def runs_of(folders):
+    if not folders:
+        refuse("picture", "name a folder of a run (scripts/picture --help)")
     try:
-        runs = [Run(folder) for folder in asked.runs]
+        runs = [Run(folder) for folder in folders]
     except CannotReport as error:
         refuse("picture", str(error))
     for run in runs:
         if not len(run.pull()):
             refuse("picture", f"{run.folder}: a run in which nothing was pulled")
-    draw(runs, asked.out, shlex.join(["scripts/picture", *(word for word in sys.argv[1:] if word != "--overwrite")]))
+    return runs
 
 
 def draw_shape(axes, run, shape):
@@ -88,10 +119,65 @@ def draw(runs, file, command):
     picture = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
     for number, image in enumerate(images):
         picture.paste(image, (0, sum(image.height for image in images[:number])))
+    save(picture, file, facts_of_run(last.folder, command))
+
+
+def save(picture, file, facts):
     texts = PngInfo()
-    for name, text in facts_of_run(last.folder, command).items():
+    for name, text in facts.items():
         texts.add_itxt(name, text)
     picture.save(file, "PNG", pnginfo=texts)
+
+
+def shot_of_knots(folder, shot):
+    """The pictures of all drawings on one page."""
+    names = sorted(os.path.splitext(name)[0] for name in os.listdir(os.path.join(tool.CONFIG, "knots")))
+    page, axes = pyplot.subplots(-(-len(names) // COLUMNS), COLUMNS, figsize=(12, 2.4 * -(-len(names) // COLUMNS)), layout="tight")
+    for one in axes.flat:
+        one.set_axis_off()
+    for name, one in zip(names, axes.flat):
+        subprocess.run([tool.tensile_test(), "--draw", name, "--out", folder], check=True, stdout=subprocess.DEVNULL)
+        one.imshow(pyplot.imread(os.path.join(folder, name + ".png")), interpolation="antialiased")
+    page.savefig(shot, dpi=100)
+    return {"version": tool.version(), "method": "--draw of all knots"}
+
+
+def shot_of_rviz(folder, shot, words):
+    """The end of a test with these words, on a display that only this program sees."""
+    in_ros = [os.path.join(os.path.dirname(tool.tensile_test()), "../../env.sh")]
+    run = os.path.join(folder, "run")
+
+    def answer(*words):
+        return subprocess.run(in_ros + list(words), check=False, capture_output=True, text=True).stdout
+
+    def begins():
+        return all(f" /{node} " in answer("rostopic", "info", topic).partition("Subscribers")[2] for topic, node in LISTENERS.items()
+                   ) and "accepted: True" in answer("rosservice", "call", "/utm/start_test", "{}")
+
+    with contextlib.ExitStack() as started:  # the display ends last: rviz would not outlive it in peace
+        def start(*words, **options):
+            process = started.enter_context(subprocess.Popen(words, **options))
+            started.callback(process.send_signal, signal.SIGINT)
+            return process
+
+        display = start("Xvfb", "-displayfd", "1", "-screen", "0", "1280x900x24", "+extension", "GLX", "-nolisten", "tcp",
+                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.readline().strip()
+        if not display:
+            raise CannotReport("Xvfb did not start")
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            port = str(free.getsockname()[1])
+        os.environ.update(DISPLAY=f":{display}", LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1", XDG_RUNTIME_DIR=folder, ROS_LOG_DIR=folder,
+                          ROS_HOSTNAME="localhost", ROS_MASTER_URI=f"http://localhost:{port}")
+        launch = start(*in_ros, "roslaunch", "-p", port, "knot_utm", "tighten.launch", "real_time_factor:=0", *words, "rviz:=true",
+                       "autostart:=false", "exit_at_end:=false", "record:=true", f"out:={run}", stdout=sys.stderr)
+        for reached in (begins, lambda: os.path.exists(os.path.join(run, "result.yaml"))):
+            while not reached():
+                if launch.poll() is not None:
+                    raise CannotReport("the test has no result")
+                time.sleep(1)
+        time.sleep(5)  # rviz draws what came last
+        subprocess.run(["import", "-window", "root", shot], check=True)
+    return facts_of_run(run, "")
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from knot_utm.report.curves import course, error_band, force_extension
 from knot_utm.report.marks import end_of, largest_load, marks_of, time_of_break
 from knot_utm.report.method_facts import knot_and_materials, method_facts, particulars, program
 from knot_utm.report.page import Box, checks_table, facts, figure, head_of, Headline, no_value, render, Row, Table, verdict_box
-from knot_utm.report.quantities import (all_in_units, CERTIFICATE, error_shown, GROUPS, HEAD, in_units, is_rounding, number, quantity_of,
+from knot_utm.report.quantities import (all_in_units, CERTIFICATE, error_shown, GROUPS, HEAD, in_units, is_rounding, quantity_of,
                                         shown, TABLES, with_unit)
 from knot_utm.report.rod_pictures import pictures
 from knot_utm.report.run import Run
@@ -17,7 +17,6 @@ HEADLINES = ("knotability", "force_ratio", "plateau_force", "lock_extension", "l
              "elongation_total")
 # What stands for no value where it is not null.
 NOTHING = {"break_place": "none", "cycles": 0, "motion_pattern_confidence": 0}
-RISES = 0.5  # of a plateau's range, that its slope over the way accounts for
 
 
 def report_on_run(folder, command, version):
@@ -89,10 +88,9 @@ def figures_of(run, marks, largest):
 
 
 def caption(run, marks, largest):
-    band, line, peak = words_of_band(run), between_readings(run), with_unit(run.value("peak_force"), run.units.force)
+    band, peak = words_of_band(run), with_unit(run.value("peak_force"), run.units.force)
     sentences = [
         largest and not largest.is_peak and f"The curve has no peak: its largest load, {peak}, was read {largest.where}.",
-        line and f"Between the readings of the load cell the line goes up to {line}.",
         run.time_of_break() is not None and "It ends where the rod parted: no load is known behind that.",
         f"The band shows the estimated numerical error, from the {'errors' if ' and ' in band else 'error'} of the {band} in the table below."
         if band else "No band of numerical error is drawn: it is made of the errors of the plateau, the lock and the stiffness, which are "
@@ -113,13 +111,6 @@ def words_of_band(run):
     return " and ".join([", ".join(first), last] if first else [last])
 
 
-def between_readings(run):
-    """The largest load of the line that is drawn, where it is seen to be larger than the largest reading; else None."""
-    line, peak = run.tested()["load"].max(initial=0.0), run.value("peak_force")
-    texts = [with_unit(value, run.units.force) for value in (float(line), peak)]
-    return texts[0] if peak is not None and line > peak and texts[0] != texts[1] else None
-
-
 # ---- readings ----
 
 
@@ -137,25 +128,10 @@ def headlines(run, largest):
         value, error = run.value(key), run.value(key + "_error")
         if value is not None:
             unit = run.units.of(quantity_of(key).kind)
-            remark = largest.where if key == "peak_force" and largest else range_of_plateau(run) if key == "plateau_force" else ""
+            remark = largest.where if key == "peak_force" and largest else ""
             found.append(Headline(short_label(run.result, key, largest), shown(value, unit.scale, error),
                                   error_shown(error, unit.scale), unit.name, remark))
     return found
-
-
-def range_of_plateau(run):
-    """Where its force is not the same all along."""
-    low, high, slope = (run.value("plateau_force_" + name) for name in ("low", "high", "slope"))
-    if low is None or high is None:
-        return ""
-    unit = run.units.force
-    ends = [number(end * unit.scale, end * unit.scale) for end in (low, high)]  # with two digits
-    if ends[0] == ends[1]:
-        return ""
-    end = run.value("lock_extension_by_load")
-    way = 0.5 * (end if end is not None else float(run.pull()["extension"][-1]))  # from 0.3 to 0.8
-    rises = slope is not None and slope * way > RISES * (high - low)
-    return f"{'rises from' if rises else 'between'} {ends[0]} {'to' if rises else 'and'} {ends[1]} {unit.name}"
 
 
 def has_value(result, key):

@@ -1,4 +1,4 @@
-"""The rod as it lay over the time of a test: from its shapes.csv or its bag, else the final shape alone."""
+"""The rod as it lay over the time of a test: from its shapes.csv, else the final shape alone."""
 import os
 from collections import namedtuple
 
@@ -6,9 +6,6 @@ import numpy as np
 
 from knot_utm.report.commands import CannotReport
 from knot_utm.report.run import numbers, read_columns, read_text
-
-SHAPE, STATE = "knot/shape", "knot/state"
-
 
 # `time` of the test [s]; `points`: the nodes [m]. `tension`: of each edge [N]; `twist`: of each node [rad/m]; `contact_force`: that
 # presses on each node, per length [N/m]. None: not known. `cuts`: edges between one rope and the next, which are no rope.
@@ -60,19 +57,10 @@ def lengths(shape):
 
 def series_of(run):
     """All shapes that the folder of a run has, and what is to be said of them: a line, or nothing."""
-    file, bag = (os.path.join(run.folder, name) for name in ("shapes.csv", "test.bag"))
+    file = os.path.join(run.folder, "shapes.csv")
     if os.path.exists(file):
         return series_of_csv(file), ""
-    if not os.path.exists(bag):
-        return only_the_final(run), ("There is no shapes.csv and no test.bag, so only the final shape is shown, without "
-                                     "tensions.")
-    try:
-        return series_of_bag(bag, final_shape(run).cuts), ""
-    except ModuleNotFoundError as missing:
-        why = f"{missing} (Debian: python3-rosbag)"
-    except Exception as error:  # a bag is read by code that its own content chooses: anything may go wrong
-        why = " ".join(str(error).split()) or type(error).__name__
-    return only_the_final(run), f"test.bag cannot be read, so only the final shape is shown, without tensions: {why}"
+    return only_the_final(run), "There is no shapes.csv, so only the final shape is shown, without tensions."
 
 
 def shapes_at(series, times, broke=None, final=None):
@@ -135,26 +123,3 @@ def final_shape(run):
 def nearest(seconds, time, broke):
     i = int(np.argmin(np.abs(seconds - time)))
     return i - 1 if broke is not None and i > 0 and time <= broke < seconds[i] else i
-
-
-def series_of_bag(file, cuts):
-    """The messages of a shape do not tell one rope from another."""
-    import rosbag
-
-    with rosbag.Bag(file) as bag:
-        topics = bag.get_type_and_topic_info().topics
-        shape, state = (next(topic for topic in sorted(topics) if topic.strip("/").endswith(name))
-                        for name in (SHAPE, STATE))
-        # Stamps run on over all tests of one launch; the state knows both times.
-        first = next(bag.read_messages(topics=[state]))
-        begin = first.message.header.stamp.to_sec() - first.message.time
-        shapes = [shape_of(entry.message, entry.timestamp.to_sec() - begin, cuts)
-                  for entry in bag.read_messages(topics=[shape])]
-    if not shapes:
-        raise ValueError("it holds no shape")
-    return Series([one.time for one in shapes], lambda i: shapes[i])
-
-
-def shape_of(message, time, cuts):
-    points = np.array([(point.x, point.y, point.z) for point in message.points])
-    return Shape(time, points, known(np.array(message.tension)), cuts=cuts)

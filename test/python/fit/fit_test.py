@@ -245,7 +245,7 @@ class Fits(unittest.TestCase):
         empty, held = write(self.path("empty.csv"), ""), self.altered("held.csv", record, phase="hold")
         for words, says in (
                 ([record, "straight"], "--free is missing"), ([record, *free, STRETCH + "=10:5"], "low:high"),
-                ([record, *free, "material.stifness=1:2"], "material.stifness is no key of a method; the keys of material"),
+                ([record, *free, "material.stifness=1:2"], "--free: material.stifness is nothing, but only a number"),
                 ([record, *free, STRETCH + "=-5:10"], "material.stretching_stiffness is -5"), ([record, *free, STRETCH, STRETCH], "twice"),
                 ([record, *free, "record.force_offset"], "nothing but offsets"), ([held, *free, STRETCH], "nothing is pulled"),
                 ([record, *free, "machine.stiffness"], "give --free machine.stiffness=low:high"),

@@ -107,14 +107,11 @@ class PageOfARun(unittest.TestCase):
 
     def test_shows_the_final_shape_where_there_are_no_others(self):
         folder = folders.copy(straight)
-        for name in ("shapes.csv", "test.bag"):
-            if os.path.exists(os.path.join(folder, name)):
-                os.remove(os.path.join(folder, name))
-        for remark in ("no test.bag", "test.bag cannot be read"):
-            html = run_page.report_on_run(folder, "", "")
-            self.assertTrue(remark in html)
-            self.assertEqual(html.count(' src="data:image/'), 3)
-            write("#ROSBAG V2.0\n", folder, "test.bag")
+        if os.path.exists(os.path.join(folder, "shapes.csv")):
+            os.remove(os.path.join(folder, "shapes.csv"))
+        html = run_page.report_on_run(folder, "", "")
+        self.assertTrue("no shapes.csv" in html)
+        self.assertEqual(html.count(' src="data:image/'), 3)
 
     def test_of_a_test_that_ended_before_it_was_pulled(self):
         for count, pictures in ((None, 2), (2, 0)):  # while it was prepared; without a reading

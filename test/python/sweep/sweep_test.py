@@ -9,12 +9,11 @@ import json
 import os
 import re
 import resource
-import shlex
 import signal
 import subprocess
 import unittest
 
-from sweeps import CONFIG, LENGTHS, REAL, ROOT, STRAIGHT, Sweeps, content, rows, write  # first: it finds the packages
+from sweeps import CONFIG, LENGTHS, REAL, STRAIGHT, Sweeps, content, rows, write  # first: it finds the packages
 
 import numpy as np
 import pandas as pd
@@ -129,11 +128,6 @@ class OfThePlateauAlone(Sweeps):
         self.assertEqual(said.count("\n"), 1)
         self.assertEqual(self.table("out"), before)
 
-    def test_runs_that_have_all_readings_are_no_part_of_it(self):
-        write(self.study, STRAIGHT)
-        self.sweep("out")
-        self.assertIn("were made without --readings: leave it out", self.sweep("out", "--readings", "plateau", code=2))
-
     def test_others_are_refused_before_anything_is_written(self):
         for word, why in (("locks", "--readings is locks, but must be plateau"), ("plateau", "this test has no plateau")):
             if word == "plateau":
@@ -176,8 +170,7 @@ class CutShort(Sweeps):
             _, said = process.communicate()
             self.assertEqual(held.read(), "", "the run in flight is stopped")
             self.assertEqual(process.returncode, 1)
-            goes_on = shlex.join([os.path.join(ROOT, "scripts/sweep"), self.study, "--out", self.path(out), "--jobs", "1"])
-            self.assertIn(f"it was interrupted, with 2 of 4 runs done; the same command goes on: {goes_on}\n", said)
+            self.assertIn("it was interrupted, with 2 of 4 runs done; the same command goes on\n", said)
             self.assertEqual([run[1] for run in rows(self.table(out))[2:]], [str(length) for length in LENGTHS[:2]])
             self.assertEqual(sorted(os.listdir(self.path(out, "runs"))), sorted(self.whole_runs(out)), "no remains")
             self.sweep(out)
@@ -186,11 +179,11 @@ class CutShort(Sweeps):
                 os.remove(self.path(name))
 
     def test_by_what_will_not_change_is_not_said_to_go_on(self):
-        for code, said in ((errno.ENOSPC, "a: no space left on device; the same command goes on: again"), (errno.EISDIR, "a: is a directory")):
+        for code, said in ((errno.ENOSPC, "a: no space left on device; the same command goes on"), (errno.EISDIR, "a: is a directory")):
             def fail(code=code):
                 raise OSError(code, os.strerror(code), "a")
             with contextlib.redirect_stderr(io.StringIO()) as told:
-                self.assertEqual(command_line.exit_code_of("scripts/sweep", fail, "again"), 1)
+                self.assertEqual(command_line.exit_code_of("scripts/sweep", fail, True), 1)
             self.assertEqual(told.getvalue(), f"sweep: {said}\n")
 
     def test_by_a_full_disk_goes_on_when_there_is_room(self):
@@ -198,7 +191,7 @@ class CutShort(Sweeps):
         write(self.study, content(self.study).decode().replace(str(LENGTHS[-1]), f"{LENGTHS[-1]}, 0.5"))
         # As large as a file may become: enough for the method, too little for what is measured.
         said = self.sweep("out", code=1, limit=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000)))
-        self.assertRegex(said, r"cannot write \S+: file too large, with 4 of 5 runs done; the same command goes on: ")
+        self.assertRegex(said, r"cannot write \S+: file too large, with 4 of 5 runs done; the same command goes on")
         self.assertEqual(len(self.whole_runs("out")), 4)
         self.sweep("out")
         self.assertEqual(self.started().count(LENGTHS[0]), 1)
@@ -240,19 +233,6 @@ class Repeated(Sweeps):
         self.assertEqual(self.table("one"), self.table("out"))
         self.sweep("out")
         self.assertEqual(self.started().count(0.2), 2, "not run again")
-
-    def test_rejected_specimens_say_why(self):
-        write(self.study, f"""
-            method: {CONFIG}/tighten.yaml
-            vary: {{material.bending_law: [elastic], material.friction_couple: [0], physics.accuracy: [draft],
-                    material.friction_coefficient: [0.05]}}
-            repeat: 2""")
-        self.sweep("out")
-        names, _, *runs = rows(self.table("out"))
-        for run in runs:
-            run = dict(zip(names, run))
-            self.assertEqual((run["exit_code"], run["ended_by"]), ("1", "untangled"))
-            self.assertIn("undone", run["error"])
 
     def test_a_batch_that_crashes_is_as_many_rows_and_tried_again(self):
         self.sweep("out", KILL_AT="specimen.length=0.2")
