@@ -31,8 +31,7 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
       method_(method),
       machine_(make_bench(method)),
       motion_(rollers_hold(method.specimen, method.machine)),
-      show_(
-          node, [this] { return moment(); }, [this] { return machine_.contact_forces(); }),
+      show_(node, [this] { return view(); }),
       diagnostics_(node_) {
   specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, kNoLimit, true);
   const auto tell_in = [this](std::uint8_t SpecimenInfo::*connected) {
@@ -169,8 +168,14 @@ void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
   record_.publish(end);
 }
 
-Moment KnotNode::moment() const {
-  return {stamp_, machine_.state().position, machine_.tension(), machine_.upper_grip(), sample_};
+SceneView KnotNode::view() const {
+  return {machine_.state().position,
+          machine_.tension(),
+          machine_.contact_forces(),
+          machine_.lower_grip(),
+          machine_.upper_grip(),
+          sample_,
+          stamp_};
 }
 
 void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

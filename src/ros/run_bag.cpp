@@ -93,9 +93,8 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   for (const Transforms& some : {frames_.fixed(stamp), frames_.moving(stamp, sample.displacement, upper_grip)})
     frames.transforms.insert(frames.transforms.end(), some.begin(), some.end());
   bag_.write(kTf, stamp, frames);
-  const std::vector<ContactForce> none_recorded;
-  const SceneView view{record.shape, record.tension, none_recorded, grips_.lower(), upper_grip, sample};
-  bag_.write(names::kMarkers, stamp, picture_.draw_small(view, stamp));
+  const SceneView view{record.shape, record.tension, {}, grips_.lower(), upper_grip, sample, stamp};
+  bag_.write(names::kMarkers, stamp, picture_.draw_small(view));
 }
 
 }  // namespace knot_utm

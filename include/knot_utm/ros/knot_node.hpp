@@ -35,7 +35,7 @@ class KnotNode {
   void refuse(const Crosshead& message, const std::string& why);
   void publish(const KnotRecord& record);
   void put_shape(KnotRecord& record) const;
-  Moment moment() const;
+  SceneView view() const;
 
   ros::NodeHandle node_;
   Method method_;  ///< method of the present specimen
