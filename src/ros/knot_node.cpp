@@ -141,10 +141,7 @@ void KnotNode::refuse(const Crosshead& message, const std::string& why) {
 }
 
 void KnotNode::put_shape(KnotRecord& record) const {
-  record.shape = to_message(machine_.state().position, machine_.tension(), method_.material.radius);
-  record.shape.header.stamp = record.command.header.stamp;
-  record.shape.run = record.command.run;
-  record.shape.sequence = record.command.sequence;
+  record.shape = to_message(machine_.state().position, machine_.tension(), method_.material.radius, record.command);
 }
 
 void KnotNode::publish(const KnotRecord& record) {

@@ -204,7 +204,7 @@ void UtmNode::physics_died() {
 
 void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   const KnotState& state = *answer;
-  if (!waiting_ || state.run != run_ || state.sequence != command_.sequence) return;  // an answer given twice
+  if (!waiting_ || state.run != run_ || state.sequence != command_.sequence) return;  // of a test that has ended
   sample_ = from_message(state);
   motion_pattern_ = state.motion_pattern;
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);

@@ -121,7 +121,7 @@ TEST(Conversions, StampIsNeverZero) {
 
 TEST(Conversions, ShapeSurvives) {
   const Points in = Points::Random(3, 7);
-  EXPECT_EQ(points_from_message(to_message(in, Eigen::VectorXd::Zero(6), 0.001)), in);
+  EXPECT_EQ(points_from_message(to_message(in, Eigen::VectorXd::Zero(6), 0.001, Crosshead())), in);
 }
 
 }  // namespace
