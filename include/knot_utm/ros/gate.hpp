@@ -39,9 +39,13 @@ ros::Subscriber subscribe_gated(ros::NodeHandle& handle, const char* topic, cons
 template <class Message>
 ros::Publisher advertise_watched(ros::NodeHandle& handle, const char* topic, const char* listener,
                                  const std::function<void(bool)>& change, bool latched = false) {
+  const auto links = std::make_shared<int>(0);
   const auto tell = [=, name = handle.resolveName(listener)](bool is_there) -> ros::SubscriberStatusCallback {
     return [=](const ros::SingleSubscriberPublisher& subscriber) {
-      if (subscriber.getSubscriberName() == name) change(is_there);
+      if (subscriber.getSubscriberName() != name) return;
+      *links += is_there ? 1 : -1;
+      change(is_there);
+      if (!is_there && *links > 0) change(true);  // it has connected anew before the loss was seen
     };
   };
   return handle.advertise<Message>(topic, kNoLimit, tell(true), tell(false), ros::VoidConstPtr(), latched);
