@@ -122,9 +122,12 @@ void put_motion(const MotionPatternTracker& motion, KnotState& message) {
   message.locked = static_cast<std::uint8_t>(motion.lock_extension().has_value());
 }
 
-KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius) {
+KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius, const Crosshead& command) {
   KnotShape m;
+  m.header.stamp = command.header.stamp;
   m.header.frame_id = names::kBaseFrame;
+  m.run = command.run;
+  m.sequence = command.sequence;
   m.radius = radius;
   m.points.resize(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {

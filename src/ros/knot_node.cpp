@@ -1,9 +1,6 @@
 #include "knot_utm/ros/knot_node.hpp"
 
-#include <knot_utm/SpecimenInfo.h>
-
 #include <algorithm>
-#include <boost/make_shared.hpp>
 
 #include "knot_utm/grips/grips.hpp"
 #include "knot_utm/program/phases.hpp"
@@ -21,7 +18,7 @@ namespace {
 
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kManyRejected = 0.5;       // of the time steps that were tried
-constexpr std::uint32_t kCommandQueue = 2 * KnotNode::kKeptAnswers;
+constexpr std::uint32_t kReadings = 1000;
 
 TestingMachine make_bench(const Method& method) {
   return TestingMachine(method.specimen, method.material, method.machine, method.physics);
@@ -34,17 +31,28 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
       method_(method),
       machine_(make_bench(method)),
       motion_(rollers_hold(method.specimen, method.machine)),
-      show_(
-          node, [this] { return moment(); }, [this] { return machine_.contact_forces(); }),
+      show_(node, [this] { return view(); }),
       diagnostics_(node_) {
-  state_ = node_.advertise<KnotState>(names::kKnotState, kCommandQueue);
-  record_ = node_.advertise<KnotRecord>(names::kKnotRecord, kCommandQueue);
-  load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kCommandQueue);
+  specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, kNoLimit, true);
+  const auto tell_in = [this](std::uint8_t SpecimenInfo::*connected) {
+    return [=](bool is_there) {
+      info_.*connected = static_cast<std::uint8_t>(is_there);
+      specimen_.publish(info_);
+    };
+  };
+  state_ =
+      advertise_watched<KnotState>(node_, names::kKnotState, names::kUtmNode, tell_in(&SpecimenInfo::answers_arrive));
+  record_ = advertise_watched<KnotRecord>(node_, names::kKnotRecord, names::kRecorderNode,
+                                          tell_in(&SpecimenInfo::records_arrive));
+  load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kReadings);
   shape_ = node_.advertise<KnotShape>(names::kKnotShape, 10);
-  specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, 1, true);
-  commands_ = subscribe_gated(node_, names::kCrosshead, names::kUtmNode, kCommandQueue, &KnotNode::on_command, this);
-  status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, 10, &KnotNode::on_status, this);
-  reset_ = node_.advertiseService(names::kReset, &KnotNode::on_reset, this);
+  commands_ = subscribe_gated(node_, names::kCrosshead, names::kUtmNode, &KnotNode::on_command, this);
+  status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, &KnotNode::on_status, this);
+  reset_ = offer(node_, names::kReset, [this](std::string& said) {
+    put_in(method_);
+    said = "a new specimen";
+    return true;
+  });
 
   diagnostics_.setHardwareID(method_.material.name);
   diagnostics_.add("physics", this, &KnotNode::diagnose);
@@ -63,7 +71,6 @@ void KnotNode::put_in(const Method& method) {
 void KnotNode::begin_specimen() {
   run_ = 0;
   next_ = 0;
-  kept_.clear();
   sample_ = Sample();
   motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine),
                                  hung_weight(method_.specimen, method_.material),
@@ -72,21 +79,19 @@ void KnotNode::begin_specimen() {
   const std::string urdf = machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip());
   ask_master("setParam", {XmlRpc::XmlRpcValue(node_.resolveName(names::kRobotDescription)), XmlRpc::XmlRpcValue(urdf)});
 
-  SpecimenInfo info;
-  info.header.stamp = stamp_;
-  info.header.frame_id = names::kBaseFrame;
-  info.longest_step = machine_.longest_step();
-  info.radius = method_.material.radius;
-  info.length = machine_.rod().length();
-  info.nodes = static_cast<std::uint32_t>(machine_.rod().nodes());
-  info.other_radius = machine_.rod().other_material.value_or(machine_.rod().material).radius;
-  info.first_of_other = static_cast<std::uint32_t>(machine_.rod().first_of_other());
-  specimen_.publish(info);
+  info_.header.stamp = stamp_;
+  info_.header.frame_id = names::kBaseFrame;
+  info_.longest_step = machine_.longest_step();
+  info_.radius = method_.material.radius;
+  info_.length = machine_.rod().length();
+  info_.nodes = static_cast<std::uint32_t>(machine_.rod().nodes());
+  info_.other_radius = machine_.rod().other_material.value_or(machine_.rod().material).radius;
+  info_.first_of_other = static_cast<std::uint32_t>(machine_.rod().first_of_other());
+  specimen_.publish(info_);
 }
 
 void KnotNode::on_command(const Crosshead::ConstPtr& command) {
   const Crosshead& message = *command;
-  if (message.run < run_) return;  // left over from a test that has ended
   if (message.run != run_) {
     if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
     try {
@@ -98,35 +103,29 @@ void KnotNode::on_command(const Crosshead::ConstPtr& command) {
     run_ = message.run;
   }
   if (message.sequence == next_) return answer(message);
-  const std::uint64_t first_kept = next_ - kept_.size();
-  if (message.sequence >= first_kept && message.sequence < next_) {
-    return publish(*kept_[static_cast<std::size_t>(message.sequence - first_kept)]);
-  }
-  refuse(message,
-         "command " + std::to_string(message.sequence) + " came where " + std::to_string(next_) + " was expected");
+  refuse(message, out_of_order(message.sequence, next_));
 }
 
 void KnotNode::answer(const Crosshead& message) {
   const Command command = from_message(message);
+  last_ = message;
   stamp_ = message.header.stamp;
   sample_ = machine_.respond(command);
   motion_.add(sample_);
   ++next_;
   show_.state_changed();
 
-  auto record = boost::make_shared<KnotRecord>();
-  record->command = message;
-  record->answer = to_message(sample_, message.run, stamp_);
-  put_motion(motion_, record->answer);
+  KnotRecord record;
+  record.command = message;
+  record.answer = to_message(sample_, message.run, stamp_);
+  put_motion(motion_, record.answer);
   const double start = stamp_.toSec() - command.time;
-  record->steps.reserve(machine_.substeps().size());
+  record.steps.reserve(machine_.substeps().size());
   for (const Sample& step : machine_.substeps()) {
-    record->steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
+    record.steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
   }
-  if (shape_is_due(command, sample_) || sample_.status == BenchStatus::kFailed) put_shape(*record);
-  kept_.push_back(record);
-  if (kept_.size() > kKeptAnswers) kept_.pop_front();
-  publish(*record);
+  if (shape_is_due(command, sample_) || sample_.status == BenchStatus::kFailed) put_shape(record);
+  publish(record);
 }
 
 void KnotNode::refuse(const Crosshead& message, const std::string& why) {
@@ -142,10 +141,7 @@ void KnotNode::refuse(const Crosshead& message, const std::string& why) {
 }
 
 void KnotNode::put_shape(KnotRecord& record) const {
-  record.shape = to_message(machine_.state().position, machine_.tension(), method_.material.radius);
-  record.shape.header.stamp = record.command.header.stamp;
-  record.shape.run = record.command.run;
-  record.shape.sequence = record.command.sequence;
+  record.shape = to_message(machine_.state().position, machine_.tension(), method_.material.radius, record.command);
 }
 
 void KnotNode::publish(const KnotRecord& record) {
@@ -160,24 +156,23 @@ void KnotNode::publish(const KnotRecord& record) {
 
 void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
   const TestStatus& status = *ended;
-  // The recorder wants the shape at the very end, which nobody could foresee. The status is repeated until it has it.
-  if (status.state != TestStatus::ENDED || status.run != run_ || kept_.empty()) return;
-  KnotRecord& last = *kept_.back();
-  if (last.command.sequence != status.sequence) return;
+  // The recorder wants the shape at the very end, which nobody could foresee.
+  if (status.state != TestStatus::ENDED || status.run != run_ || next_ != status.sequence + 1) return;
   show_.show_latest();
-  if (last.shape.points.empty()) put_shape(last);
-  if (record_.getNumSubscribers() > 0) record_.publish(last);
+  KnotRecord end;
+  end.command = last_;
+  put_shape(end);
+  record_.publish(end);
 }
 
-bool KnotNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  put_in(method_);
-  response.success = 1;
-  response.message = "a new specimen";
-  return true;
-}
-
-Moment KnotNode::moment() const {
-  return {stamp_, machine_.state().position, machine_.tension(), machine_.upper_grip(), sample_};
+SceneView KnotNode::view() const {
+  return {machine_.state().position,
+          machine_.tension(),
+          machine_.contact_forces(),
+          machine_.lower_grip(),
+          machine_.upper_grip(),
+          sample_,
+          stamp_};
 }
 
 void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

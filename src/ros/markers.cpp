@@ -316,15 +316,15 @@ visualization_msgs::MarkerArray stamped(std::vector<Marker> markers, const ros::
 
 }  // namespace
 
-visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view, const ros::Time& stamp) const {
+visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view) const {
   std::vector<Marker> markers{rod_marker(view), gauge_marker(view.points, gauge_, radii_),
                               contact_marker(show_contacts_ ? view.contacts : std::vector<ContactForce>(), radii_.first,
                                              tension_, kLongestForce * radii_.first)};
   add_bodies(view, markers);
-  return stamped(std::move(markers), stamp);
+  return stamped(std::move(markers), view.stamp);
 }
 
-visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view, const ros::Time& stamp) const {
+visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view) const {
   const Eigen::Index parted = parted_edge(view);
   Colors shown = colors(view, parted);
   for (const Eigen::Index node : gauge_)
@@ -338,7 +338,7 @@ visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view, 
     markers.back().id = 1;
   }
   add_bodies(view, markers);
-  return stamped(std::move(markers), stamp);
+  return stamped(std::move(markers), view.stamp);
 }
 
 }  // namespace knot_utm

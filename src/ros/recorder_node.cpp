@@ -2,7 +2,6 @@
 
 #include <ros/callback_queue.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -10,7 +9,6 @@
 #include "knot_utm/ros/ask_master.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
-#include "knot_utm/ros/knot_node.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/run_bag.hpp"
 #include "knot_utm/run/run_folder.hpp"
@@ -22,14 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kAnswerQueue = 4 * KnotNode::kKeptAnswers;
-constexpr double kLastRecords = 1.0;             // wall time for what is under way once the machine died [s]
-constexpr double kPatience = 2.0;                // wall time to wait for a record that is missing [s]
-constexpr double kPatienceAtEnd = 10.0;          // the same for the final shape [s]
-constexpr double kAcknowledgePeriod = 0.005;     // wall time between acknowledgements [s]
-constexpr double kDiagnosticsPeriod = 1.0;       // wall time [s]
-constexpr double kLongestPause = 0.1;            // between two looks that counts as waiting [s]
-constexpr std::uint64_t kAcknowledgeAfter = 16;  // records, where they come faster
+constexpr double kLastRecords = 1.0;   // wall time for what is under way once a node died [s]
+constexpr double kLookPeriod = 0.1;    // longest wall time between two looks at what is due [s]
+constexpr double kStatusPeriod = 1.0;  // wall time between two messages of the recorder's status [s]
 
 EndedBy ended_by_from_name(const std::string& name) { return ended_by_named(name).value_or(EndedBy::kNotYet); }
 
@@ -39,12 +32,14 @@ RecorderNode::Run::Run(ClaimedFolder claimed_, const Method& method_)
     : claimed(std::move(claimed_)), folder(claimed.path()), method(method_) {}
 
 RecorderNode::RecorderNode(const ros::NodeHandle& node) : node_(node), diagnostics_(node) {
-  const ros::SubscriberStatusCallback come = [this](const ros::SingleSubscriberPublisher& s) { on_come(s); };
-  const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
-  status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, come, gone, ros::VoidConstPtr(), true);
-  save_ = node_.advertiseService(names::kSave, &RecorderNode::on_save, this);
-  records_ = subscribe_gated(node_, names::kKnotRecord, names::kKnotNode, kAnswerQueue, &RecorderNode::on_record, this);
-  test_status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, 10, &RecorderNode::on_status, this);
+  const auto machine_is_there = [this](bool is_there) {
+    if (!is_there) died_at_ = Clock::now();
+    machine_died_ = !is_there;
+  };
+  status_ = advertise_watched<RecorderStatus>(node_, names::kRecorderStatus, names::kUtmNode, machine_is_there, true);
+  save_ = offer(node_, names::kSave, [this](std::string& said) { return save(said); });
+  records_ = subscribe_gated(node_, names::kKnotRecord, names::kKnotNode, &RecorderNode::on_record, this);
+  test_status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, &RecorderNode::on_status, this);
   diagnostics_.setHardwareID("none");
   diagnostics_.add("files", this, &RecorderNode::diagnose);
   publish_status();
@@ -52,45 +47,21 @@ RecorderNode::RecorderNode(const ros::NodeHandle& node) : node_(node), diagnosti
 
 int RecorderNode::spin() {
   while (ros::ok()) {
-    wait_for_messages();
-    if (run_ && !run_->complete && error_.empty()) {
-      give_up_gap();
-      finish_when_ready();
-      if (machine_died_ && waited_ - *machine_died_ > kLastRecords && !run_->complete) finish_early();
-    }
-    const std::uint64_t next = run_ ? run_->next : 0;
-    const bool news = next != published_.next_sequence || run_number_ != published_.run ||
-                      is_complete() != (published_.complete != 0) || error_ != published_.error;
-    if (news && (seconds_since(published_at_) > kAcknowledgePeriod)) publish_status();
-    if (seconds_since(diagnosed_) > kDiagnosticsPeriod) {
-      diagnosed_ = Clock::now();
-      diagnostics_.force_update();
-    }
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kLookPeriod));
+    if (run_ && !run_->complete && error_.empty()) finish_when_ready();
+    const bool news =
+        run_number_ != published_.run || is_complete() != (published_.complete != 0) || error_ != published_.error;
+    const bool due = seconds_since(published_at_) > kStatusPeriod;
+    if (news || due) publish_status();
+    if (due) diagnostics_.force_update();
   }
   if (run_ && !run_->complete && error_.empty()) finish_early();
   return error_.empty() ? 0 : 1;
 }
 
-void RecorderNode::wait_for_messages() {
-  const Clock::time_point begin = Clock::now();
-  ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kAcknowledgePeriod));
-  // A process that is stopped, or swapped out, does not wait: what came meanwhile it has not seen yet.
-  waited_ += std::min(seconds_since(begin), kLongestPause);
-}
-
-void RecorderNode::on_come(const ros::SingleSubscriberPublisher& subscriber) {
-  if (subscriber.getSubscriberName() != node_.resolveName(names::kUtmNode)) return;
-  ++machines_;
-  machine_died_.reset();  // the connection was lost, and not the machine
-}
-
-void RecorderNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
-  if (subscriber.getSubscriberName() == node_.resolveName(names::kUtmNode) && --machines_ == 0) machine_died_ = waited_;
-}
-
 void RecorderNode::begin_run(const Crosshead& first) {
   if (run_ && !run_->complete) {
-    finish(EndedBy::kOperator, "another test was started", "");
+    finish(EndedBy::kOperator, "another test was started");
   }
   run_.reset();
   run_number_ = first.run;
@@ -108,23 +79,17 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
   if (!error_.empty()) return;
   try {
     const Crosshead& command = record->command;
-    if (command.run < run_number_) return;
-    if (command.run > run_number_) begin_run(command);
-    if (!run_ || run_->complete) return;
+    if (command.run != run_number_ && command.sequence == 0) begin_run(command);
+    if (!run_ || run_->complete || command.run != run_number_) return;
     Run& run = *run_;
-    if (!record->shape.points.empty() && command.sequence >= run.shape_sequence) {
-      run.shape = points_from_message(record->shape);
-      run.shape_sequence = command.sequence;
-    }
-    if (command.sequence == run.next) {
-      write(*record);
-      write_early();
-    } else if (command.sequence > run.next) {
-      // Only what is new is progress: as long as something is missing, all behind it is asked for again and again.
-      if (run.early.emplace(command.sequence, record).second) run.progress = waited_;
-      if (run.early.size() > KnotNode::kKeptAnswers) give_up_gap();
-    }
-    if (run.next >= published_.next_sequence + kAcknowledgeAfter) publish_status();
+    const bool is_shape = !record->shape.points.empty();
+    // The last one comes again with the shape at the end of the test.
+    const bool again = is_shape && command.sequence + 1 == run.recorded;
+    if (!again && command.sequence != run.recorded)
+      throw std::runtime_error(out_of_order(command.sequence, run.recorded));
+    if (is_shape) run.shape = points_from_message(record->shape);
+    run.is_shaped = is_shape;
+    if (!again) write(*record);
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -139,79 +104,33 @@ void RecorderNode::write(const KnotRecord& record) {
   if (cell_reading(kept)) ++run_->rows;
   run_->failed = kept.answer.status == BenchStatus::kFailed;
   ++run_->recorded;
-  run_->next = record.command.sequence + 1;
-  run_->progress = waited_;
-}
-
-void RecorderNode::write_early() {
-  auto& early = run_->early;
-  while (!early.empty() && early.begin()->first <= run_->next) {
-    if (early.begin()->first == run_->next) write(*early.begin()->second);
-    early.erase(early.begin());
-  }
-}
-
-void RecorderNode::give_up_gap() {
-  Run& run = *run_;
-  if (run.early.empty()) return;
-  if (waited_ - run.progress < kPatience && run.early.size() <= KnotNode::kKeptAnswers) return;
-  run.dropped += run.early.begin()->first - run.next;
-  ROS_WARN("%llu commands of the test never arrived",
-           static_cast<unsigned long long>(run.early.begin()->first - run.next));
-  run.next = run.early.begin()->first;
-  try {
-    write_early();
-  } catch (const std::exception& error) {
-    fail(error.what());
-  }
 }
 
 void RecorderNode::on_status(const TestStatus::ConstPtr& status) {
-  // A machine that was paused has its end long after its last record.
-  if (run_ && status->state == TestStatus::ENDED && test_.state != TestStatus::ENDED) run_->progress = waited_;
   test_ = *status;
+  if (test_.reason == kPhysicsDied) died_at_ = Clock::now();
 }
 
 void RecorderNode::finish_when_ready() {
-  if (test_.state != TestStatus::ENDED || test_.run != run_number_) return;
-  const bool all = run_->next > test_.sequence;
-  const bool shape = run_->shape.cols() > 0 && run_->shape_sequence == test_.sequence;
-  // A physics that has failed may not have the specimen any more, and one that has died answers nothing.
-  if (all && (shape || run_->failed || test_.reason == kPhysicsDied)) {
-    finish_as_told("");
-  } else if (waited_ - run_->progress > kPatienceAtEnd) {
-    if (!all) miss_the_end();
-    finish_as_told("the physics did not answer at the end of the test");
+  const bool nothing_comes = seconds_since(died_at_) > kLastRecords;
+  if (!test_has_ended()) {
+    if (machine_died_ && nothing_comes) finish_early();
+    return;
   }
-}
-
-void RecorderNode::miss_the_end() {
-  run_->missing_at_end = test_.sequence + 1 - run_->next;
-  run_->dropped += run_->missing_at_end;
-}
-
-void RecorderNode::finish_as_told(const std::string& warning) {
-  finish(ended_by_from_name(test_.ended_by), test_.reason, warning);
+  // A physics that has failed may not have the specimen any more, and one that has died answers nothing.
+  const bool physics_died = test_.reason == kPhysicsDied;
+  const bool all = run_->recorded > test_.sequence && (run_->is_shaped || run_->failed || physics_died);
+  if (all || ((machine_died_ || physics_died) && nothing_comes))
+    finish(ended_by_from_name(test_.ended_by), test_.reason);
 }
 
 void RecorderNode::finish_early() {
-  if (test_.state == TestStatus::ENDED && test_.run == run_number_) {
-    if (run_->next <= test_.sequence) miss_the_end();
-    return finish_as_told("");
-  }
+  if (test_has_ended()) return finish(ended_by_from_name(test_.ended_by), test_.reason);
   // Of a master that died its launch ends the nodes in any order: that of the machine may be gone before this one.
   const char* who = !ask_master("getPid") ? "the ROS master died"
                     : machine_died_       ? "utm_node died"
                                           : "ROS was shut down";
-  finish(EndedBy::kInterrupted, std::string(who) + " before the test had ended", "");
-}
-
-void RecorderNode::write_results(const TestEnd& end, const std::string& warning) {
-  run_->samples->end(end, run_->shape);
-  ResultsOptions options;
-  if (!warning.empty()) options.warnings.push_back(warning);
-  options.missing_at_end = run_->missing_at_end;
-  make_files("test.bag", options);
+  finish(EndedBy::kInterrupted, std::string(who) + " before the test had ended");
 }
 
 void RecorderNode::make_files(const std::string& bag_name, ResultsOptions options) {
@@ -227,15 +146,14 @@ void RecorderNode::make_files(const std::string& bag_name, ResultsOptions option
   run.bag_messages = bag->messages();
 }
 
-void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std::string& warning) {
+void RecorderNode::finish(EndedBy ended_by, const std::string& reason) {
   Run& run = *run_;
   try {
-    write_results({ended_by, reason}, warning);
+    run.samples->end({ended_by, reason}, run.shape);
+    make_files("test.bag", {});
   } catch (const std::exception& error) {
     return fail(error.what());
   }
-  if (run.dropped > 0)
-    ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
   ROS_INFO("%zu readings were written to %s", run.rows, run.folder.c_str());
   point_latest_to(run.folder);
   run.complete = true;
@@ -247,11 +165,10 @@ void RecorderNode::fail(const std::string& why) {
   ROS_ERROR("%s", error_.c_str());
 }
 
-bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  response.success = 0;
+bool RecorderNode::save(std::string& said) {
   if (!run_) {
-    response.message = "there is nothing to save yet";
-    return true;
+    said = "there is nothing to save yet";
+    return false;
   }
   if (!run_->complete && error_.empty()) {
     try {
@@ -262,9 +179,8 @@ bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Tr
       fail(error.what());
     }
   }
-  response.success = static_cast<std::uint8_t>(error_.empty());
-  response.message = error_.empty() ? "saved to " + run_->folder : error_;
-  return true;
+  said = error_.empty() ? "saved to " + run_->folder : error_;
+  return error_.empty();
 }
 
 void RecorderNode::publish_status() {
@@ -275,8 +191,6 @@ void RecorderNode::publish_status() {
   if (run_) {
     status.header.stamp = run_->stamp;
     status.recorded = run_->recorded;
-    status.dropped = run_->dropped;
-    status.next_sequence = run_->next;
     status.curve_rows = run_->rows;
     status.full_rows = run_->full_rows;
     status.bag_messages = run_->bag_messages;
@@ -291,8 +205,6 @@ void RecorderNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   using diagnostic_msgs::DiagnosticStatus;
   if (!error_.empty()) {
     status.summary(DiagnosticStatus::ERROR, error_);
-  } else if (run_ && run_->dropped > 0) {
-    status.summary(DiagnosticStatus::WARN, std::to_string(run_->dropped) + " commands of the test never arrived");
   } else if (is_complete()) {
     status.summary(DiagnosticStatus::OK, "complete");
   } else {
@@ -301,7 +213,6 @@ void RecorderNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   if (!run_) return;
   status.add("folder", run_->folder);
   status.add("commands recorded", run_->recorded);
-  status.add("commands dropped", run_->dropped);
   status.add("rows", run_->rows);
   status.add("rows of time steps", run_->full_rows);
   status.add("messages in the bag", run_->bag_messages);

@@ -36,18 +36,15 @@ void RunBag::add(const Record& record) {
   const Sample& sample = record.answer;
   const ros::Time stamp = test_stamp(0.0, command.time);
   if (const Sample* reading = cell_reading(record)) add_reading(*reading, stamp);
-  bag_.write(names::kCrosshead, stamp, to_message(command, kRun, stamp));
+  const Crosshead crosshead = to_message(command, kRun, stamp);
+  bag_.write(names::kCrosshead, stamp, crosshead);
   bag_.write(names::kJointStates, stamp, to_joint_state(command, sample, stamp));
   motion_.add(sample);
   KnotState state = to_message(sample, kRun, stamp);
   put_motion(motion_, state);
   bag_.write(names::kKnotState, stamp, state);
   if (shape_is_due(command, sample) && record.shape.cols() > 0) {
-    KnotShape message = to_message(record.shape, record.tension, radius_);
-    message.header.stamp = stamp;
-    message.run = kRun;
-    message.sequence = command.sequence;
-    bag_.write(names::kKnotShape, stamp, message);
+    bag_.write(names::kKnotShape, stamp, to_message(record.shape, record.tension, radius_, crosshead));
     if (!begun_) begin(stamp, record.shape);
     add_status(record, stamp);
     add_picture(record, stamp);
@@ -93,9 +90,8 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   for (const Transforms& some : {frames_.fixed(stamp), frames_.moving(stamp, sample.displacement, upper_grip)})
     frames.transforms.insert(frames.transforms.end(), some.begin(), some.end());
   bag_.write(kTf, stamp, frames);
-  const std::vector<ContactForce> none_recorded;
-  const SceneView view{record.shape, record.tension, none_recorded, grips_.lower(), upper_grip, sample};
-  bag_.write(names::kMarkers, stamp, picture_.draw_small(view, stamp));
+  const SceneView view{record.shape, record.tension, {}, grips_.lower(), upper_grip, sample, stamp};
+  bag_.write(names::kMarkers, stamp, picture_.draw_small(view));
 }
 
 }  // namespace knot_utm

@@ -28,9 +28,8 @@ std::optional<InvalidInput> fault_of(const ViewConfig& wanted) {
 
 }  // namespace
 
-Show::Show(ros::NodeHandle node, std::function<Moment()> latest, std::function<std::vector<ContactForce>()> forces)
+Show::Show(ros::NodeHandle node, std::function<SceneView()> latest)
     : latest_(std::move(latest)),
-      forces_(std::move(forces)),
       markers_(node.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
       colors_(node.advertise<ColorBar>(names::kColors, 1, true)),
       moving_(node.advertise<tf2_msgs::TFMessage>(kFrames, kShownQueue, true)),
@@ -58,7 +57,6 @@ void Show::apply() {
 }
 
 void Show::begin(const Method& method, const Vec3& lower_grip, const Points& points, const std::vector<int>& cuts) {
-  lower_grip_ = lower_grip;
   frames_.emplace(lower_grip, method.specimen.end_to_end);
   fixed_.sendTransform(frames_->fixed(ros::TIME_MIN));
   picture_.emplace(method.specimen, method.machine, method.material);
@@ -70,23 +68,20 @@ void Show::show_latest() {
   const std::uint32_t viewers = markers_.getNumSubscribers();
   const bool somebody_is_new = viewers > viewers_;
   viewers_ = viewers;
-  const Moment moment = latest_();
-  if (moment.points.cols() == 0) return;
-  publish_frames(moment);
+  const SceneView view = latest_();
+  publish_frames(view);
   if (viewers == 0 || !(is_old_ || somebody_is_new)) return;
   is_old_ = false;
-  const std::vector<ContactForce> contacts = forces_();
-  markers_.publish(picture_->draw(
-      {moment.points, moment.tension, contacts, lower_grip_, moment.upper_grip, moment.sample}, moment.stamp));
+  markers_.publish(picture_->draw(view));
 }
 
 /// The moving frames once for each stamp, because tf2 warns of repeated ones.
-void Show::publish_frames(const Moment& moment) {
-  const ros::Time valid = std::max(moment.stamp, ros::TIME_MIN);
+void Show::publish_frames(const SceneView& view) {
+  const ros::Time valid = std::max(view.stamp, ros::TIME_MIN);
   if (valid <= published_) return;
   published_ = valid;
   tf2_msgs::TFMessage message;
-  message.transforms = frames_->moving(valid, moment.sample.displacement, moment.upper_grip);
+  message.transforms = frames_->moving(valid, view.sample.displacement, view.upper_grip);
   moving_.publish(message);
 }
 

@@ -30,7 +30,7 @@ constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
 constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
 constexpr double kGapBetweenTests = 1.0;    // on /clock [s]
-constexpr std::uint32_t kMachineQueue = 1000;
+constexpr std::uint32_t kJointStates = 1000;
 
 steady_clock::duration to_duration(double seconds) {
   return std::chrono::duration_cast<steady_clock::duration>(Seconds(seconds));
@@ -55,22 +55,19 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
           node, without_timer(node), [this](const Actions::GoalHandle& goal) { on_goal(goal); },
           [this](const Actions::GoalHandle& goal) { on_cancel(goal); }, false),
       diagnostics_(node) {
-  const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
-  crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kMachineQueue, ros::SubscriberStatusCallback(), gone);
-  joint_states_ = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kMachineQueue);
-  status_ = node_.advertise<TestStatus>(names::kTestStatus, 10, true);
+  crosshead_ = advertise_watched<Crosshead>(node_, names::kCrosshead, names::kKnotNode, [this](bool is_there) {
+    commands_arrive_ = is_there;
+    if (!is_there && active()) physics_died();
+  });
+  joint_states_ = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kJointStates);
+  status_ = node_.advertise<TestStatus>(names::kTestStatus, kNoLimit, true);
   method_text_ = node_.advertise<std_msgs::String>(names::kMethod, 1, true);
   clock_ = node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10);
-  states_ = subscribe_gated(node_, names::kKnotState, names::kKnotNode, kMachineQueue, &UtmNode::on_state, this);
-  specimens_ = subscribe_gated(node_, names::kSpecimen, names::kKnotNode, 1, &UtmNode::on_specimen, this);
-  if (options_.record) {
-    recorder_ = subscribe_gated(node_, names::kRecorderStatus, names::kRecorderNode, 10, &UtmNode::on_recorder, this);
-  }
-  stop_ = node_.advertiseService(names::kStopTest, &UtmNode::on_stop, this);
-  balance_ = node_.advertiseService(names::kBalance, &UtmNode::on_balance, this);
-  pause_ = node_.advertiseService(names::kPause, &UtmNode::on_pause, this);
-  resume_ = node_.advertiseService(names::kResume, &UtmNode::on_resume, this);
-  step_ = node_.advertiseService(names::kStep, &UtmNode::on_step, this);
+  states_ = subscribe_gated(node_, names::kKnotState, names::kKnotNode, &UtmNode::on_state, this);
+  specimens_ = subscribe_gated(node_, names::kSpecimen, names::kKnotNode, &UtmNode::on_specimen, this);
+  if (options_.record)
+    recorder_ = subscribe_gated(node_, names::kRecorderStatus, names::kRecorderNode, &UtmNode::on_recorder, this);
+  offer_services();
   diagnostics_.add("machine", this, &UtmNode::diagnose);
   pace_.setCallback([this](MachineConfig& wanted, std::uint32_t) { set_pace(wanted); });
   publish_method(launched.method);
@@ -82,14 +79,16 @@ UtmNode::~UtmNode() = default;
 int UtmNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait_time()));
-    if (options_.autostart && run_ == 0 && has_specimen_) {
-      const std::string why_not = start({});
-      if (!why_not.empty()) throw std::runtime_error(why_not);
+    if (run_ == 0 && missing().empty()) {
+      offer_start();
+      if (options_.autostart) {
+        const std::string why_not = start({});
+        if (!why_not.empty()) throw std::runtime_error(why_not);
+      }
     }
     if (may_advance()) advance();
-    if (seconds_since(sent_) > options_.resend_period) resend();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock(true);
-    if (seconds_since(status_published_) > kStatusPeriod && (active() || !all_is_recorded())) publish_status();
+    if (seconds_since(status_published_) > kStatusPeriod && active()) publish_status();
     if (seconds_since(diagnosed_) > kDiagnosticsPeriod) {
       diagnosed_ = steady_clock::now();
       diagnostics_.force_update();
@@ -114,12 +113,28 @@ void UtmNode::end_launch_of_test() {
 
 bool UtmNode::failed() const { return recorder_failed_ || physics_died_ || (program_ && program_->failed()); }
 
+std::string UtmNode::missing() const {
+  if (specimen_.nodes == 0) return "there is no specimen yet";
+  // Who publishes alone knows for certain that what it says arrives; knot_node tells of its own topics.
+  if (!commands_arrive_ || specimen_.answers_arrive == 0) return "knot_node is not connected yet";
+  if (!options_.record) return "";
+  if (recorder_failed_) return "the recorder failed";
+  return specimen_.records_arrive == 0 ? "the recorder is not connected yet" : "";
+}
+
+void UtmNode::offer_start() {
+  if (start_) return;
+  // Not before: who waits for the service or the action, as ROS has it, may begin a test at once.
+  start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
+  actions_.start();
+}
+
 std::string UtmNode::start(const StartTest::Request& request) {
   // What is told in the same breath as this request: the last goal gets the result of its own test.
   if (state_ == State::kEnded && all_is_recorded()) finish_goal();
   if (leaves_) return "the launch is about to end";
   if (active()) return "a test is running";
-  if (!has_specimen_) return "there is no specimen yet";
+  if (std::string what = missing(); !what.empty()) return what;
   if (run_ > 0 && !all_is_recorded()) return "the last test is still being recorded";
   try {
     const MethodSetup setup = set_up(asked_for(launched_, request));
@@ -145,10 +160,7 @@ void UtmNode::begin() {
   publish_method(method_);
   if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
   ++run_;
-  recorded_ = 0;
-  unrecorded_.clear();
   recorder_complete_ = false;
-  recorder_failed_ = false;
   physics_died_ = false;
   single_steps_ = 0;
   sample_ = Sample();
@@ -171,15 +183,10 @@ double UtmNode::wait_time() const {
 }
 
 void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
-  has_specimen_ = specimen->nodes > 0;
-  if (!has_specimen_ || start_) return;
-  // Not before: who waits for the service or the action, as ROS has it, may begin a test at once.
-  start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
-  actions_.start();
-}
-
-void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
-  if (active() && subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) physics_died();
+  specimen_ = *specimen;
+  if (active() && specimen_.answers_arrive == 0) physics_died();
+  if (run_ > 0 && !all_is_recorded() && specimen_.records_arrive == 0)
+    recorder_failed("its connection to knot_node broke");
 }
 
 void UtmNode::physics_died() {
@@ -196,7 +203,7 @@ void UtmNode::physics_died() {
 
 void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   const KnotState& state = *answer;
-  if (!waiting_ || state.run != run_ || state.sequence != command_.sequence) return;  // an answer given twice
+  if (!waiting_ || state.run != run_ || state.sequence != command_.sequence) return;  // of a test that has ended
   sample_ = from_message(state);
   motion_pattern_ = state.motion_pattern;
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
@@ -210,23 +217,17 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
 void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
   const RecorderStatus& status = *recorded;
   if (status.run != run_) return;
-  if (status.next_sequence > recorded_) sent_ = steady_clock::now();
-  recorded_ = std::max(recorded_, status.next_sequence);
-  while (!unrecorded_.empty() && unrecorded_.front().sequence < recorded_) unrecorded_.pop_front();
   recorder_complete_ = status.complete != 0;
   folder_ = status.directory;
-  if (!status.error.empty()) {
-    recorder_failed_ = true;
-    if (active()) {
-      ROS_ERROR("the recorder failed: %s", status.error.c_str());
-      program_->stop();
-    }
-  }
+  if (!status.error.empty()) recorder_failed(status.error);
 }
 
-bool UtmNode::recorder_keeps_up() const {
-  // Until the recorder has the first command it may not be connected; ROS would drop what is sent meanwhile.
-  return !options_.record || recorder_failed_ || (recorded_ > 0 && command_.sequence < recorded_ + kWindow);
+void UtmNode::recorder_failed(const std::string& why) {
+  if (recorder_failed_) return;
+  recorder_failed_ = true;
+  if (!active()) return;
+  ROS_ERROR("the recorder failed: %s", why.c_str());
+  program_->stop();
 }
 
 bool UtmNode::all_is_recorded() const { return !options_.record || recorder_complete_ || recorder_failed_; }
@@ -234,7 +235,6 @@ bool UtmNode::all_is_recorded() const { return !options_.record || recorder_comp
 bool UtmNode::may_advance() const {
   if (!active() || waiting_) return false;
   if (program_->ended()) return true;
-  if (!recorder_keeps_up()) return false;
   if (state_ == State::kPaused) return single_steps_ > 0;
   return options_.real_time_factor <= 0.0 || steady_clock::now() >= due_;
 }
@@ -253,20 +253,7 @@ void UtmNode::advance() {
 void UtmNode::send(const Command& command) {
   command_ = command;
   waiting_ = true;
-  sent_ = steady_clock::now();
-  const Crosshead message = to_message(command, run_, test_stamp(run_start_, command.time));
-  if (options_.record) unrecorded_.push_back(message);
-  crosshead_.publish(message);
-}
-
-void UtmNode::resend() {
-  sent_ = steady_clock::now();
-  const bool recorder_lags = options_.record && !all_is_recorded() && !unrecorded_.empty();
-  if (recorder_lags) {
-    for (const Crosshead& message : unrecorded_) crosshead_.publish(message);
-  } else if (waiting_) {
-    crosshead_.publish(to_message(command_, run_, test_stamp(run_start_, command_.time)));
-  }
+  crosshead_.publish(to_message(command, run_, test_stamp(run_start_, command.time)));
 }
 
 void UtmNode::end() {

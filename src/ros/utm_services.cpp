@@ -1,4 +1,6 @@
 // What the operator asks of the machine.
+#include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/words/number.hpp"
 
@@ -7,17 +9,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-bool refuse(std_srvs::Trigger::Response& response, const std::string& why) {
-  response.success = 0;
-  response.message = why;
-  return true;
-}
-
-bool accept(std_srvs::Trigger::Response& response, const std::string& what) {
-  response.success = 1;
-  response.message = what;
-  return true;
-}
+constexpr char kNoTest[] = "no test is running", kNotPaused[] = "the test is not paused";
 
 }  // namespace
 
@@ -45,29 +37,27 @@ void UtmNode::on_cancel(const Actions::GoalHandle& goal) {
   if (active() && goal_ && *goal_ == goal) program_->stop();
 }
 
-bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (!active()) return refuse(response, "no test is running");
-  program_->stop();
-  return accept(response, "the test ends");
-}
-
-bool UtmNode::on_balance(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (!active()) return refuse(response, "no test is running");
-  program_->balance();
-  return accept(response, "the load cell is balanced with the next command");
-}
-
-bool UtmNode::on_pause(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (!active()) return refuse(response, "no test is running");
-  const bool goes_on = state_ == State::kPaused;
-  pause(!goes_on);
-  return accept(response, goes_on ? "the test goes on" : "the test is paused");
-}
-
-bool UtmNode::on_resume(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (state_ != State::kPaused) return refuse(response, "the test is not paused");
-  pause(false);
-  return accept(response, "the test goes on");
+void UtmNode::offer_services() {
+  const auto serve = [this](const char* name, bool (UtmNode::*may)() const, const char* why_not, const char* done,
+                            const std::function<void()>& act) {
+    services_.push_back(offer(node_, name, [=](std::string& said) {
+      const bool allowed = (this->*may)();
+      said = allowed ? done : why_not;
+      if (allowed) act();
+      return allowed;
+    }));
+  };
+  serve(names::kStopTest, &UtmNode::active, kNoTest, "the test ends", [this] { program_->stop(); });
+  serve(names::kBalance, &UtmNode::active, kNoTest, "the load cell is balanced with the next command",
+        [this] { program_->balance(); });
+  serve(names::kResume, &UtmNode::paused, kNotPaused, "the test goes on", [this] { pause(false); });
+  serve(names::kStep, &UtmNode::paused, kNotPaused, "the test went on by one command", [this] { ++single_steps_; });
+  services_.push_back(offer(node_, names::kPause, [this](std::string& said) {
+    const bool goes_on = paused();
+    said = !active() ? kNoTest : goes_on ? "the test goes on" : "the test is paused";
+    if (active()) pause(!goes_on);
+    return active();
+  }));
 }
 
 void UtmNode::pause(bool paused) {
@@ -85,12 +75,6 @@ void UtmNode::set_pace(MachineConfig& wanted) {
   }
   options_.real_time_factor = wanted.real_time_factor;
   due_ = steady_clock::now();
-}
-
-bool UtmNode::on_step(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (state_ != State::kPaused) return refuse(response, "the test is not paused");
-  ++single_steps_;
-  return accept(response, "the test went on by one command");
 }
 
 }  // namespace knot_utm

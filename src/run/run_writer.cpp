@@ -165,8 +165,6 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
 void RunWriter::add(const Record& record) {
   add_to_files(record);
   if (further_.add) further_.add(record);
-  ++records_;
-  sent_ = record.command.sequence + 1;
   wall_time_ = record.wall_time;
 }
 
@@ -223,8 +221,6 @@ MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, con
   if (!options.ran_here) made.facts.peak_memory = 0;
   std::vector<std::string>& warnings = made.facts.warnings;
   warnings.insert(warnings.end(), options.warnings.begin(), options.warnings.end());
-  if (const std::uint64_t missing = sent_ - records_ + options.missing_at_end; missing > 0)
-    warnings.push_back(std::to_string(missing) + " commands of the test were not recorded");
   made.rows = curve_.rows();
   made.full_rows = full_curve_.rows();
   write_ends(made.results, made.facts, final_shape);

@@ -4,11 +4,9 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <std_msgs/String.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 
 #include "knot_utm/ros/bag_writer.hpp"
@@ -155,19 +153,6 @@ TEST_F(CurveBag, OfSeveralTestsOneIsChosen) {
   EXPECT_EQ(second[2].extension, 0.004);
   EXPECT_EQ(read_curve_bag(file("two.bag"), 1)[2].load, 12.0);
   EXPECT_THROW(read_curve_bag(file("two.bag"), 3), InvalidInput);
-}
-
-/// A file that may not grow stands for a disk that is full.
-TEST_F(CurveBag, WithoutRoomItIsSaidAndNothingDies) {
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  rlimit tight = before;
-  tight.rlim_cur = 20000;
-  setrlimit(RLIMIT_FSIZE, &tight);
-  EXPECT_THROW(write_curve_bag(file("a.bag"), std::vector<CurveRow>(1000)), CannotWrite);
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
 }
 
 /// Of which two were written with one shell pattern: the second one is the bag.

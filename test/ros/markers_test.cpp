@@ -96,8 +96,8 @@ class ScenePictureTest : public testing::Test {
  protected:
   visualization_msgs::MarkerArray draw(const Points& points, double tension = 1.0) {
     const Eigen::VectorXd tensions = Eigen::VectorXd::Constant(points.cols() - 1, tension);
-    const SceneView view{points, tensions, contacts, Vec3::Zero(), Vec3::UnitZ(), sample};
-    return picture.draw(view, ros::Time(1.0));
+    const SceneView view{points, tensions, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, ros::Time(1.0)};
+    return picture.draw(view);
   }
   static visualization_msgs::Marker part(const visualization_msgs::MarkerArray& all, const std::string& name) {
     for (const auto& marker : all.markers)
@@ -147,8 +147,8 @@ TEST_F(ScenePictureTest, ARodThatPartedHasNoColourOfAForce) {
   straight.row(2) = Eigen::RowVectorXd::LinSpaced(50, 0.0, 0.5);
   picture.begin(straight);
   const Eigen::VectorXd tension = Eigen::VectorXd::Constant(49, 4.0);
-  const SceneView view{straight, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample};
-  const auto small = part(picture.draw_small(view, ros::Time(1.0)), "rod");
+  const SceneView view{straight, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, ros::Time(1.0)};
+  const auto small = part(picture.draw_small(view), "rod");
   for (double force = -500.0; force <= 500.0; force += 0.5)
     ASSERT_NE(picture.scale().color(force), small.colors.front()) << force;
   picture.color_by(ColorBy::kCurvature);
@@ -209,9 +209,9 @@ TEST_F(ScenePictureTest, RopesOfAnotherMaterialHaveTheirOwnRadius) {
   EXPECT_NEAR(widest[0], 0.002, 1e-12);
   EXPECT_NEAR(widest[1], 0.001, 1e-12);
   const Eigen::VectorXd tension = Eigen::VectorXd::Constant(101, 1.0);
-  const SceneView view{both, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample};
+  const SceneView view{both, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, ros::Time(1.0)};
   std::vector<std::pair<double, double>> rows;  // diameter, and x of the first sphere
-  for (const auto& marker : picture.draw_small(view, ros::Time(1.0)).markers)
+  for (const auto& marker : picture.draw_small(view).markers)
     if (marker.ns == "rod") rows.emplace_back(marker.scale.x, marker.points.front().x);
   EXPECT_EQ(rows, (std::vector<std::pair<double, double>>{{0.004, 0.0}, {0.002, 0.5}}));
 }

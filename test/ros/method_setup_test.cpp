@@ -6,9 +6,6 @@
 
 #include <filesystem>
 #include <map>
-#include <regex>
-
-#include "knot_utm/ros/urdf.hpp"
 
 namespace knot_utm {
 namespace {
@@ -91,19 +88,6 @@ TEST(Order, HasTheWholeMethod) {
     const Method method = load_method(file), read = method_of(order_of(method, "/out"));
     EXPECT_EQ(read.name, method.name);
     EXPECT_EQ(method_yaml(read), method_yaml(method)) << file;
-  }
-}
-
-TEST(MachineDescription, HasEveryFrameAndNoNumberThatIsNone) {
-  const auto count = [](const std::string& text, const char* what) {
-    const std::regex wanted(what);
-    return std::distance(std::sregex_iterator(text.begin(), text.end(), wanted), std::sregex_iterator());
-  };
-  for (const std::string& file : shipped_methods()) {
-    const std::string urdf = machine_urdf(load_method(file), Vec3::Zero(), Vec3(0.0, 0.0, 0.25));
-    EXPECT_EQ(count(urdf, "<link name="), 6) << file;
-    EXPECT_EQ(count(urdf, "<joint name="), 5) << file;
-    EXPECT_FALSE(std::regex_search(urdf, std::regex("nan|inf|(size|radius|length)=\"([^\"]* )?-"))) << urdf;
   }
 }
 

@@ -20,14 +20,13 @@ class BagWriter {
   ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
-  BagWriter(BagWriter&&) = delete;
-  BagWriter& operator=(BagWriter&&) = delete;
 
   /// Writes a message. `topic`: name without a leading slash.
   template <class Message>
-  void write(const std::string& topic, const ros::Time& stamp, const Message& message) {
+  void write(const std::string& topic, const ros::Time& stamp, const Message& message,
+             const boost::shared_ptr<ros::M_string>& header = nullptr) {
     try {
-      bag_->write("/" + topic, stamp, message);
+      bag_->write("/" + topic, stamp, message, header);
     } catch (const rosbag::BagException&) {
       throw CannotWrite(file_);
     }
@@ -42,12 +41,7 @@ class BagWriter {
     (*header)["type"] = ros::message_traits::datatype<Message>();
     (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
     (*header)["message_definition"] = ros::message_traits::definition<Message>();
-    try {
-      bag_->write("/" + topic, stamp, message, header);
-    } catch (const rosbag::BagException&) {
-      throw CannotWrite(file_);
-    }
-    ++messages_;
+    write(topic, stamp, message, header);
   }
 
   void close();  ///< writes the index, without which the file cannot be read

@@ -34,7 +34,8 @@ Sample from_message(const KnotState& message);
 /// Enters the motion pattern so far into a message.
 void put_motion(const MotionPatternTracker& motion, KnotState& message);
 
-KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius);
+/// The rod after a command.
+KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius, const Crosshead& command);
 Points points_from_message(const KnotShape& message);
 Record from_message(const KnotRecord& message);
 

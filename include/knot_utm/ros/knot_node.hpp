@@ -3,12 +3,10 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotRecord.h>
+#include <knot_utm/SpecimenInfo.h>
 #include <knot_utm/TestStatus.h>
 #include <ros/ros.h>
-#include <std_srvs/Trigger.h>
 
-#include <boost/shared_ptr.hpp>
-#include <deque>
 #include <string>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
@@ -18,23 +16,17 @@
 
 namespace knot_utm {
 
-/// The simulation as a node. It answers each command with the state of the same sequence number and stamp. A command
-/// that it has already answered gets the same answer again, so that a lost message never repeats a step. Command 0 of a
-/// new test begins with a new specimen, which is that of the test's order (method_setup.hpp). A command out of
-/// order, as when the specimen was reset during a test, is answered with a failure. Only commands of the machine's node
-/// are accepted.
+/// The simulation as a node. It answers each command with the state of the same sequence number and stamp. Command 0 of
+/// a new test begins with a new specimen, which is that of the test's order (method_setup.hpp). A command out of order,
+/// as when the specimen was reset during a test, is answered with a failure. Only commands of the machine's node are
+/// accepted.
 class KnotNode {
  public:
-  /// Number of answers that are kept, to be sent again on request. The recorder may be behind by this number of
-  /// commands.
-  static constexpr std::size_t kKeptAnswers = 256;
-
   KnotNode(const ros::NodeHandle& node, const Method& method);
 
  private:
   void on_command(const Crosshead::ConstPtr& command);
   void on_status(const TestStatus::ConstPtr& ended);
-  bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   void put_in(const Method& method);  ///< puts in a new specimen; throws InvalidInput, and then the last one stays
@@ -43,18 +35,19 @@ class KnotNode {
   void refuse(const Crosshead& message, const std::string& why);
   void publish(const KnotRecord& record);
   void put_shape(KnotRecord& record) const;
-  Moment moment() const;
+  SceneView view() const;
 
   ros::NodeHandle node_;
   Method method_;  ///< method of the present specimen
   TestingMachine machine_;
-  std::uint32_t run_ = 0;                           ///< number of the present test; 0: there is none
-  std::uint64_t next_ = 0;                          ///< sequence number of the next command
-  std::deque<boost::shared_ptr<KnotRecord>> kept_;  ///< the last answers, in order
-  Sample sample_;                                   ///< the last answer
-  MotionPatternTracker motion_;                     ///< motion pattern of this specimen
-  ros::Time stamp_;                                 ///< stamp of the last answer
-  Sample diagnosed_;                                ///< the answer at the last diagnosis
+  SpecimenInfo info_;
+  std::uint32_t run_ = 0;        ///< number of the present test; 0: there is none
+  std::uint64_t next_ = 0;       ///< sequence number of the next command
+  Crosshead last_;               ///< the last command
+  Sample sample_;                ///< the last answer
+  MotionPatternTracker motion_;  ///< motion pattern of this specimen
+  ros::Time stamp_;              ///< stamp of the last answer
+  Sample diagnosed_;             ///< the answer at the last diagnosis
   Show show_;
 
   ros::Publisher state_, record_, load_cell_, shape_, specimen_;

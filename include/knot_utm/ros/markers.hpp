@@ -66,12 +66,13 @@ visualization_msgs::Marker contact_marker(const std::vector<ContactForce>& force
 
 /// Everything from which a picture of the test is drawn.
 struct SceneView {
-  const Points& points;                       ///< nodes of the rod [m]
-  const Eigen::VectorXd& tension;             ///< of each edge [N]; of a rod that has parted it is not shown
-  const std::vector<ContactForce>& contacts;  ///< contact forces between the strands
-  Vec3 lower_grip;                            ///< [m]
-  Vec3 upper_grip;                            ///< [m]
-  const Sample& sample;
+  Points points;                       ///< nodes of the rod [m]
+  Eigen::VectorXd tension;             ///< of each edge [N]; of a rod that has parted it is not shown
+  std::vector<ContactForce> contacts;  ///< contact forces between the strands
+  Vec3 lower_grip;                     ///< [m]
+  Vec3 upper_grip;                     ///< [m]
+  Sample sample;
+  ros::Time stamp;
 };
 
 /// Draws pictures of a test, and of the tests that follow it.
@@ -88,10 +89,10 @@ class ScenePicture {
   const ColorScale& scale() const { return color_by_ == ColorBy::kTension ? tension_ : curvature_; }
 
   /// The rod with its gauge marks, the forces between its strands, and the bodies that hold and support it.
-  visualization_msgs::MarkerArray draw(const SceneView& view, const ros::Time& stamp) const;
+  visualization_msgs::MarkerArray draw(const SceneView& view) const;
 
   /// A small picture for a bag: the rod as spheres, and the bodies that hold and support it.
-  visualization_msgs::MarkerArray draw_small(const SceneView& view, const ros::Time& stamp) const;
+  visualization_msgs::MarkerArray draw_small(const SceneView& view) const;
 
  private:
   Eigen::Index parted_edge(const SceneView& view) const;  ///< -1: none

@@ -10,21 +10,10 @@
 #include <vector>
 
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/numeric/points.hpp"
-#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
 
 namespace knot_utm {
-
-/// The state of the specimen at one time, as far as a picture shows it.
-struct Moment {
-  ros::Time stamp;
-  Points points;            ///< nodes of the rod [m]
-  Eigen::VectorXd tension;  ///< of each edge [N]
-  Vec3 upper_grip;          ///< [m]
-  Sample sample;
-};
 
 /// What a node shows of a test: the frames on /tf and /tf_static, the pictures for rviz, and the meaning of their
 /// colours. Pictures show the latest state, at most ~marker_rate of them, while somebody subscribes. Whoever subscribes
@@ -35,9 +24,8 @@ struct Moment {
 /// allowed.
 class Show {
  public:
-  /// `latest`: the state to be shown; without points there is none yet. `forces`: between its strands. Throws
-  /// InvalidInput where a parameter has a value that is not allowed.
-  Show(ros::NodeHandle node, std::function<Moment()> latest, std::function<std::vector<ContactForce>()> forces);
+  /// `latest`: the state to be shown. Throws InvalidInput where a parameter has a value that is not allowed.
+  Show(ros::NodeHandle node, std::function<SceneView()> latest);
 
   /// Begins a new specimen, with its nodes at these places and these edges between its ropes, on a machine with its
   /// lower grip at this place.
@@ -49,12 +37,10 @@ class Show {
  private:
   void take(ViewConfig& wanted);
   void apply();  ///< the parameters to the picture
-  void publish_frames(const Moment& moment);
+  void publish_frames(const SceneView& view);
 
-  std::function<Moment()> latest_;
-  std::function<std::vector<ContactForce>()> forces_;
+  std::function<SceneView()> latest_;
   std::optional<ViewConfig> view_;
-  Vec3 lower_grip_ = Vec3::Zero();
   std::optional<MachineFrames> frames_;  ///< empty, as the next one: before the first specimen
   std::optional<ScenePicture> picture_;
   bool is_old_ = true;

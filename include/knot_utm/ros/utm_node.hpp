@@ -12,13 +12,12 @@
 #include <knot_utm/StartTest.h>
 #include <knot_utm/TestStatus.h>
 #include <ros/ros.h>
-#include <std_srvs/Trigger.h>
 
 #include <chrono>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
@@ -32,23 +31,20 @@ class ProgressLine;
 struct UtmOptions {
   double real_time_factor = 1.0;  ///< test time over wall time; 0: as fast as possible
   bool autostart = true;          ///< starts a test as soon as there is a specimen
-  bool record = false;            ///< never gets further ahead of the recorder than kWindow commands
+  bool record = false;            ///< begins no test before a recorder is connected, and ends with it
   bool exit_at_end = false;       ///< the launch ends when the test has ended and everything is recorded
   std::string verdict;            ///< file that `write_verdict` writes; empty: none
-  double resend_period = 0.25;    ///< wall time after which an unanswered command is sent again [s]
 };
 
 /// The machine as a node. It publishes the commands of the test program and receives the answers, one at a time. A
 /// command for time t has the stamp t, and the next one is published when the answer with the same sequence number has
-/// arrived. A command that is not answered (or, with `record`, not recorded) is sent again, so that nodes may join late
-/// and messages may be lost. If the connection to the simulation breaks, the simulation has died, and the test ends as
-/// it does where the simulation gives up. A slow simulation is waited for.
+/// arrived. A test begins once all nodes are connected with each other; from then on no message is lost while the
+/// connections last (their queues have no limit). If the connection to the simulation breaks, the simulation has died,
+/// and the test ends as it does where the simulation gives up; if that of the recorder breaks, the test is stopped. A
+/// slow simulation is waited for.
 class UtmNode {
  public:
   static constexpr double kStatusPeriod = 0.2;  ///< wall time between two status messages [s]
-  /// Number of commands by which the test may be ahead of the recorder. It is half of the number of answers that the
-  /// simulation keeps.
-  static constexpr std::uint64_t kWindow = 128;
 
   /// `launched`: the setup of a test of which nothing else is asked.
   UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options);
@@ -66,20 +62,16 @@ class UtmNode {
   void on_specimen(const SpecimenInfo::ConstPtr& specimen);
   void on_state(const KnotState::ConstPtr& answer);
   void on_recorder(const RecorderStatus::ConstPtr& recorded);
-  void on_gone(const ros::SingleSubscriberPublisher& subscriber);
   bool on_start(StartTest::Request& request, StartTest::Response& response);
-  bool on_stop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool on_balance(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool on_pause(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool on_resume(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool on_step(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void offer_services();
   void on_goal(Actions::GoalHandle goal);
   void on_cancel(const Actions::GoalHandle& goal);
 
   bool active() const { return state_ == State::kRunning || state_ == State::kPaused; }
-  bool recorder_keeps_up() const;
+  bool paused() const { return state_ == State::kPaused; }
   bool all_is_recorded() const;
   bool may_advance() const;
+  std::string missing() const;  ///< what a test needs and is not there yet; empty: nothing
   /// Starts a test, for whoever asks: the launch, the service or the action. Returns why it cannot, in one line, and
   /// has then changed nothing; empty: the test runs.
   std::string start(const StartTest::Request& request);
@@ -88,8 +80,9 @@ class UtmNode {
   void pause(bool paused);
   void advance();
   void send(const Command& command);
-  void resend();
   void physics_died();
+  void recorder_failed(const std::string& why);
+  void offer_start();
   void end_launch_of_test();
   void end();
   void publish_clock(bool at_once);
@@ -104,22 +97,21 @@ class UtmNode {
   ros::NodeHandle node_;
   TestWords launched_;
   UtmOptions options_;
-  bool has_specimen_ = false;             ///< whether the simulation holds one
+  SpecimenInfo specimen_;                 ///< what the simulation last said of itself
+  bool commands_arrive_ = false;          ///< knot_node is connected to utm/crosshead
   bool physics_died_ = false;             ///< during this test
   bool leaves_ = false;                   ///< the launch ends; no other test begins
   Method method_;                         ///< of this test
   std::optional<ProgramRunner> program_;  ///< program of this test
   State state_ = State::kIdle;
   std::uint32_t run_ = 0;
-  double run_start_ = 0.0;            ///< beginning of the test on /clock [s]
-  Command command_;                   ///< the last command
-  Sample sample_;                     ///< the last answer
-  std::string motion_pattern_;        ///< motion pattern in the last answer
-  double max_penetration_ = 0.0;      ///< largest overlap in all answers [fraction of radius]
-  bool waiting_ = false;              ///< whether the answer to `command_` is still awaited
-  std::uint64_t single_steps_ = 0;    ///< number of single steps requested while paused
-  std::deque<Crosshead> unrecorded_;  ///< commands that the recorder has not acknowledged
-  std::uint64_t recorded_ = 0;        ///< all commands before this sequence number are recorded
+  double run_start_ = 0.0;          ///< beginning of the test on /clock [s]
+  Command command_;                 ///< the last command
+  Sample sample_;                   ///< the last answer
+  std::string motion_pattern_;      ///< motion pattern in the last answer
+  double max_penetration_ = 0.0;    ///< largest overlap in all answers [fraction of radius]
+  bool waiting_ = false;            ///< whether the answer to `command_` is still awaited
+  std::uint64_t single_steps_ = 0;  ///< number of single steps requested while paused
   bool recorder_complete_ = false;
   bool recorder_failed_ = false;
   std::string folder_;  ///< of the recorder's files or, before it has said it, the one that it will make; empty: none
@@ -127,8 +119,7 @@ class UtmNode {
 
   std::unique_ptr<ProgressLine> progress_;  ///< on the terminal of the launch
   Clock::time_point run_began_;
-  Clock::time_point due_;   ///< time at which the next command may be sent
-  Clock::time_point sent_;  ///< time at which a command was last sent, or sent again
+  Clock::time_point due_;  ///< time at which the next command may be sent
   Clock::time_point clock_published_;
   Clock::time_point status_published_;
   Clock::time_point diagnosed_;
@@ -138,7 +129,8 @@ class UtmNode {
 
   ros::Publisher crosshead_, joint_states_, status_, method_text_, clock_;
   ros::Subscriber states_, specimens_, recorder_;
-  ros::ServiceServer start_, stop_, balance_, pause_, resume_, step_;
+  ros::ServiceServer start_;
+  std::vector<ros::ServiceServer> services_;
   std::optional<Actions::GoalHandle> goal_;  ///< its test runs, or is still being recorded
   Actions actions_;
   diagnostic_updater::Updater diagnostics_;

@@ -68,7 +68,6 @@ struct ResultsOptions {
   MakeFurther further;                ///< may be empty
   TestEnd without_end;                ///< how the test ended where its samples do not say so
   std::vector<std::string> warnings;  ///< further ones, one line each
-  std::uint64_t missing_at_end = 0;   ///< commands of the test behind the last that was recorded
   bool ran_here = true;               ///< whether this process ran the test, so that its memory is the test's
 };
 
@@ -103,7 +102,6 @@ class RunWriter {
   FurtherWriter further_;
   std::vector<int> cuts_;  // edges between one rope and the next
   RunFacts known_;
-  std::uint64_t records_ = 0, sent_ = 0;     // commands that were recorded, and that the test had sent by then
   double wall_time_ = 0.0;                   // of the last record [s]
   std::vector<Sample> samples_;              // all accepted time steps; the last one of a command is its answer
   std::vector<int> program_steps_;           // the step of the program of each of them
