@@ -9,6 +9,8 @@
 #include <random>
 #include <tuple>
 
+#include "knot_utm/topology/knot_hole.hpp"
+
 namespace knot_utm {
 namespace {
 
