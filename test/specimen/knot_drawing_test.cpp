@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "complaint.hpp"
-#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/polyline.hpp"
