@@ -158,10 +158,6 @@ void check_effects(const Method& m) {
   const bool on_posts = !supports.posts.empty() || !supports.pins.empty();
   has_effect(rollers || on_posts, "machine.roller_friction", machine.roller_friction, bare.roller_friction,
              "with grips: rollers or knot: " + knots_with("post_diameter"));
-  has_effect(rollers && machine.roller_friction > 0.0, "machine.roller_rotation",
-             std::string(fields::kRotations[static_cast<std::size_t>(machine.roller_rotation)]),
-             std::string(fields::kRotations[0]),
-             std::string("with a roller_friction above 0") + (rollers ? "" : " of grips: rollers"));
   const bool held = machine.far_side == FarSide::kHeld;
   has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
              "for knot: " + loops() + ", with grips: rollers");

@@ -118,7 +118,6 @@ constexpr Label kLabels[] = {
     {"material.breaking.law", "What parts the rod"},
     {"material.breaking.bending_share", "Share of its bend that a fibre bears"},
     {"material.breaking.crushing_share", "Strength lost by being pressed flat"},
-    {"machine.roller_rotation", "Rollers"},
     {"machine.far_side", "Far side of the loop"},
     {"machine.stiffness", "Frame stiffness"},
     {"machine.load_cell.capacity", "Capacity of the cell"},
@@ -136,7 +135,7 @@ constexpr Label kLabels[] = {
 };
 
 /// The experimental keys, by their last part.
-constexpr std::array kExperimental{"natural_curvature", "hardening", "roller_rotation",          "overload",
+constexpr std::array kExperimental{"natural_curvature", "hardening", "overload",
                                    "noise_run",         "load_rate", "break_at_fraction_of_peak"};
 
 /// Whether a key belongs to an entry of a list, or to a step that goes by its number.

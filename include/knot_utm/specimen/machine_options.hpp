@@ -12,9 +12,6 @@ enum class GripKind { kRollers, kNodes, kClamps };
 /// Whether the middle of the loop's far side is held half-way between the rollers, or the loop is free to turn on them.
 enum class FarSide { kHeld, kFree };
 
-/// Rollers stand still, or turn freely with the rod.
-enum class RollerRotation { kFixed, kFree };
-
 /// Properties of the load cell (load_cell.hpp).
 struct LoadCellOptions {
   std::string name;
@@ -35,7 +32,6 @@ struct MachineOptions {
   GripKind grips = GripKind::kRollers;
   double roller_diameter = 0.0381;  ///< [m]
   double roller_friction = 0.0;     ///< mu of rod on roller [-]
-  RollerRotation roller_rotation = RollerRotation::kFixed;
   FarSide far_side = FarSide::kHeld;  ///< of a loop on rollers
   LoadCellOptions load_cell;
   double stiffness = std::numeric_limits<double>::infinity();  ///< frame [N/m]
