@@ -9,7 +9,6 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
-#include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
 
@@ -276,7 +275,8 @@ double Grips::force_lower(const TimeStep& step) const {
 }
 
 void Grips::state(Archive& archive) {
-  archive.section("GRP6");  // "GRP5" had rollers that turn, "GRP4" had rollers that were driven, "GRP3" had no ends that slip, and no weights
+  archive.section("GRP6");  // "GRP5" had rollers that turn, "GRP4" had rollers that were driven, "GRP3" had no ends
+                            // that slip, and no weights
   archive(lift_, holds_far_side_);
   archive.list(pins_);
   archive.require(pins_.empty() || pins_.size() == rollers_.size(), "pins of the rollers",

@@ -228,8 +228,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
                          testing::Values(programmed_on_a_compliant_frame(), broken(),
                                          overhand("overhandWithTwist", "memory"),
                                          overhand("overhandThatRolls", "memory", 1.0),
-                                         with_fibres(loop("loopWithFibres")),
-                                         rolling(loop("rolling"))),
+                                         with_fibres(loop("loopWithFibres")), rolling(loop("rolling"))),
                          [](const auto& scene) { return scene.param.name; });
 
 }  // namespace

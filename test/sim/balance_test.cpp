@@ -78,7 +78,7 @@ struct Scene {
   bool twist;
   double friction;
   double couple = 0.0;  // of friction at the surface
-  bool soft = false;  // sections
+  bool soft = false;    // sections
 
   bool curved() const { return kind == Kind::kCurved; }
 

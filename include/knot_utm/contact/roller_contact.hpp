@@ -43,8 +43,6 @@ BesideRoller beside(const Roller& roller, const Vec3& place);
 /// with D = r + h - d, d the distance from the middle of the nearest section, and a friction of their own.
 class RollerContact {
  public:
-  using Model = RollerModel;
-
   /// `farthest`: the largest motion of a node in an accepted step [m]. Segments that are further from all rollers when
   /// a step begins are left out of that step.
   RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
@@ -75,7 +73,7 @@ class RollerContact {
   const std::vector<SoftPoint>& soft_points() const { return soft_; }
 
   /// The consistent linearisation of the active contacts, in order; unused models may follow.
-  void linearise(const ContactLinearisation& how, double dt, std::vector<RollerModel>& models) const {
+  void linearise(const ContactLinearisation& how, double dt, std::vector<ContactModel>& models) const {
     knot_utm::linearise(laws_, dt, how, contacts_, models);
   }
   /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).

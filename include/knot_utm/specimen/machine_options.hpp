@@ -30,8 +30,8 @@ struct LoadCellOptions {
 /// The `machine` section of a method.
 struct MachineOptions {
   GripKind grips = GripKind::kRollers;
-  double roller_diameter = 0.0381;  ///< [m]
-  double roller_friction = 0.0;     ///< mu of rod on roller [-]
+  double roller_diameter = 0.0381;    ///< [m]
+  double roller_friction = 0.0;       ///< mu of rod on roller [-]
   FarSide far_side = FarSide::kHeld;  ///< of a loop on rollers
   LoadCellOptions load_cell;
   double stiffness = std::numeric_limits<double>::infinity();  ///< frame [N/m]
