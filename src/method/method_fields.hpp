@@ -91,7 +91,6 @@ inline void load_cell(Fields& f, LoadCellOptions& o) {
   f.number("floor", o.floor, Range{0.0, 1.0, "of capacity"});
   f.number("resolution", o.resolution, Range{0.0, 1e5, "N"});
   f.number("noise", o.noise, Range{0.0, 1e5, "N"});
-  f.number("overload", o.overload, Range{1.0, kInfinity, "of capacity"});
   f.integer("seed", o.seed, 0u, std::numeric_limits<unsigned>::max());
   f.integer("noise_run", o.noise_run, 0u, std::numeric_limits<unsigned>::max());
   f.text("notes", o.notes);

@@ -21,9 +21,8 @@ struct LoadCellOptions {
   double floor = 0.0;          ///< below it the accuracy does not hold [of capacity]
   double resolution = 0.0;     ///< [N]; 0: none
   double noise = 0.0;          ///< standard deviation of a reading [N]; 0: none
-  double overload = std::numeric_limits<double>::infinity();  ///< load of its stop [of capacity]
-  unsigned seed = 1;                                          ///< of the cell: its systematic error, and its noise
-  unsigned noise_run = 0;                                     ///< the same cell has other noise in each run
+  unsigned seed = 1;           ///< of the cell: its systematic error, and its noise
+  unsigned noise_run = 0;      ///< the same cell has other noise in each run
   std::string notes;
 };
 
