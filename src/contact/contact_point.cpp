@@ -34,9 +34,30 @@ void set_pressures(const NormalLaw& normal, const std::array<ContactPoint*, 4>& 
   for (std::size_t i = 0; i < 4; ++i) contacts[i]->pressure = pressure[static_cast<int>(i)];
 }
 
-template <typename Pressure, typename Law>
+/// What a roller's turn adds to the models of four contacts on it. It takes the surface along by psi a x X, with a its
+/// axis and X the gap, so that r changes by -a x X as psi does and by -psi a x S as the rod does.
+template <typename Tangent>
+void add_turn(const Four<const ContactPoint>& four, const Tangent& friction, const Lanes& stiffness,
+              RollerModel* models) {
+  const FourVectors n = four(&ContactPoint::n), axis = four(&ContactPoint::axis);
+  const Lanes zero = {}, turned = four(&ContactPoint::turned);
+  const auto slipped = [&](const FourVectors& surface) {
+    return stiffness * friction.slope_times(surface - dot(n, surface) * n);
+  };
+  const Parted by_turn(-1.0 * slipped(cross(axis, four(&ContactPoint::x))));
+  const FourVectors sweep = turned * axis;
+  const Parted still[3] = {Parted(slipped({zero, sweep.z, -1.0 * sweep.y})),
+                           Parted(slipped({-1.0 * sweep.z, zero, sweep.x})),
+                           Parted(slipped({sweep.y, -1.0 * sweep.x, zero}))};
+  for (std::size_t i = 0; i < 4; ++i) {
+    models[i].by_turn = by_turn[i];
+    for (std::size_t j = 0; j < 3; ++j) models[i].still[j] -= still[j][i];
+  }
+}
+
+template <typename Pressure, typename Law, typename Model>
 void linearise(const Pressure& normal, const Law& law, double dt, const ContactLinearisation& how,
-               const std::array<const ContactPoint*, 4>& contacts, ContactModel* models) {
+               const std::array<const ContactPoint*, 4>& contacts, Model* models) {
   const Four<const ContactPoint> four(contacts);
   const FourPressures law_of_pressure(normal, how, four);
   const Lanes &slope = law_of_pressure.slope, &pressure = law_of_pressure.pressure, &turning = law_of_pressure.turning;
@@ -87,13 +108,15 @@ void linearise(const Pressure& normal, const Law& law, double dt, const ContactL
   still[2].z -= on_identity;
   const Parted columns[3] = {Parted(still[0]), Parted(still[1]), Parted(still[2])};
   for (std::size_t i = 0; i < 4; ++i) {
-    ContactModel& model = models[i];
+    Model& model = models[i];
     model.pressure = pressure[static_cast<int>(i)];
     model.slope = slope[static_cast<int>(i)];
     model.force = forces[i];
     model.slide = slides[i];
     for (std::size_t j = 0; j < 3; ++j) model.still[j] = columns[j][i];
   }
+  if constexpr (std::is_same_v<Model, RollerModel>)
+    if (law.coefficient > 0.0) add_turn(four, t, s, models);
 }
 
 /// Calls use(law) with the friction law of each pair, whose type is chosen once for all contacts.
@@ -105,6 +128,16 @@ void visit_active(const ContactLaws& laws, Contacts& contacts, const Use& use) {
       const PairLaws& of = laws[four[0]->pair];
       use(of.normal, of.friction.template as<Law>(), four, first);
     });
+  });
+}
+
+template <typename Model>
+void linearise_all(const ContactLaws& laws, double dt, const ContactLinearisation& how,
+                   const std::vector<ContactPoint>& contacts, std::vector<Model>& models) {
+  // Room for the fours that the last one fills up.
+  models.resize(contacts.size() + 3);
+  visit_active(laws, contacts, [&](const NormalLaw& normal, const auto& law, const auto& four, std::size_t first) {
+    linearise(normal, law, dt, how, four, &models[first]);
   });
 }
 
@@ -130,11 +163,12 @@ FrictionMemory remember(const Friction& friction, const ContactPoint& contact, d
 
 void linearise(const ContactLaws& laws, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models) {
-  // Room for the fours that the last one fills up.
-  models.resize(contacts.size() + 3);
-  visit_active(laws, contacts, [&](const NormalLaw& normal, const auto& law, const auto& four, std::size_t first) {
-    linearise(normal, law, dt, how, four, &models[first]);
-  });
+  linearise_all(laws, dt, how, contacts, models);
+}
+
+void linearise(const ContactLaws& laws, double dt, const ContactLinearisation& how,
+               const std::vector<ContactPoint>& contacts, std::vector<RollerModel>& models) {
+  linearise_all(laws, dt, how, contacts, models);
 }
 
 }  // namespace knot_utm

@@ -120,9 +120,10 @@ struct FourRolling {
   Lanes slope, secant;  // rho_s dzeta/drho, and zeta/y
 
   template <typename Contact>
-  FourRolling(const RollingResistance& rolling, const std::array<Contact*, 4>& contacts, const Section& a,
-              const Section& b, Linearisation how)
-      : line(square_root(a.length2) * a.over), turns(a.rotation() - b.rotation()) {
+  FourRolling(const RollingResistance& rolling, const std::array<Contact*, 4>& contacts, const Points4& surfaces,
+              const FourVectors& axis, const Section& a, const Section& b, Linearisation how)
+      : line(square_root(a.length2) * a.over),
+        turns(a.rotation() - b.rotation() - four(surfaces, &SurfacePoint::turned) * axis) {
     const Lanes remembered{contacts[0]->memory.rolled, contacts[1]->memory.rolled, contacts[2]->memory.rolled,
                            contacts[3]->memory.rolled};
     const Lanes y = (1.0 / rolling.presliding) * (remembered + rolling.radius * dot(line, turns)), size = larger(y, -y);

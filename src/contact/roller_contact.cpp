@@ -178,12 +178,14 @@ Vec3 RollerContact::moment_on(const Roller& roller, int number, const Points& po
 
 ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, const Points& start) const {
   ContactMotion out;
-  out.slip = contact.slip - contact.memory.slip;
+  const Vec3 carried = carried_along(contact);
+  out.slip = contact.slip - contact.memory.slip + carried;
   if (turns_) {
     const SurfacePoint& surface = surfaces_[static_cast<std::size_t>(&contact - contacts_.data())];
     out.rolling = rolling(contact, surface);
     out.slip -= surface_shift(contact, surface);
   }
+  out.rolling -= carried;
   const Vec3 place = combine(contact.c, start, contact.a0 + 1);
   const Vec3 x = beside(start_[static_cast<std::size_t>(contact.roller)], place).x;
   out.overlap_before = contact.overlap + contact.d - x.norm();

@@ -36,7 +36,8 @@ FrictionMemory remember(const Friction& friction, const RollingLaws& rolling, co
 }
 
 double rolling_loss(const ContactPoint& contact, const SurfacePoint& surface) {
-  const Vec3 of_b = contact.on_roller() ? Vec3(Vec3::Zero()) : rotation(contact.db, contact.turn, surface.spin_b);
+  const Vec3 of_b =
+      contact.on_roller() ? Vec3(surface.turned * contact.axis) : rotation(contact.db, contact.turn, surface.spin_b);
   return -surface.couple.dot(rotation(surface.along_a, surface.turn_a, surface.spin_a) - of_b);
 }
 
@@ -74,15 +75,18 @@ void set_couples(const RollingLaws& laws, const std::vector<ContactPoint>& conta
     const Section section_a = Section::of_a(points), section_b = Section::of_b(of, points);
     Lanes zeta = {};
     FourVectors couple = {};
+    const FourVectors axis = of(&ContactPoint::axis);
     if (rolling.on()) {
-      const FourRolling now(rolling, four, section_a, section_b, Linearisation::kTangent);
+      const FourRolling now(rolling, four, points, axis, section_a, section_b, Linearisation::kTangent);
       const Lanes pressure = of(&ContactPoint::pressure),
                   whole = -rolling_coefficient(rolling, pressure) * rolling.radius;
       zeta = now.zeta;
       couple = (whole * of(&ContactPoint::weight) * pressure * zeta) * now.line;
     }
     const FourVectors &a = section_a.over, &b = section_b.over, m_a = m - couple, m_b = times_q(points, m) + couple;
-    const Parted on_a(cross(a, m_a), -1.0 * dot(a, m_a)), on_b(cross(b, m_b), -1.0 * dot(b, m_b));
+    const bool on_roller = four[0]->on_roller();
+    const Parted on_a(cross(a, m_a), -1.0 * dot(a, m_a)),
+        on_b(cross(b, m_b), -1.0 * dot(on_roller ? axis : b, on_roller ? couple : m_b));
     const Parted couples(couple);
     for (std::size_t i = 0; i < 4; ++i) {
       SurfacePoint& surface = surfaces[number_of(four[i], contacts)];

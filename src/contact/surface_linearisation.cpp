@@ -96,6 +96,7 @@ class FourSurfaces : private Levers {
     r_ = of(&ContactPoint::slip);
     over_d_ = 1.0 / of(&ContactPoint::d);
     inverse_g_ = of(&ContactPoint::inverse_g);
+    turned_ = of(&ContactPoint::turned);
     remembered_ = remembered_by(contacts);
     const FourVectors of_a = a_.rotation(), of_b = b_.rotation();
     rotation_ = of_a + of_b;
@@ -113,7 +114,7 @@ class FourSurfaces : private Levers {
     pressing_ = weight * pressures_.slope * (n_ - friction_.by_pressure);  // of the overlap
     force_ = weight * pressures_.pressure * (n_ - friction_.coefficient * friction_.z);
     m_ = cross(lever_ * x_, force_);
-    if (rolling.on()) resist(rolling, contacts, how, weight);
+    if (rolling.on()) resist(rolling, contacts, surfaces, how, weight);
   }
 
   void model(SurfaceModel* models) const {
@@ -123,7 +124,8 @@ class FourSurfaces : private Levers {
       along_a += sections_.thins_a * a_.over;
       along_b += sections_.thins_b * b_.over;
     }
-    const Parted forces(force_), on_a(along_a, -1.0 * dot(a_.over, m_a)), on_b(along_b, -1.0 * dot(b_.over, m_b));
+    const Parted forces(force_), on_a(along_a, -1.0 * dot(a_.over, m_a)),
+        on_b(along_b, -1.0 * dot(on_roller_ ? axis_ : b_.over, on_roller_ ? couple_ : m_b));
     for (std::size_t i = 0; i < 4; ++i) {
       models[i].pressure = pressures_.pressure[static_cast<int>(i)];
       models[i].slope = pressures_.slope[static_cast<int>(i)];
@@ -169,7 +171,12 @@ class FourSurfaces : private Levers {
       add_foot(turns_b, none, unit, SurfaceModel::kTurnB + i);
     }
     write(turned(a_.spun(), Section::Change()), still, SurfaceModel::kSpinA, models);
-    if (!on_roller_) write(turned(Section::Change(), b_.spun()), still, SurfaceModel::kSpinB, models);
+    if (on_roller_) {
+      Response by_turn = slipped(-1.0 * cross(axis_, (1.0 - lever_) * x_));
+      if (resists_) by_turn.add(-1.0 * dot(axis_, line_), by_rolling);
+      write(by_turn, still, SurfaceModel::kTurned, models);
+    } else
+      write(turned(Section::Change(), b_.spun()), still, SurfaceModel::kSpinB, models);
   }
 
  private:
@@ -196,8 +203,8 @@ class FourSurfaces : private Levers {
 
   /// What resists rolling, C and its derivatives.
   void resist(const RollingResistance& rolling, const std::array<const ContactPoint*, 4>& contacts,
-              const ContactLinearisation& how, const Lanes& weight) {
-    const FourRolling now(rolling, contacts, a_, b_, how.friction);
+              const Points4& surfaces, const ContactLinearisation& how, const Lanes& weight) {
+    const FourRolling now(rolling, contacts, surfaces, axis_, a_, b_, how.friction);
     const Lanes old = Four<const ContactPoint>(contacts)(&ContactPoint::zeta_old);
     const Lanes turned = turned_from(larger(now.zeta - old, old - now.zeta), old * old);
     const auto whole = [&](const Lanes& coefficient) { return -coefficient * rolling.radius; };
@@ -223,7 +230,7 @@ class FourSurfaces : private Levers {
     response.on_a -= cross(a_.over, dc);
     response.torque_a -= dot(a_.over, dc);
     response.on_b += cross(b_.over, dc);
-    response.torque_b += dot(b_.over, dc);
+    response.torque_b += dot(on_roller_ ? axis_ : b_.over, dc);
   }
 
   /// How the arm lambda x of friction changes with the gap. On a roller, sections that give touch it at its own radius
@@ -243,6 +250,7 @@ class FourSurfaces : private Levers {
     // Slip: d(xi + alpha n x xi + u)
     FourVectors dr = slid_by - cross(sweeping_, arm(dx)) + (carried_ * dot(dn, rotation_)) * cross(n_, remembered_) +
                      alpha_ * cross(dn, remembered_);
+    if (on_roller_) dr -= cross(axis_, turned_ * (Sections::kSoft ? dx - dot(n_, dx) * n_ : dx));
     const FourVectors slid = dr - dot(n_, dr) * n_ - away_ * dn - dot(r_, dn) * n_;
     const FourVectors dg = pressed * pressing_ + turning_ * dn - stiffness_ * friction_.slope_times(slid);
     Response out = responds(dg, cross(arm(dx), force_) + cross(lever_ * x_, dg));
@@ -322,7 +330,7 @@ class FourSurfaces : private Levers {
   FourVectors bend_b_, bend_turn_b_;
   Lanes spin_slope_b_, lever_;
   FourVectors x_, n_, db_, axis_, r_, remembered_;
-  Lanes over_d_, inverse_g_;
+  Lanes over_d_, inverse_g_, turned_;
   FourVectors rotation_;  // phi_a + phi_b
   FourVectors sweeping_;  // phi_a + q phi_b
   Lanes alpha_, away_;    // n.r

@@ -66,7 +66,7 @@ class ContactTerm {
     contacts_.linearise(system.how, system.start.dt, models_);
     for (const ContactPoint& contact : points()) {
       if (!contact.active()) continue;
-      const ContactModel& model = models_[pressures_.size()];
+      const Model& model = models_[pressures_.size()];
       add_force(contact, model.force - to_lanes(contact.force), system.right);
       system.matrix.add(contact, model, pressures_.size());
       pressures_.push_back({model.pressure, model.slope});
@@ -125,6 +125,8 @@ class ContactTerm {
   }
 
  private:
+  using Model = typename Contacts::Model;
+
   /// How the overlap of a contact between sections that give changes with the unknowns.
   double overlap_change(const ContactPoint& contact, const std::vector<Lanes>& change) const {
     const auto number = static_cast<std::size_t>(&contact - points().data());
@@ -168,7 +170,7 @@ class ContactTerm {
 
   Contacts contacts_;
   // Both lists hold one entry for each active contact, in order.
-  std::vector<ContactModel> models_;
+  std::vector<Model> models_;
   std::vector<LinearPressure> pressures_;
 };
 

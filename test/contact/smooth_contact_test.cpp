@@ -215,7 +215,7 @@ TEST_P(RollerContactJacobian, IsTheDerivativeOfForces) {
   end.row(2).array() += 1e-6;
   RollerContact contact = scene.touch(friction, end);
   for (ContactPoint& point : contact.contacts()) point.prediction = point.pressure;
-  std::vector<ContactModel> models;
+  std::vector<RollerModel> models;
   contact.linearise({}, 0.01, models);
   std::size_t n = 0;
   Eigen::MatrixXd analytic = Eigen::MatrixXd::Zero(end.size(), end.size());
@@ -283,7 +283,7 @@ TEST(Ring, JacobianIsTheDerivativeOfForces) {
     end.row(2).array() += 1e-6;
     RollerContact contact = scene.touch(friction, end);
     for (ContactPoint& point : contact.contacts()) point.prediction = point.pressure;
-    std::vector<ContactModel> models;
+    std::vector<RollerModel> models;
     contact.linearise({}, 0.01, models);
     Eigen::MatrixXd analytic = Eigen::MatrixXd::Zero(end.size(), end.size());
     for (std::size_t n = 0; n < contact.contacts().size(); ++n) {

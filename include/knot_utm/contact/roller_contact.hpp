@@ -39,10 +39,15 @@ struct BesideRoller {
 /// section, and rho the distance of the place from the ring's axis: the nearest section moves by t (t.ds) R/rho.
 BesideRoller beside(const Roller& roller, const Vec3& place);
 
+/// Motion of the roller's surface in this step [m]: none, as rollers do not turn.
+inline Vec3 carried_along(const ContactPoint& contact) { return contact.turned * contact.axis.cross(contact.x); }
+
 /// Contact of the rod's smooth centreline with rollers and rings, which move but do not turn: the normal law of the rod
 /// with D = r + h - d, d the distance from the middle of the nearest section, and a friction of their own.
 class RollerContact {
  public:
+  using Model = RollerModel;
+
   /// `farthest`: the largest motion of a node in an accepted step [m]. Segments that are further from all rollers when
   /// a step begins are left out of that step.
   RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
@@ -73,7 +78,7 @@ class RollerContact {
   const std::vector<SoftPoint>& soft_points() const { return soft_; }
 
   /// The consistent linearisation of the active contacts, in order; unused models may follow.
-  void linearise(const ContactLinearisation& how, double dt, std::vector<ContactModel>& models) const {
+  void linearise(const ContactLinearisation& how, double dt, std::vector<RollerModel>& models) const {
     knot_utm::linearise(laws_, dt, how, contacts_, models);
   }
   /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).

@@ -33,6 +33,8 @@ namespace knot_utm {
 /// to iterate, and no step would be short enough.
 class SmoothContact {
  public:
+  using Model = ContactModel;
+
   /// `catch_up`: relaxation time with which omega and o follow the shape [s].
   SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
                 double catch_up = 0.05);

@@ -29,8 +29,8 @@ struct SectionTurns {
 /// next to it, and sigma_j their weights in c' = sum_j sigma_j e_j. A rod that turns as a whole therefore turns its
 /// sections with it, however it is bent. The strands' surfaces meet half way between the centrelines, at lambda x from
 /// either, lambda = 1/2, x the gap. A soft section transmits only the fraction eta of the couple
-/// (material.friction_couple), and its surface moves as if it lay at lambda = eta/2. On a roller of radius R, which
-/// does not turn, lambda = eta h/(R + h). Strands of different radii meet at lambda x = eta h_a/(h_a + h_b) x
+/// (material.friction_couple), and its surface moves as if it lay at lambda = eta/2. On a roller of radius R, whose own
+/// turn RollerContact adds, lambda = eta h/(R + h). Strands of different radii meet at lambda x = eta h_a/(h_a + h_b) x
 /// from a and at q lambda x from b, q = h_b/h_a: below, phi_b is to be read as q phi_b in u, and m as q m on b.
 /// Material points of the two surfaces slid against each other in this step by
 ///
@@ -51,7 +51,8 @@ struct SectionTurns {
 /// Source: our own; kinematics of rigid sections along the spline of the centreline.
 ///
 /// Where the contact resists rolling (RollingResistance), the couple C acts on the section of a, and -C on that of b,
-/// so that m - C takes the place of m on a, and m + C on b. On a roller phi_b = 0.
+/// so that m - C takes the place of m on a, and m + C on b. On a roller, whose own turn about its axis is psi, -C.axis
+/// is a torque on it; its rotation is phi_b = psi axis.
 struct SurfacePoint {
   Vec3 along_a = Vec3::Zero();      ///< a' [m]; b' is ContactPoint::db
   Vec3 turn_a = Vec3::Zero();       ///< V of a [m]; that of b is ContactPoint::turn
@@ -66,7 +67,8 @@ struct SurfacePoint {
   double s_a[2] = {}, s_b[2] = {};  ///< of the spins of edges a0, a0 + 1, and b0, b0 + 1 [m]
   double s_slope_b[2] = {};         ///< ds_b/du [m]
   Lanes on_a = {};                  ///< a^ x m [N]; lane 3: -a^.m [N]
-  Lanes on_b = {};                  ///< b^ x m [N]; lane 3: -b^.m [N]
+  Lanes on_b = {};                  ///< b^ x m [N]; lane 3: -b^.m [N]; on a roller -C.axis [N m]
+  double turned = 0.0;              ///< psi of the roller [rad]
   double zeta = 0.0;                ///< of RollingResistance [-]
   Vec3 couple = Vec3::Zero();       ///< C [N m]
 };
@@ -138,15 +140,15 @@ void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const
                  std::vector<Lanes>& force);
 
 /// The linear model of a contact with friction at the surfaces, by the changes xi on which all its forces depend: S =
-/// sum_k c_k dq_k, V_a = sum_k d_k dq_k, V_b = sum_k beta_k dq_k, Psi_a and Psi_b.
+/// sum_k c_k dq_k, V_a = sum_k d_k dq_k, V_b = sum_k beta_k dq_k, Psi_a and Psi_b, and the turn of a roller.
 struct SurfaceModel {
-  static constexpr int kShift = 0, kTurnA = 3, kTurnB = 6, kSpinA = 9, kSpinB = 10, kChanges = 11;
+  static constexpr int kShift = 0, kTurnA = 3, kTurnB = 6, kSpinA = 9, kSpinB = 10, kTurned = 11, kChanges = 12;
 
   /// Derivatives with respect to one change, and the motion of the foot that goes with it.
   struct Response {
     Lanes force = {};   ///< -dg/dxi
     Lanes on_a = {};    ///< -d(a^ x m)/dxi, lane 3: d(a^.m)/dxi
-    Lanes on_b = {};    ///< the same of b
+    Lanes on_b = {};    ///< the same of b; on a roller lane 3: d(C.axis)/dxi
     double foot = 0.0;  ///< du/dxi
   };
 
@@ -154,7 +156,7 @@ struct SurfaceModel {
   double slope = 0.0;     ///< p'(D^) [N/m^2]
   Lanes force = {};       ///< g with that pressure [N]
   Lanes on_a = {};        ///< a^ x m with it; lane 3: -a^.m
-  Lanes on_b = {};        ///< b^ x m with it; lane 3: -b^.m
+  Lanes on_b = {};        ///< b^ x m with it; lane 3: -b^.m, on a roller -C.axis
   Response by[kChanges];
 };
 
