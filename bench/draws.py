@@ -123,9 +123,7 @@ class Draw:
         self.settings["machine.roller_diameter"] = significant(roller * self.radius)
         grips = self.settings["machine.grips"] = self.choice("grips", ["rollers", "nodes", "clamps"])
         if grips == "rollers":
-            friction = self.settings["machine.roller_friction"] = self.choice("roller_friction", [0.0, 0.0, 0.3])
-            if friction > 0.0 and self.number % 2:  # not drawn, so that all other draws stay as they were
-                self.settings["machine.roller_rotation"] = self.keep("roller_rotation", "free")
+            self.settings["machine.roller_friction"] = self.choice("roller_friction", [0.0, 0.0, 0.3])
         # As much faster than the pull as in the paper's test; a pre-load of 90 s of patience is not to be crept to.
         tying = max(self.speed * PAPER_TYING / PAPER_SPEED, PAPER_TYING / PAPER_RADIUS * self.radius)
         self.set_program([{"tie": {"speed": significant(min(tying, FASTEST))}}, {"release": {"duration": 3.0}},

@@ -39,7 +39,7 @@ std::size_t RollerContact::index_of(const ContactPoint& contact) const {
   return memory_index(voronoi_.size(), static_cast<std::size_t>(contact.roller), contact.a0 + 1, contact.point);
 }
 
-void RollerContact::begin(const std::vector<Roller>& rollers, const Points& start, double dt) {
+void RollerContact::begin(const std::vector<Roller>& rollers, const Points& start) {
   contacts_.clear();
   prediction_ = committed_prediction_;
   // Before the first accepted step there is nowhere to come from: what a rejected one took for that does not count.
@@ -48,13 +48,8 @@ void RollerContact::begin(const std::vector<Roller>& rollers, const Points& star
     start_ = rollers;
     prediction_.assign(2 * rollers.size() * static_cast<std::size_t>(start.cols()), -1.0);
     memory_.assign(2 * rollers.size() * static_cast<std::size_t>(start.cols()), FrictionMemory());
-    turn_.assign(rollers.size(), RollerTurn());
-    for (std::size_t r = 0; r < rollers.size(); ++r) turn_[r].angle = rollers[r].turn;
   }
   find_near_segments(rollers, start);
-  turned_.resize(rollers.size());
-  for (std::size_t r = 0; r < rollers.size(); ++r)
-    turned_[r] = rollers[r].free() ? dt * turn_[r].rate : rollers[r].turn - turn_[r].angle;
 }
 
 void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start,
@@ -133,21 +128,15 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
       contact.c[k] = w.value[k];
       contact.slip += w.value[k] * (position.col(segment - 1 + k) - start.col(segment - 1 + k));
     }
-    double lever = 0.0;
-    if (turns_) lever = add_surface(contact, roller, position, start);
-    if (rubs && turned_[number] != 0.0) {
-      contact.turned = (1.0 - lever) * turned_[number];
-      contact.slip -= carried_along(contact);
-    }
+    if (turns_) add_surface(contact, roller, position, start);
     contacts_.push_back(contact);
   }
 }
 
-/// The lever of friction on it.
-double RollerContact::add_surface(const ContactPoint& contact, const Roller& roller, const Points& position,
-                                  const Points& start) {
+void RollerContact::add_surface(const ContactPoint& contact, const Roller& roller, const Points& position,
+                                const Points& start) {
   SurfacePoint& surface = surfaces_.emplace_back();
-  if (!laws_[contact.pair].friction.on() && !soft()) return 0.0;
+  if (!laws_[contact.pair].friction.on() && !soft()) return;
   const double u = kIntegrationPoints[contact.point];
   const SegmentWeights weights(u);
   std::copy_n(weights.derivative, 3, surface.d_a);
@@ -160,8 +149,6 @@ double RollerContact::add_surface(const ContactPoint& contact, const Roller& rol
   }
   const double h = radius(contact.a0 + 1);
   surface.lever = soft() ? 1.0 - roller.radius / contact.d : couple_ * h / (roller.radius + h);
-  surface.turned = turned_[static_cast<std::size_t>(contact.roller)];
-  return surface.lever;
 }
 
 double RollerContact::lever_of(const ContactPoint& contact) const {
@@ -189,14 +176,6 @@ Vec3 RollerContact::moment_on(const Roller& roller, int number, const Points& po
   return sum;
 }
 
-double RollerContact::torque_on(int roller) const {
-  double sum = 0.0;
-  for (const ContactPoint& contact : contacts_)
-    if (contact.roller == roller)
-      sum -= surface_increment(contact, lever_of(contact)).dot(contact.force) + couple_of(contact).dot(contact.axis);
-  return sum;
-}
-
 ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, const Points& start) const {
   ContactMotion out;
   const Vec3 carried = carried_along(contact);
@@ -220,7 +199,6 @@ ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, 
 
 void RollerContact::commit(const std::vector<Roller>& rollers) {
   start_ = rollers;
-  for (std::size_t r = 0; r < rollers.size(); ++r) turn_[r] = {turn_[r].angle + turned_[r], turned_[r] / dt_};
   std::fill(prediction_.begin(), prediction_.end(), -1.0);
   for (const ContactPoint& contact : contacts_) prediction_[index_of(contact)] = contact.pressure;
   committed_prediction_ = prediction_;
@@ -234,7 +212,7 @@ void RollerContact::commit(const std::vector<Roller>& rollers) {
 }
 
 void RollerContact::state(Archive& archive) {
-  archive.section("ROL3");  // "ROL2" had rollers that do not turn
+  archive.section("ROL4");  // "ROL3" had rollers that turn
   bool committed = !committed_prediction_.empty();
   archive(committed);
   // Before, what stands here is what a rejected step took for it.
@@ -246,8 +224,6 @@ void RollerContact::state(Archive& archive) {
     memory_.clear();
     return;
   }
-  archive.list(turn_);
-  archive.require(turn_.size() == start_.size(), "turns of rollers", std::to_string(turn_.size()));
   archive.list(committed_prediction_);
   archive.list(memory_);
   if (rolling_.on()) {

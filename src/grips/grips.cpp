@@ -9,7 +9,6 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
-#include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
 
@@ -32,9 +31,6 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     roller.axis = Vec3::UnitY();
     roller.radius = 0.5 * machine.roller_diameter;
     roller.centre = Vec3::Zero();
-    // A ring as heavy as the rod would be all around the roller: nothing that a slow test feels.
-    if (machine.roller_rotation == RollerRotation::kFree)
-      roller.inertia = specimen_scales(material).mass * 2.0 * M_PI * std::pow(roller.radius, 3);
     rollers_.push_back(roller);
     narrower_ = roller.radius + radius - centreline.loop.radius;
     clearance_ = kClearance * radius;
@@ -279,7 +275,8 @@ double Grips::force_lower(const TimeStep& step) const {
 }
 
 void Grips::state(Archive& archive) {
-  archive.section("GRP5");  // "GRP4" had rollers that were driven, "GRP3" had no ends that slip, and no weights
+  archive.section("GRP6");  // "GRP5" had rollers that turn, "GRP4" had rollers that were driven, "GRP3" had no ends
+                            // that slip, and no weights
   archive(lift_, holds_far_side_);
   archive.list(pins_);
   archive.require(pins_.empty() || pins_.size() == rollers_.size(), "pins of the rollers",

@@ -1,6 +1,5 @@
 #include "knot_utm/machine/load_cell.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <locale>
@@ -35,7 +34,6 @@ LoadCell::LoadCell(const LoadCellOptions& options)
   check("sampling_rate", options.sampling_rate, options.sampling_rate > 0.0, "more than 0 Hz");
   check("accuracy", options.accuracy, options.accuracy >= 0.0 && options.accuracy < 1.0, "0 or more, less than 1");
   check("floor", options.floor, options.floor >= 0.0 && options.floor <= 1.0, "0 to 1 of the capacity");
-  check("overload", options.overload, options.overload >= 1.0, "1 or more of the capacity");
   check("resolution", options.resolution, options.resolution >= 0.0, "0 N or more");
   check("noise", options.noise, options.noise >= 0.0, "0 N or more");
 }
@@ -43,8 +41,7 @@ LoadCell::LoadCell(const LoadCellOptions& options)
 void LoadCell::balance(double true_force) { balanced_ = true_force; }
 
 double LoadCell::read(double true_force) {
-  const double stop = options_.overload * options_.capacity;
-  double reading = gain_ * balanced(std::clamp(true_force, -stop, stop));
+  double reading = gain_ * balanced(true_force);
   if (options_.noise > 0.0) reading += options_.noise * standard_normal(random_);
   if (options_.resolution > 0.0) reading = std::round(reading / options_.resolution) * options_.resolution;
   return reading;

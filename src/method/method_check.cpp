@@ -158,10 +158,6 @@ void check_effects(const Method& m) {
   const bool on_posts = !supports.posts.empty() || !supports.pins.empty();
   has_effect(rollers || on_posts, "machine.roller_friction", machine.roller_friction, bare.roller_friction,
              "with grips: rollers or knot: " + knots_with("post_diameter"));
-  has_effect(rollers && machine.roller_friction > 0.0, "machine.roller_rotation",
-             std::string(fields::kRotations[static_cast<std::size_t>(machine.roller_rotation)]),
-             std::string(fields::kRotations[0]),
-             std::string("with a roller_friction above 0") + (rollers ? "" : " of grips: rollers"));
   const bool held = machine.far_side == FarSide::kHeld;
   has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
              "for knot: " + loops() + ", with grips: rollers");
@@ -241,16 +237,13 @@ void check_machine(const Method& m) {
     throw InvalidInput("machine.grips", "rollers", "nodes or clamps: rollers hold only a loop, knot: " + loops());
 }
 
-void check_load(const std::string& key, double load, double highest, const char* what = "capacity") {
-  if (std::abs(load) > highest)
-    reject(key, load, std::string("at most the load cell's ") + what + ", " + format_number(highest) + " N");
+void check_load(const std::string& key, double load, double capacity) {
+  if (std::abs(load) > capacity)
+    reject(key, load, "at most the load cell's capacity, " + format_number(capacity) + " N");
 }
 
 void check_ends(const Method& m) {
-  const double capacity = m.machine.load_cell.capacity;
-  const double overload = m.machine.load_cell.overload;
-  if (m.ends.load && std::isfinite(overload)) check_load("ends.load", *m.ends.load, overload * capacity, "stop");
-  if (m.ends.load && std::isinf(overload)) check_load("ends.load", *m.ends.load, capacity);
+  if (m.ends.load) check_load("ends.load", *m.ends.load, m.machine.load_cell.capacity);
 }
 
 void check_pull(const Method& m, const PullStep& step, const std::string& key) {

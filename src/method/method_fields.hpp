@@ -91,21 +91,16 @@ inline void load_cell(Fields& f, LoadCellOptions& o) {
   f.number("floor", o.floor, Range{0.0, 1.0, "of capacity"});
   f.number("resolution", o.resolution, Range{0.0, 1e5, "N"});
   f.number("noise", o.noise, Range{0.0, 1e5, "N"});
-  f.number("overload", o.overload, Range{1.0, kInfinity, "of capacity"});
   f.integer("seed", o.seed, 0u, std::numeric_limits<unsigned>::max());
   f.integer("noise_run", o.noise_run, 0u, std::numeric_limits<unsigned>::max());
   f.text("notes", o.notes);
 }
-
-/// The names of RollerRotation, in its order.
-inline constexpr std::array kRotations{"fixed", "free"};
 
 /// All keys of `machine` except the load cell, which may also be a name.
 inline void machine(Fields& f, MachineOptions& o) {
   f.choice("grips", o.grips, std::array{"rollers", "nodes", "clamps"});
   f.scaled_number("roller_diameter", o.roller_diameter, Range{1e-5, 1.0, "m"});
   f.number("roller_friction", o.roller_friction, Range{0.0, 5.0, "-"});
-  f.choice("roller_rotation", o.roller_rotation, kRotations);
   f.choice("far_side", o.far_side, std::array{"held", "free"});
   f.number("stiffness", o.stiffness, Range{1.0, kInfinity, "N/m"});
   f.scaled_number("travel", o.travel, Range{1e-3, 100.0, "m"});

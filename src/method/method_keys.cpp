@@ -118,7 +118,6 @@ constexpr Label kLabels[] = {
     {"material.breaking.law", "What parts the rod"},
     {"material.breaking.bending_share", "Share of its bend that a fibre bears"},
     {"material.breaking.crushing_share", "Strength lost by being pressed flat"},
-    {"machine.roller_rotation", "Rollers"},
     {"machine.far_side", "Far side of the loop"},
     {"machine.stiffness", "Frame stiffness"},
     {"machine.load_cell.capacity", "Capacity of the cell"},
@@ -127,7 +126,6 @@ constexpr Label kLabels[] = {
     {"machine.load_cell.floor", "Floor of the cell"},
     {"machine.load_cell.resolution", "Resolution of the cell"},
     {"machine.load_cell.noise", "Noise of the cell, standard deviation"},
-    {"machine.load_cell.overload", "Stop of the cell"},
     {"ends.break_at_fraction_of_peak", "Break at no more than"},
     {"physics.friction.at", "Friction acts at the"},
     {"physics.friction.pair", "Friction of two materials"},
@@ -136,8 +134,8 @@ constexpr Label kLabels[] = {
 };
 
 /// The experimental keys, by their last part.
-constexpr std::array kExperimental{"natural_curvature", "hardening", "roller_rotation",          "overload",
-                                   "noise_run",         "load_rate", "break_at_fraction_of_peak"};
+constexpr std::array kExperimental{"natural_curvature", "hardening", "noise_run", "load_rate",
+                                   "break_at_fraction_of_peak"};
 
 /// Whether a key belongs to an entry of a list, or to a step that goes by its number.
 bool is_numbered(const std::string& key) {

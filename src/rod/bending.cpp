@@ -113,12 +113,6 @@ Eigen::Vector2d material_curvature(const Vec3& e, const Vec3& f, const Directors
   return {first_curvature(at, on_e, on_f).value(), second_curvature(at, on_e, on_f).value()};
 }
 
-CurvatureSlopes curvature_slopes(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f) {
-  const Corner at(e, f);
-  const Curvature first = first_curvature(at, on_e, on_f), second = second_curvature(at, on_e, on_f);
-  return {{first.value(), second.value()}, {on_nodes(first_derivatives(first)), on_nodes(first_derivatives(second))}};
-}
-
 CurvatureLocal curvature_local(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f) {
   const Corner at(e, f);
   const Curvature first = first_curvature(at, on_e, on_f), second = second_curvature(at, on_e, on_f);
@@ -128,13 +122,6 @@ CurvatureLocal curvature_local(const Vec3& e, const Vec3& f, const Directors& on
   out.slope[1] = on_nodes(first_derivatives(second));
   out.second[0] = on_nodes(second_derivatives(first));
   out.second[1] = on_nodes(second_derivatives(second));
-  return out;
-}
-
-StencilGradient on_nodes(const BendingResponse& law, const CurvatureSlopes& bend) {
-  StencilGradient out;
-  out.energy = law.energy;
-  for (int k = 0; k < 2; ++k) out.gradient += law.moment[k] * bend.slope[k];
   return out;
 }
 
@@ -155,12 +142,6 @@ StencilLocal on_nodes(const BendingResponse& law, const CurvatureLocal& bend) {
 double bending_energy(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                       const Directors& on_f) {
   return elastic(input, material_curvature(e, f, on_e, on_f)).energy;
-}
-
-StencilGradient bending_gradient(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
-                                 const Directors& on_f) {
-  const CurvatureSlopes bend = curvature_slopes(e, f, on_e, on_f);
-  return on_nodes(elastic(input, bend.value), bend);
 }
 
 StencilLocal bending(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,

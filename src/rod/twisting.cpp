@@ -60,13 +60,6 @@ double twisting_energy(const TwistingInput& input, double twist) {
   return 0.5 * m * m / stiffness(input);
 }
 
-StencilGradient twisting_gradient(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist) {
-  StencilGradient local;
-  local.energy = twisting_energy(input, twist);
-  local.gradient = moment(input, twist) * twist_slopes(TwistCorner(e, f));
-  return local;
-}
-
 Eigen::VectorXd twist_rates(const RodProperties& rod, const RodState& state) {
   if (state.twist.size() == 0) return {};
   const Eigen::Index inner = rod.nodes() - 2;

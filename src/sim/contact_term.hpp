@@ -10,7 +10,6 @@
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
-#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
@@ -37,7 +36,7 @@ class ContactTerm {
 
   void begin(const StepStart& start) {
     if constexpr (kOnRollers)
-      contacts_.begin(start.boundary.rollers, start.state.position, start.dt);
+      contacts_.begin(start.boundary.rollers, start.state.position);
     else
       contacts_.begin(start.state.position);
   }
@@ -70,7 +69,6 @@ class ContactTerm {
       const Model& model = models_[pressures_.size()];
       add_force(contact, model.force - to_lanes(contact.force), system.right);
       system.matrix.add(contact, model, pressures_.size());
-      if constexpr (kOnRollers) system.turns.add(contact, model);
       pressures_.push_back({model.pressure, model.slope});
     }
   }
@@ -166,7 +164,6 @@ class ContactTerm {
       add_force(contact, model.force - to_lanes(contact.force), system.right);
       add_couples(contact, surface, model.on_a - surface.on_a, model.on_b - surface.on_b, system.right);
       system.matrix.add(contact, surface, model, *system.spins, pressures_.size());
-      if constexpr (kOnRollers) system.turns.add(contact, surface, model, *system.spins, contacts_.soft());
       pressures_.push_back({model.pressure, model.slope});
     });
   }

@@ -61,7 +61,6 @@ Vec3 slip(const ContactPoint& contact, const Points& increment) {
     out += contact.c[k] * increment.col(contact.a0 + k);
     if (!contact.on_roller()) out += contact.c[3 + k] * increment.col(contact.b0 + k);
   }
-  if (contact.on_roller()) out -= carried_along(contact);
   return out;
 }
 

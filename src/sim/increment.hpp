@@ -10,7 +10,6 @@
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
-#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
@@ -36,23 +35,21 @@ class HeldUnknowns {
   bool holds(int node) const { return held_[static_cast<std::size_t>(node)] != 0; }
   const std::vector<char>& nodes() const { return held_; }
 
-  void prescribe(StepMatrix<3>& matrix, RollerTurns& turns, std::vector<Lanes>& right) const {
+  void prescribe(StepMatrix<3>& matrix, std::vector<Lanes>& right) const {
     for (int node = 0; node < count(); ++node) {
       if (!holds(node)) continue;
       matrix.values().set_identity_row(node);
       right[static_cast<std::size_t>(node)] = Lanes{0.0, 0.0, 0.0, 0.0};
-      turns.hold(node, Lanes{0.0, 0.0, 0.0, 0.0});
     }
   }
 
-  void prescribe(const FrameTerms& frames, StepMatrix<4>& matrix, RollerTurns& turns, std::vector<Lanes>& right) const {
+  void prescribe(const FrameTerms& frames, StepMatrix<4>& matrix, std::vector<Lanes>& right) const {
     for (int node = 0; node < count(); ++node) {
       const double moves = holds(node) ? 0.0 : 1.0, spins = frames.held(node) ? 0.0 : 1.0;
       if (moves == 1.0 && spins == 1.0) continue;
       const Lanes keep = {moves, moves, moves, spins};
       matrix.values().set_identity_row(node, keep);
       right[static_cast<std::size_t>(node)] *= keep;
-      turns.hold(node, keep);
       // A held angle does not change, so the spin equals the rotation by parallel transport alone.
       if (spins == 0.0 && node + 1 < count())
         add_to_row(3, frames.lean(node), matrix.band(node, 0, 0), matrix.band(node, 0, 1));
@@ -237,7 +234,6 @@ struct Equation {
   ContactTerm<D, RollerContact> rollers;
   GripTerm grips;
   HeldUnknowns held;
-  RollerTurns roller_turns;
   ResidualNorm norm;
   StepMatrix<D> matrix;
   Points x;                          // trial positions [m]
@@ -293,11 +289,10 @@ class Increment {
 
   /// Computes the change of the unknowns from -(df/dx) dx = f. False where the matrix is singular.
   bool solve(Linearisation of_friction) {
-    eq_.roller_turns.begin(start_.boundary.rollers, eq_.rollers.contacts(), nodes(), start_.dt);
     eq_.matrix.locate(eq_.strands.points());
     eq_.matrix.set_zero_beyond_band();
     eq_.change = eq_.force;
-    LinearSystem<D> system{start_, eq_.x, eq_.matrix, eq_.change, eq_.roller_turns, {of_friction, predicts_}, spins()};
+    LinearSystem<D> system{start_, eq_.x, eq_.matrix, eq_.change, {of_friction, predicts_}, spins()};
     eq_.centreline.add_stiffness(system);
     eq_.motion.add_stiffness(system);
     eq_.frames.add_stiffness(system);
@@ -305,14 +300,13 @@ class Increment {
     eq_.rollers.add_stiffness(system);
     eq_.grips.add_stiffness(system);
     if constexpr (D == 4)
-      eq_.held.prescribe(eq_.frames, eq_.matrix, eq_.roller_turns, eq_.change);
+      eq_.held.prescribe(eq_.frames, eq_.matrix, eq_.change);
     else
-      eq_.held.prescribe(eq_.matrix, eq_.roller_turns, eq_.change);
-    BlockMatrix<D>& matrix = eq_.matrix.values();
-    return eq_.roller_turns.empty() ? matrix.solve(eq_.change) : eq_.roller_turns.solve(matrix, eq_.change);
+      eq_.held.prescribe(eq_.matrix, eq_.change);
+    return eq_.matrix.values().solve(eq_.change);
   }
 
-  /// Moves the unknowns by `wanted` times the change, or by less: no node, roller or angle moves further than the limit
+  /// Moves the unknowns by `wanted` times the change, or by less: no node or angle moves further than the limit
   /// for one iteration.
   void move(double wanted) {
     double longest2 = 0.0;
@@ -320,13 +314,11 @@ class Increment {
       const double size2 = change[0] * change[0] + change[1] * change[1] + change[2] * change[2];
       longest2 = std::max(longest2, size2);
     }
-    const double longest = std::max(std::sqrt(longest2), eq_.roller_turns.largest_motion()),
-                 cap = eq_.settings.newton_cap;
+    const double longest = std::sqrt(longest2), cap = eq_.settings.newton_cap;
     factor_ = wanted * (longest > cap ? cap / longest : 1.0);
     factor_ = std::min(factor_, wanted * eq_.frames.largest_factor(eq_.change));
     eq_.frames.move(eq_.change, factor_);
     for (int i = 0; i < nodes(); ++i) eq_.x.col(i) += factor_ * to_vec3(eq_.change[static_cast<std::size_t>(i)]);
-    eq_.roller_turns.move(eq_.rollers.contacts(), factor_);
     eq_.centreline.predict_tensions(eq_.change, factor_);
     motion_ = factor_ * longest;
     eq_.strands.predict_pressures(eq_.change, factor_);
@@ -357,14 +349,7 @@ class Increment {
   WorstResidual worst() const {
     WorstResidual out = eq_.norm.worst_of_nodes(eq_.force, eq_.centreline, tolerance(), eq_.held);
     if (!std::isfinite(out.residual)) return out;
-    if constexpr (D == 4) {
-      out = ResidualNorm::worst_of_spins(eq_.force, eq_.frames, eq_.rod.thinnest(), out);
-      if (!std::isfinite(out.residual)) return out;
-    }
-    // A free roller may have a larger residual; the reported node then stays that of the rod.
-    const double of_rollers =
-        RollerTurns::largest_unbalanced(start_.boundary.rollers, eq_.rollers.contacts(), start_.dt);
-    out.residual = std::max(out.residual, of_rollers);
+    if constexpr (D == 4) out = ResidualNorm::worst_of_spins(eq_.force, eq_.frames, eq_.rod.thinnest(), out);
     return out;
   }
 

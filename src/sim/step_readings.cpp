@@ -6,7 +6,6 @@
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/scene.hpp"
 
 namespace knot_utm {
@@ -167,25 +166,8 @@ void StepReadings::add_rollers(const SolvedStep& step) {
     if (r >= rollers_.size()) continue;
     const Vec3 moved = roller.centre - rollers_[r].centre;
     add_work_of_boundary(-roller_load_[r].force.dot(moved), -load_before_[r].force.dot(moved));
-    if (!roller.free()) {
-      const Vec3 turn = rollers_now_.turned(number) * roller.axis;
-      add_work_of_boundary(-roller_load_[r].moment.dot(turn), -load_before_[r].moment.dot(turn));
-    }
   }
   rollers_ = step.boundary.rollers;
-}
-
-void StepReadings::add_free_turns(const SolvedStep& step) {
-  for (std::size_t r = 0; r < step.boundary.rollers.size(); ++r) {
-    const Roller& roller = step.boundary.rollers[r];
-    if (!roller.free()) continue;
-    const int number = static_cast<int>(r);
-    const double turn = rollers_now_.turned(number), rate = turn / step.dt,
-                 faster = rate - rollers_now_.turn(number).rate;
-    account_.energies.kinetic += 0.5 * roller.inertia * rate * rate;
-    account_.work.numerical += 0.5 * roller.inertia * faster * faster;
-    account_.work.residual += RollerTurns::unbalanced(step.boundary.rollers, rollers_now_, number, step.dt) * turn;
-  }
 }
 
 void StepReadings::add_fall_of_elastic_energy() {
@@ -193,7 +175,7 @@ void StepReadings::add_fall_of_elastic_energy() {
 }
 
 void StepReadings::state(Archive& archive) {
-  archive.section("REA3");  // "READ" had no sum of loads, "REA2" no plastic work
+  archive.section("REA4");  // "READ" had no sum of loads, "REA2" no plastic work, "REA3" rollers that turn
   for (Lanes& force : force_)
     for (int i = 0; i < 4; ++i) archive(reinterpret_cast<double*>(&force)[i]);
   archive(account_.contact, account_.energies, account_.work, first_);

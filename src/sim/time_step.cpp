@@ -163,7 +163,6 @@ class ImplicitStep final : public TimeStep {
     StepAccount& account = readings_.begin(step);
     equation_.grips.account(step, account);
     equation_.motion.account(step, account);
-    readings_.add_free_turns(step);
     equation_.centreline.account(step, account);
     equation_.frames.account(step, account);
     readings_.add_fall_of_elastic_energy();

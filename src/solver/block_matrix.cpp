@@ -235,45 +235,15 @@ void BlockMatrix<D>::give(Vector& b) const {
 }
 
 template <int D>
-template <bool kKeeps>
-bool BlockMatrix<D>::solve_by(Vector& b) {
+bool BlockMatrix<D>::solve(Vector& b) {
   take(b);
-  if (!eliminate<kKeeps>()) return false;
+  if (!eliminate()) return false;
   substitute_back();
   give(b);
   return true;
 }
 
 template <int D>
-bool BlockMatrix<D>::solve(Vector& b) {
-  return solve_by<false>(b);
-}
-
-template <int D>
-bool BlockMatrix<D>::solve_and_keep(Vector& b) {
-  return solve_by<true>(b);
-}
-
-template <int D>
-void BlockMatrix<D>::solve_another(Vector& b) {
-  take(b);
-  substitute_forward();
-  substitute_back();
-  give(b);
-}
-
-template <int D>
-void BlockMatrix<D>::substitute_forward() {
-  for (int k = 0; k < pattern_->nodes(); ++k) {
-    const Block<D>* own = &values_[at(pattern_->diagonal(k))];
-    const int* row = pattern_->rows(k);
-    const Lanes x = work_[at(k)];
-    for (int a = 0; a < pattern_->below(k); ++a) subtract_product(work_[at(row[a])], own[1 + 2 * a], x);
-  }
-}
-
-template <int D>
-template <bool kKeeps>
 bool BlockMatrix<D>::eliminate() {
   bool inverted = false;  // the next pivot is, already
   Block<D> inverse;
@@ -291,10 +261,6 @@ bool BlockMatrix<D>::eliminate() {
       const Block<D> lower1 = product(own[1 + 2 * a], inverse), lower2 = product(own[3 + 2 * a], inverse);
       subtract_product(work_[at(row[a])], lower1, x);
       subtract_product(work_[at(row[a + 1])], lower2, x);
-      if constexpr (kKeeps) {
-        own[1 + 2 * a] = lower1;
-        own[3 + 2 * a] = lower2;
-      }
       const RowPair<D> lower(lower1, lower2);
       for (int c = 0; c < count; ++c)
         lower.subtract_products(values_[at(target[c])], values_[at(target[count + c])], own[2 + 2 * c]);
@@ -308,7 +274,6 @@ bool BlockMatrix<D>::eliminate() {
     if (a < count) {
       const Block<D> lower = product(own[1 + 2 * a], inverse);
       subtract_product(work_[at(row[a])], lower, x);
-      if constexpr (kKeeps) own[1 + 2 * a] = lower;
       for (int c = 0; c < count; ++c) subtract_product(values_[at(target[c])], lower, own[2 + 2 * c]);
     }
     if (inverted) inverse = next;

@@ -49,7 +49,7 @@ class Warnings {
           "undone");
   }
 
-  /// What the cell cannot tell: forces below its floor, or beyond its stop.
+  /// What the cell cannot tell: forces below its floor.
   void of_the_cell() {
     const LoadCellOptions& cell = facts_.load_cell;
     const std::string floor = "the load cell's floor of " + format_number(cell.floor * cell.capacity) + " N";
@@ -58,10 +58,6 @@ class Warnings {
       say("the peak force lies below " + floor);
     else if (results_.true_plateau_force && is_below_floor(cell, *results_.true_plateau_force))
       say("the plateau force lies below " + floor);
-    const double stop = cell.overload * cell.capacity;
-    if (results_.true_peak_force > stop)
-      say("the load cell was overloaded: above " + format_number(stop) +
-          " N it reads the force at its mechanical stop");
   }
 
   /// Where the simulated rod is not the one that was meant.

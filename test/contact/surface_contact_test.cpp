@@ -14,7 +14,6 @@
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "rod/finite_difference.hpp"
@@ -132,11 +131,10 @@ struct OnARoller {
       : scene(wound), contact(wound.rod, NormalLaw{kStiffness, kTolerance}, friction, kRadius) {
     scene.roller.first_node = kHalf + kDetour + 1;
     if (ring > 0.0) bend_to_a_ring(ring);
-    contact.begin({scene.roller}, scene.start, kStep);
+    contact.begin({scene.roller}, scene.start);
     contact.evaluate({scene.roller}, scene.start, scene.start, kStep);
     contact.commit({scene.roller});
     scene.roller.centre += moves;
-    if (ring == 0.0) scene.roller.turn = 0.02;
   }
   void bend_to_a_ring(double radius) {
     scene.roller.ring = radius;
@@ -144,7 +142,7 @@ struct OnARoller {
     scene.roller.centre = Vec3(-radius, 0.0, 0.0);
   }
   void evaluate() {
-    contact.begin({scene.roller}, scene.start, kStep);
+    contact.begin({scene.roller}, scene.start);
     contact.evaluate({scene.roller}, scene.position, scene.start, kStep);
   }
 };
@@ -340,78 +338,6 @@ TEST_F(SurfaceWhereAFootIsAboutToJump, JacobianIsTheDerivativeOfTheForces) {
     expect_exact(MemoryFriction{0.4, presliding * kRadius}, 1.0, RollingResistance{0.3, kRadius, 1e-3 * kRadius}, 1e-9);
 }
 
-template <typename Kind>
-void expect_exact_border() {
-  Wound scene;
-  Kind kind(scene, MemoryFriction{0.4, 0.02 * kRadius});
-  kind.contact.act_at_surface(0.8, scene.turns, RollingResistance{0.3, kRadius, 0.05 * kRadius});
-  const auto evaluated = [&](const Eigen::VectorXd& unknowns) {
-    scene.set(unknowns.head(4 * scene.nodes()));
-    scene.roller.turn = unknowns[4 * scene.nodes()];
-    kind.evaluate();
-    std::vector<Lanes> force(static_cast<std::size_t>(scene.nodes()));
-    for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
-      const ContactPoint& contact = kind.contact.contacts()[i];
-      for (int k = 0; k < 3; ++k)
-        force[static_cast<std::size_t>(contact.a0 + k)] += contact.c[k] * to_lanes(contact.force);
-      const SurfacePoint& surface = kind.contact.surfaces()[i];
-      add_couples(contact, surface, surface.on_a, surface.on_b, force);
-    }
-    Eigen::VectorXd out(4 * scene.nodes() + 1);
-    out << Eigen::Map<Eigen::VectorXd>(reinterpret_cast<double*>(force.data()), 4 * scene.nodes()),
-        kind.contact.torque_on(0);
-    return out;
-  };
-  Eigen::VectorXd at(4 * scene.nodes() + 1);
-  at << scene.unknowns(), scene.roller.turn;
-  evaluated(at);
-  for (ContactPoint& point : kind.contact.contacts()) point.prediction = point.pressure;
-  Roller free = scene.roller;
-  free.inertia = 1e-300;
-  RollerTurns border_of;
-  border_of.begin({free}, kind.contact, static_cast<int>(scene.nodes()), kStep);
-  linearise_surfaces(kind.contact, {}, kStep, [&](std::size_t i, const SurfaceModel& model) {
-    border_of.add(kind.contact.contacts()[i], kind.contact.surfaces()[i], model, scene.turns, kind.contact.soft());
-  });
-  const RollerTurns::Border& border = border_of.border(0);
-
-  Eigen::VectorXd column(4 * scene.nodes()), row(4 * scene.nodes());
-  const auto by = [&](Eigen::Index j, double step) {
-    const auto moved = [&](const Eigen::VectorXd& shift) {
-      Eigen::VectorXd to = at;
-      to[j] += shift[0];
-      return evaluated(to);
-    };
-    return Eigen::VectorXd(-finite_difference(moved, Eigen::VectorXd::Zero(1), step));
-  };
-  const Eigen::VectorXd by_turn = by(at.size() - 1, 1e-6);
-  for (Eigen::Index j = 0; j < row.size(); ++j) row[j] = by(j, j % 4 == 3 ? 1e-6 : 1e-6 * kRadius)[at.size() - 1];
-  for (Eigen::Index j = 0; j < scene.rod.edges(); ++j)
-    for (int i = 0; i < 3; ++i) {
-      const double turned = row[4 * j + 3] * scene.lean[static_cast<std::size_t>(j)][i];
-      row[4 * j + i] += turned;
-      row[4 * j + 4 + i] -= turned;
-    }
-  column = by_turn.head(column.size());
-  Eigen::VectorXd own_column = column, own_row = row;
-  for (Eigen::Index j = 0; j < row.size(); ++j) {
-    own_column[j] = border.column[static_cast<std::size_t>(j / 4)][static_cast<int>(j % 4)];
-    own_row[j] = border.row[static_cast<std::size_t>(j / 4)][static_cast<int>(j % 4)];
-  }
-  // Torques over the radius, changes of angles times it.
-  for (Eigen::Index j = 3; j < row.size(); j += 4)
-    for (Eigen::VectorXd* v : {&column, &own_column, &row, &own_row}) (*v)[j] /= kRadius;
-  ASSERT_GT(column.norm(), 0.0);
-  EXPECT_LT((own_column - column).norm(), 2e-6 * column.norm());
-  EXPECT_LT((own_row - row).norm(), 2e-6 * row.norm());
-  EXPECT_NEAR(border.diagonal, by_turn[at.size() - 1], 2e-6 * std::abs(border.diagonal));
-}
-
-TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
-  expect_exact_border<OnARoller>();
-  expect_exact_border<SoftOnARoller>();
-}
-
 /// The forces of soft sections without friction are the derivative of their energy where strands cross that are
 /// straight and evenly stretched, so that feet do not move along a cone; and on a roller.
 template <typename Kind>
@@ -482,7 +408,6 @@ TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
                          kind.contact.surfaces()[static_cast<std::size_t>(&contact - kind.contact.contacts().data())]);
     if constexpr (std::is_base_of_v<OnARoller, TypeParam>) slip += contact.force.dot(kind.moves);
   }
-  if constexpr (std::is_base_of_v<OnARoller, TypeParam>) slip -= kind.contact.torque_on(0) * this->scene.roller.turn;
   ASSERT_GT(gross, 0.0);
   EXPECT_NEAR(work, slip, 1e-12 * gross + 1e-12 * std::abs(work));
 }

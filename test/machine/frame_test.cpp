@@ -165,18 +165,6 @@ TEST(LoadCell, AccuracyIsAnErrorOfTheGainWithinItsBoundsAndAllOverThem) {
   EXPECT_NEAR(squares / kCells, 1.0 / 3.0, 5.0 * std::sqrt(4.0 / 45.0 / kCells));
 }
 
-TEST(LoadCell, ReadsItsStopWhereItIsOverloaded) {
-  LoadCellOptions options;
-  options.capacity = 20.0;
-  EXPECT_EQ(LoadCell(options).read(1e3), 1e3) << "no stop unless told";
-  options.overload = 1.5;
-  LoadCell cell(options);
-  cell.balance(2.0);
-  EXPECT_EQ(cell.read(29.0), 27.0);
-  EXPECT_EQ(cell.read(31.0), 28.0);
-  EXPECT_EQ(cell.read(-1e3), -32.0);
-}
-
 TEST(LoadCell, ItsClassSaysHowFarAReadingMayBeOff) {
   LoadCellOptions cell;
   cell.capacity = 1000.0;

@@ -141,7 +141,7 @@ Scene overhand(const std::string& name, const char* friction, double couple = 0.
 }
 
 /// Tied, released, put onto rollers and pulled.
-Scene loop(const std::string& name, RollerRotation rotation) {
+Scene loop(const std::string& name) {
   Scene out{name, {}, polypropylene(),
             {},   {}, {TieStep(), step<ReleaseStep>(1.0), MountStep(), BalanceStep(), pull(0.002)},
             7};
@@ -149,7 +149,6 @@ Scene loop(const std::string& name, RollerRotation rotation) {
   out.specimen.to_be_tied = true;
   out.specimen.edge_length = 0.005;
   out.machine.roller_friction = 0.1;
-  out.machine.roller_rotation = rotation;
   out.physics.accuracy = Accuracy::kDraft;
   return out;
 }
@@ -229,8 +228,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
                          testing::Values(programmed_on_a_compliant_frame(), broken(),
                                          overhand("overhandWithTwist", "memory"),
                                          overhand("overhandThatRolls", "memory", 1.0),
-                                         with_fibres(loop("loopWithFibresOnFreeRollers", RollerRotation::kFree)),
-                                         rolling(loop("rolling", RollerRotation::kFixed))),
+                                         with_fibres(loop("loopWithFibres")), rolling(loop("rolling"))),
                          [](const auto& scene) { return scene.param.name; });
 
 }  // namespace

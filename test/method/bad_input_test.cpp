@@ -99,7 +99,6 @@ const Wrong kWrong[] = {
     {"specimen.length=0.5", "specimen.length is 0.5"},
     {"machine.load_cell.resolution=60000", "machine.load_cell.resolution is 60000"},
     {"machine={grips: clamps, roller_friction: 0.2}", "machine.roller_friction is 0.2"},
-    {"machine={roller_rotation: free}", "machine.roller_rotation"},
     {"program=[{pull: {}}]", "program.0.pull.until is missing"},
     {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1"},
     {"program=[{release: {}}]", "program.0"},

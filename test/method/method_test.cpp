@@ -101,7 +101,7 @@ TEST(Method, WritesBackToTheSame) {
   const std::string odd = method_yaml(load_method(
       kTighten, {"physics.max_step=0.012345678901234567", "physics.friction={law: smoothed, slip_tolerance: 1.0e-4}",
                  "material.breaking_force=1e4", "machine.load_cell.noise=0.1", "machine.load_cell.accuracy=0.005",
-                 "machine.load_cell.floor=0.002", "machine.load_cell.overload=1.5", "physics.gravity=[0, 0.1, -9.81]",
+                 "machine.load_cell.floor=0.002", "physics.gravity=[0, 0.1, -9.81]",
                  "program=[{preload: {load: 1}}, {hold: {duration: 2}}, {pull: {until: {load: 5, time: 3}}}]"}));
   EXPECT_THAT(odd, HasSubstr("max_step: 0.012345678901234567"));
   EXPECT_THAT(odd, HasSubstr("slip_tolerance: 1.0e-04"));

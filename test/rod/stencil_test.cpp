@@ -108,21 +108,6 @@ TEST_P(StencilAt, BendingDerivativesAtTheNaturalState) {
 }
 TEST_P(StencilAt, TwistingDerivatives) { expect_twisting({1.5, 1.05}); }
 
-TEST_P(StencilAt, CheapPathsAgree) {
-  const BendingInput bent{2.0, 1.05, {0.4, -0.7}};
-  const StencilLocal full = bend(bent, base.at);
-  const StencilGradient cheap =
-      bending_gradient(bent, base.e(base.at), base.f(base.at), base.on_e(base.at), base.on_f(base.at));
-  EXPECT_NEAR(cheap.energy, full.energy, 1e-14 * full.energy);
-  EXPECT_LT((cheap.gradient - full.gradient).norm(), 1e-14 * full.gradient.norm());
-
-  const TwistingInput twisted{1.5, 1.05};
-  const StencilLocal full_twist = turn(twisted, base.at);
-  const StencilGradient cheap_twist = twisting_gradient(twisted, base.e(base.at), base.f(base.at), base.twist(base.at));
-  EXPECT_NEAR(cheap_twist.energy, full_twist.energy, 1e-14 * full_twist.energy);
-  EXPECT_LT((cheap_twist.gradient - full_twist.gradient).norm(), 1e-14 * full_twist.gradient.norm());
-}
-
 INSTANTIATE_TEST_SUITE_P(BendsAndTwists, StencilAt,
                          testing::Values(Corner{0.0, 0.0}, Corner{0.0, 0.8}, Corner{0.3, 0.0}, Corner{0.9, -0.5},
                                          Corner{1.8, 1.2}));

@@ -14,7 +14,6 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
-#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "rod/finite_difference.hpp"
 #include "rod/isotropic_bending_local.hpp"
@@ -150,10 +149,9 @@ TEST_P(FrameTermsOf, TheMatrixGetsTheStiffnessOfAllNodesAndEdges) {
       for (const int block : matrix.stencil(i))
         if (block >= 0) matrix.block(block).set_zero();
     std::vector<Lanes> right(nodes);
-    RollerTurns turns;
     const Boundary free;
     const StepStart step{start, free, 1.0};
-    LinearSystem<4> system{step, start.position, matrix, right, turns, {}, nullptr};
+    LinearSystem<4> system{step, start.position, matrix, right, {}, nullptr};
     terms.add_stiffness(system);
     const Eigen::MatrixXd slow = stiffness_of(terms, nodes);
     double largest = 0.0;
@@ -308,9 +306,8 @@ TEST_P(CentrelineTermsOf, ForcesAreThoseOfEveryTerm) {
 template <int D>
 void add_stiffness(const CentrelineTerms& terms, const Crumpled& scene, StepMatrix<D>& matrix) {
   std::vector<Lanes> right(kNodes);
-  RollerTurns turns;
   const StepStart step = scene.step();
-  LinearSystem<D> system{step, scene.position, matrix, right, turns, {}, nullptr};
+  LinearSystem<D> system{step, scene.position, matrix, right, {}, nullptr};
   terms.add_stiffness(system);
 }
 

@@ -105,20 +105,5 @@ TEST(R8Capstan, CoarseEdgesKeepTheRatio) {
   for (const auto& [t1, expected] : kReferences) EXPECT_NEAR(Capstan(t1, options).ratio(), expected, 0.005 * expected);
 }
 
-/// Whatever mu, as nothing but the rod acts on it: the tension is the same on both sides, and it turns with the rod.
-/// What is left, 1e-4, is friction along the axis, on which the helix walks and the roller does not.
-TEST(AFreeRoller, TurnsWithTheRodAndTakesNothingFromItsTension) {
-  constexpr double kTension = 10.0;
-  Capstan scene(kTension, {});
-  const double rho = scene.boundary.rollers[0].radius + Capstan::kRadius;
-  scene.boundary.rollers[0].inertia = 1e-3;
-  EXPECT_NEAR(scene.ratio(), 1.0, 3e-4);
-  const double from = scene.stepper->readings().roller_turn(0).angle;
-  scene.pull_by(0.5, 0.01);
-  const double tilt = std::hypot(1.0, Capstan::kPitch / (2.0 * M_PI));  // of the helix against the roller's turn
-  EXPECT_NEAR(scene.stepper->readings().roller_turn(0).angle - from, 0.5 / rho / tilt, 2e-3 * 0.5);
-  EXPECT_LT(std::abs(scene.stepper->readings().roller_moment(0)[0]), 1e-5 * kTension * rho);
-}
-
 }  // namespace
 }  // namespace knot_utm

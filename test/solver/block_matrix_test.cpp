@@ -163,18 +163,6 @@ TEST(BlockPattern, IsThatOfEliminatingAFullMatrix) {
   }
 }
 
-TYPED_TEST(BlockMatrixTest, SolvesForAnotherRightHandSideWithWhatItKept) {
-  constexpr int kD = TypeParam::value;
-  Example<kD> example;
-  const Eigen::VectorXd first = Eigen::VectorXd::Random(kD * Example<kD>::kNodes), second = 3.0 * first.reverse();
-  auto x = example.lanes(first), y = example.lanes(second);
-  ASSERT_TRUE(example.matrix.solve_and_keep(x));
-  example.matrix.solve_another(y);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> dense(example.dense);
-  EXPECT_LT((example.vector(x) - dense.solve(first)).norm(), 1e-12);
-  EXPECT_LT((example.vector(y) - dense.solve(second)).norm(), 1e-12);
-}
-
 TYPED_TEST(BlockMatrixTest, MultipliesAsDenseDoes) {
   constexpr int D = TypeParam::value;
   Example<D> example;

@@ -267,7 +267,6 @@ TEST_F(Warnings, BeginAtTheirLimits) {
   facts.material.radius = facts.knot_distance = facts.end_to_end = results.span_at_largest_thrust = 1.0;
   facts.material.bending_stiffness = facts.pull_speed = facts.load_cell.capacity = results.span_at_peak_torque = 1.0;
   facts.buckling_factor = results.tension_at_peak_torque = 1.0;
-  facts.load_cell.overload = 20.0;
   results.true_plateau_force = 10.0;
   results.lock_extension = 1.0;
   const Results plain = results;
@@ -288,7 +287,6 @@ TEST_F(Warnings, BeginAtTheirLimits) {
       {"drag makes up", 0.01, [](Results& of, double x) { of.rate.drag = x; }},
       {"inertia changes the force", 0.01, [](Results& of, double x) { of.rate.inertia = x; }},
       {"something let go at once", 100.0, [](Results& of, double x) { of.fastest_node = x; }},
-      {"overloaded", 20.0, [](Results& of, double x) { of.true_peak_force = x; }},
   };
   for (const Limit& limit : limits)
     for (const double share : {0.999, 1.001}) {

@@ -133,7 +133,7 @@ struct ContactPoint {
   Vec3 db = Vec3::Zero();     ///< b' [m]
   double inverse_g = 0.0;     ///< 1/G [1/m^2]; 0 against a roller
   Vec3 axis = Vec3::Zero();   ///< b of the roller (BesideRoller); zero between strands
-  double turned = 0.0;        ///< of the roller in this step, times 1 - lambda (RollerContact) [rad]
+  double turned = 0.0;        ///< of the roller in this step: 0, as rollers do not turn [rad]
   FrictionMemory memory;      ///< of the last accepted step: xi_n [m], and what the law keeps beside it
   Vec3 slip = Vec3::Zero();   ///< r = xi_n + slip of this step, before projection on the tangent plane [m]
   Vec3 turn = Vec3::Zero();   ///< V = sum_k beta_k (q_k - q_k^n), how b' turned in this step [m]
@@ -187,7 +187,7 @@ struct ContactModel {
   Lanes slide = {};       ///< gamma [N]
 };
 
-/// The same on a roller, whose rotation about its axis may be an unknown, too (RollerContact).
+/// The same on a roller. What its turn would add is zero, and kept so that the compiler rounds the rest as ever.
 struct RollerModel : ContactModel {
   Lanes by_turn = {};  ///< -dg/dpsi with the rod at rest [N/rad]
 };

@@ -20,13 +20,9 @@ struct Roller {
   double ring = 0.0;           ///< R, of the circle in the middle of a ring's section; 0: a cylinder [m]
   /// Nodes between which the rod may touch it; the rod beyond them lies beside it.
   int first_node = 0, last_node = std::numeric_limits<int>::max();
-  double turn = 0.0;  ///< rotation about its axis, right-handed, at the end of the step, where it is not free [rad]
-  double inertia =
-      0.0;  ///< polar moment of inertia of one that is free to turn, so that only the rod turns it; 0: not free [kg m2]
 
-  bool free() const { return inertia > 0.0; }
   void state(Archive& archive) {
-    archive(centre, axis, radius, first_node, last_node, turn, inertia);
+    archive(centre, axis, radius, first_node, last_node);
     if (archive.optional_section("RING", ring > 0.0))
       archive(ring);
     else
@@ -43,34 +39,11 @@ struct BesideRoller {
 /// section, and rho the distance of the place from the ring's axis: the nearest section moves by t (t.ds) R/rho.
 BesideRoller beside(const Roller& roller, const Vec3& place);
 
-/// How far a roller has turned since the rod's first step [rad], and how fast it turns [rad/s].
-struct RollerTurn {
-  double angle = 0.0, rate = 0.0;
-  void state(Archive& archive) { archive(angle, rate); }
-};
-
-/// s of a contact: the motion of the roller's surface there for one radian of its rotation [m]; `lever`: lambda.
-inline Vec3 surface_increment(const ContactPoint& contact, double lever) {
-  return (1.0 - lever) * contact.axis.cross(contact.x);
-}
-/// psi s, the motion of the roller's surface in this step [m].
+/// Motion of the roller's surface in this step [m]: none, as rollers do not turn.
 inline Vec3 carried_along(const ContactPoint& contact) { return contact.turned * contact.axis.cross(contact.x); }
 
-/// Contact of the rod's smooth centreline with rollers that move and turn, and with rings, which do not turn: the
-/// normal law of the rod with D = r + h - d, d the distance from the middle of the nearest section, and a friction of
-/// their own.
-///
-/// The surface of a roller that turns by psi in a step moves with it. With a its axis, x the gap from the axis to the
-/// centreline, and lambda as SurfacePoint has it (0 where friction acts on the centreline), friction acts at (1 -
-/// lambda) x, and the slip is less by psi times
-///
-///     s = a x (1 - lambda) x [m].
-///
-/// The torque of the rod on the roller, by virtual work, is tau = -sum s.g. A free roller obeys
-///
-///     I (psi - dt omega_n)/dt^2 = tau,
-///
-/// which is solved together with the rod's own equations (roller_turns.hpp).
+/// Contact of the rod's smooth centreline with rollers and rings, which move but do not turn: the normal law of the rod
+/// with D = r + h - d, d the distance from the middle of the nearest section, and a friction of their own.
 class RollerContact {
  public:
   using Model = RollerModel;
@@ -92,18 +65,9 @@ class RollerContact {
   void soften(const Eigen::VectorXd& rest_length) { rest_length_ = &rest_length; }
   bool soft() const { return rest_length_ != nullptr; }
 
-  /// Rotation of a roller in this step [rad]: the prescribed one, or that of the present iterate where it is free.
-  double turned(int roller) const { return turned_[static_cast<std::size_t>(roller)]; }
-  void turn_on(int roller, double by) { turned_[static_cast<std::size_t>(roller)] += by; }
-  /// How far a roller had turned after the last accepted step.
-  RollerTurn turn(int roller) const {
-    const auto number = static_cast<std::size_t>(roller);
-    return number < turn_.size() ? turn_[number] : RollerTurn();
-  }
-
-  /// Begins a step of length dt from `start`, at whose end the rollers stand as `rollers` says: free rollers first keep
-  /// their rate, and the predicted pressures are those of the last accepted step.
-  void begin(const std::vector<Roller>& rollers, const Points& start, double dt);
+  /// Begins a step from `start`, at whose end the rollers stand as `rollers` says: the predicted pressures are those of
+  /// the last accepted step.
+  void begin(const std::vector<Roller>& rollers, const Points& start);
 
   /// All contacts at `position` in that step, in which the rollers move from where the last commit left them.
   void evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start, double dt);
@@ -131,8 +95,6 @@ class RollerContact {
   /// What the rod does to a roller, as last evaluated: force [N], and moment about the roller's centre [N m].
   Vec3 force_on(int roller) const;
   Vec3 moment_on(const Roller& roller, int number, const Points& position) const;
-  /// tau [N m]
-  double torque_on(int roller) const;
 
   void commit(const std::vector<Roller>& rollers);
 
@@ -154,7 +116,7 @@ class RollerContact {
   void find_near_segments(const std::vector<Roller>& rollers, const Points& start);
   void add_contacts(const std::vector<Roller>& rollers, std::size_t number, int segment, const Points& position,
                     const Points& start);
-  double add_surface(const ContactPoint& contact, const Roller& roller, const Points& position, const Points& start);
+  void add_surface(const ContactPoint& contact, const Roller& roller, const Points& position, const Points& start);
   std::size_t index_of(const ContactPoint& contact) const;
   double lever_of(const ContactPoint& contact) const;
   Vec3 couple_of(const ContactPoint& contact) const;  // C of RollingResistance
@@ -172,8 +134,6 @@ class RollerContact {
   std::vector<int> cuts_;   // edges
   Eigen::VectorXd voronoi_;
   std::vector<Roller> start_;
-  std::vector<double> turned_;    // of every roller in this step [rad]
-  std::vector<RollerTurn> turn_;  // of every roller, as start_
   std::vector<ContactPoint> contacts_;
   double couple_ = 0.0;                  // eta: fraction of friction's couple that a section transmits
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface

@@ -29,8 +29,8 @@ struct SectionTurns {
 /// next to it, and sigma_j their weights in c' = sum_j sigma_j e_j. A rod that turns as a whole therefore turns its
 /// sections with it, however it is bent. The strands' surfaces meet half way between the centrelines, at lambda x from
 /// either, lambda = 1/2, x the gap. A soft section transmits only the fraction eta of the couple
-/// (material.friction_couple), and its surface moves as if it lay at lambda = eta/2. On a roller of radius R, whose own
-/// turn RollerContact adds, lambda = eta h/(R + h). Strands of different radii meet at lambda x = eta h_a/(h_a + h_b) x
+/// (material.friction_couple), and its surface moves as if it lay at lambda = eta/2. On a roller of radius R, which
+/// does not turn, lambda = eta h/(R + h). Strands of different radii meet at lambda x = eta h_a/(h_a + h_b) x
 /// from a and at q lambda x from b, q = h_b/h_a: below, phi_b is to be read as q phi_b in u, and m as q m on b.
 /// Material points of the two surfaces slid against each other in this step by
 ///
@@ -68,7 +68,7 @@ struct SurfacePoint {
   double s_slope_b[2] = {};         ///< ds_b/du [m]
   Lanes on_a = {};                  ///< a^ x m [N]; lane 3: -a^.m [N]
   Lanes on_b = {};                  ///< b^ x m [N]; lane 3: -b^.m [N]; on a roller -C.axis [N m]
-  double turned = 0.0;              ///< psi of the roller [rad]
+  double turned = 0.0;              ///< psi of the roller: 0 [rad]
   double zeta = 0.0;                ///< of RollingResistance [-]
   Vec3 couple = Vec3::Zero();       ///< C [N m]
 };

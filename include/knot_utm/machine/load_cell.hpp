@@ -10,10 +10,10 @@ namespace knot_utm {
 
 /// The load cell in the upper grip: its reading of the true force F, tension positive [N].
 ///
-///     reading = round([(1 + g)(F_s - F_balance) + noise] / r) r
+///     reading = round([(1 + g)(F - F_balance) + noise] / r) r
 ///
-/// F_s is F limited by the cell's stop, |F_s| <= overload * capacity. g, |g| <= accuracy, is the error of its gain, and
-/// r the resolution [N]. With default options the reading is F - F_balance.
+/// g, |g| <= accuracy, is the error of its gain, and r the resolution [N]. With default options the reading is F -
+/// F_balance.
 ///
 /// An accuracy class is a bound on the gain's error, so a cell draws g once, uniformly between the bounds. g and the
 /// normally distributed noise follow from the seed and do not depend on each other; the noise also follows from the

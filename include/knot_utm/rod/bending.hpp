@@ -52,26 +52,19 @@ struct BendingInput {
 Eigen::Vector2d material_curvature(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f);
 
 /// The same and their derivatives in the node's unknowns, for any bending law.
-struct CurvatureSlopes {
+struct CurvatureLocal {
   Eigen::Vector2d value;  ///< [-]
   StencilVector slope[2];
-};
-struct CurvatureLocal : CurvatureSlopes {
   StencilMatrix second[2];
 };
-CurvatureSlopes curvature_slopes(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f);
 CurvatureLocal curvature_local(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f);
 
 /// A law's response at one node as energy, gradient and Hessian in the unknowns of the node's stencil.
-StencilGradient on_nodes(const BendingResponse& law, const CurvatureSlopes& bend);
 StencilLocal on_nodes(const BendingResponse& law, const CurvatureLocal& bend);
 
 /// Energy, gradient and Hessian of the elastic law (elastic_bending.hpp) at one node.
 double bending_energy(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                       const Directors& on_f);
-
-StencilGradient bending_gradient(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
-                                 const Directors& on_f);
 
 StencilLocal bending(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                      const Directors& on_f);

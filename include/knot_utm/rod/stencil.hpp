@@ -12,11 +12,6 @@ inline constexpr Eigen::Index kStencilSize = 11;
 using StencilVector = Eigen::Matrix<double, kStencilSize, 1>;
 using StencilMatrix = Eigen::Matrix<double, kStencilSize, kStencilSize>;
 
-struct StencilGradient {
-  double energy = 0.0;                             ///< [J]
-  StencilVector gradient = StencilVector::Zero();  ///< [N], and [N m] for the angles
-};
-
 struct StencilLocal {
   double energy = 0.0;                             ///< [J]
   StencilVector gradient = StencilVector::Zero();  ///< [N], and [N m] for the angles

@@ -34,13 +34,11 @@ struct TwistingInput {
 
 double twisting_energy(const TwistingInput& input, double twist);
 
-/// `twist` is m [rad]; e and f are the edge vectors before and behind the node [m].
-StencilGradient twisting_gradient(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist);
-
 /// Twist per length m/lbar of each inner node, right-handed about the tangent [rad/m], N-2; empty where the state holds
 /// no angles.
 Eigen::VectorXd twist_rates(const RodProperties& rod, const RodState& state);
 
+/// `twist` is m [rad]; e and f are the edge vectors before and behind the node [m].
 StencilLocal twisting(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist);
 
 }  // namespace knot_utm

@@ -8,7 +8,6 @@
 
 namespace knot_utm {
 
-class RollerTurns;
 struct SectionTurns;
 template <int D>
 class StepMatrix;
@@ -22,7 +21,6 @@ struct LinearSystem {
   const Points& x;            ///< trial positions [m]
   StepMatrix<D>& matrix;      ///< -df/dq [N/m]; it has located the contacts between strands
   std::vector<Lanes>& right;  ///< f [N], and torques on spins [N m]
-  RollerTurns& turns;         ///< the rotations of free rollers, to which contacts on rollers contribute
   ContactLinearisation how;
   const SectionTurns* spins;  ///< of the sections; only where friction acts at the surfaces
 };

@@ -71,9 +71,8 @@ struct ContactReading {
 ///                and feet come and go, which changes the stored energy without work; negative where it grows
 ///   residual     the imbalance that Newton's method left on free nodes, times their increments
 ///
-/// A driven roller is part of the boundary by its moment; a free one has inertia as nodes have. The spin of an edge
-/// counts as the motion of a node does, with its own inertia, drag and torques. The work of the regularisation r_j
-/// (frame_terms.hpp) is numerical.
+/// The spin of an edge counts as the motion of a node does, with its own inertia, drag and torques. The work of the
+/// regularisation r_j (frame_terms.hpp) is numerical.
 struct StepWork {
   double boundary = 0.0;
   double friction = 0.0;

@@ -29,8 +29,6 @@ class StepReadings {
 
   /// Opens the account of a step and enters the holders of the rod: fixed nodes and frames, and rollers.
   StepAccount& begin(const SolvedStep& step);
-  /// Kinetic energy and numerical loss of free rollers.
-  void add_free_turns(const SolvedStep& step);
   /// By how much the elastic energies, all of which must be in the account, have fallen.
   void add_fall_of_elastic_energy();
 
@@ -44,8 +42,6 @@ class StepReadings {
   /// The same of contacts as they were last evaluated [N].
   Vec3 tried_roller_force(int roller) const { return rollers_now_.force_on(roller); }
   Vec3 roller_moment(int roller) const { return load_on(roller).moment; }
-  /// How far a roller has turned about its axis since the first step, and its rate.
-  RollerTurn roller_turn(int roller) const { return rollers_now_.turn(roller); }
 
   const Energies& energies() const { return account_.energies; }
   const ContactReading& contact() const { return account_.contact; }

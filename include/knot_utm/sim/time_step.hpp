@@ -53,9 +53,8 @@ struct StepSummary {
 ///   M (x - x_n - dt v_n)/dt^2 = -dE/dx + F_contact + F_friction + F_grips + M g - c lbar (x - x_n)/dt,
 ///
 /// with the whole right-hand side taken at t + dt (backward Euler). Where the scene solves for twist, the angles of the
-/// material frames are further unknowns with equations of their own (frame_terms.hpp). So are the rotations of rollers
-/// that are free to turn (roller_turns.hpp). A step that is not accepted changes nothing. Source: Hairer, Wanner 1996
-/// (backward Euler method).
+/// material frames are further unknowns with equations of their own (frame_terms.hpp). A step that is not accepted
+/// changes nothing. Source: Hairer, Wanner 1996 (backward Euler method).
 class TimeStep {
  public:
   virtual ~TimeStep() = default;

@@ -98,17 +98,9 @@ class BlockMatrix {
   /// Solves A x = b; b becomes x. False where a pivot block is singular. U and the inverse pivots overwrite the matrix.
   /// L is applied to b as it is computed and is not kept.
   bool solve(Vector& b);
-  /// The same, but L is kept as well, for other right-hand sides to follow.
-  bool solve_and_keep(Vector& b);
-  /// Another right-hand side, after solve_and_keep.
-  void solve_another(Vector& b);
 
  private:
-  template <bool kKeeps>
-  bool solve_by(Vector& b);
-  template <bool kKeeps>
   bool eliminate();
-  void substitute_forward();
   void substitute_back();
   void take(const Vector& b);
   void give(Vector& b) const;

@@ -12,9 +12,6 @@ enum class GripKind { kRollers, kNodes, kClamps };
 /// Whether the middle of the loop's far side is held half-way between the rollers, or the loop is free to turn on them.
 enum class FarSide { kHeld, kFree };
 
-/// Rollers stand still, or turn freely with the rod.
-enum class RollerRotation { kFixed, kFree };
-
 /// Properties of the load cell (load_cell.hpp).
 struct LoadCellOptions {
   std::string name;
@@ -24,18 +21,16 @@ struct LoadCellOptions {
   double floor = 0.0;          ///< below it the accuracy does not hold [of capacity]
   double resolution = 0.0;     ///< [N]; 0: none
   double noise = 0.0;          ///< standard deviation of a reading [N]; 0: none
-  double overload = std::numeric_limits<double>::infinity();  ///< load of its stop [of capacity]
-  unsigned seed = 1;                                          ///< of the cell: its systematic error, and its noise
-  unsigned noise_run = 0;                                     ///< the same cell has other noise in each run
+  unsigned seed = 1;           ///< of the cell: its systematic error, and its noise
+  unsigned noise_run = 0;      ///< the same cell has other noise in each run
   std::string notes;
 };
 
 /// The `machine` section of a method.
 struct MachineOptions {
   GripKind grips = GripKind::kRollers;
-  double roller_diameter = 0.0381;  ///< [m]
-  double roller_friction = 0.0;     ///< mu of rod on roller [-]
-  RollerRotation roller_rotation = RollerRotation::kFixed;
+  double roller_diameter = 0.0381;    ///< [m]
+  double roller_friction = 0.0;       ///< mu of rod on roller [-]
   FarSide far_side = FarSide::kHeld;  ///< of a loop on rollers
   LoadCellOptions load_cell;
   double stiffness = std::numeric_limits<double>::infinity();  ///< frame [N/m]

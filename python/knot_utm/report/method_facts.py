@@ -45,7 +45,7 @@ def text_of(key, value, units):
     if isinstance(value, bool):
         return "yes" if value else "no"
     if value in (float("inf"), ".inf"):
-        return {"machine.stiffness": "rigid", "machine.load_cell.overload": "none"}.get(key, "∞")
+        return "rigid" if key == "machine.stiffness" else "∞"
     if isinstance(value, dict):
         return ", ".join(f"{label_of(f'{key}.{name}')} {text_of(f'{key}.{name}', part, units)}"
                          for name, part in value.items())
