@@ -37,7 +37,7 @@ class FrameTermsOf : public testing::TestWithParam<std::tuple<bool, int>> {
 
   FrameTermsOf() {
     settings.drag = 0.4;
-    std::mt19937 random(7);
+    std::mt19937 random(8);  // no node is so near to its yield that finite differences straddle it
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     Material material;
     material.radius = 0.3;
