@@ -131,11 +131,11 @@ class OperatorTest(unittest.TestCase):
         view = Client('knot_node', timeout=client.LAST_RESORT)
         pictures = client.Latest('knot/markers', MarkerArray)
         colors = client.Latest('knot/colors', msg.ColorBar)
-        Client('utm_node', timeout=client.LAST_RESORT).update_configuration({'real_time_factor': 0.0})
         # As the page says it.
         said = self.tool('rosservice', 'call', '/utm/start_test', '{method: tighten, material: nylon, preload: 60, overrides: %s}' % KNOT)
         self.assertIn('test 1 is running', said)
         self.assertFalse(client.call('utm/start_test', StartTest).accepted)
+        Client('utm_node', timeout=client.LAST_RESORT).update_configuration({'real_time_factor': 0.0})
         self.assertEqual(view.update_configuration({'color_by': 'curvature'})['color_by'], 'curvature')
         colors.wait('curvature', lambda bar: bar.quantity == 'curvature')
         self.assertEqual(view.update_configuration({'color_by': 'beauty', 'marker_rate': 50.0})['color_by'], 'curvature')
