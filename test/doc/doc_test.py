@@ -151,6 +151,14 @@ class Readme(unittest.TestCase):
 
 
 class Documents(unittest.TestCase):
+    def test_commands_of_pages_and_headers_are_there(self):
+        studies = set(re.findall(r'"(\w+)": \[', re.search(r"^STUDIES = \{(.*?)\}", text("scripts/bench"), re.M | re.S)[1]))
+        for page in [*documents(), "CONTRIBUTING.md", *files("include", ".hpp"), *files("src", ".cpp")]:
+            said = text(page)
+            self.assertLessEqual(set(re.findall(r"scripts/bench ([a-z]\w*)", said)), studies, page)
+            for script in re.findall(r"(?<![\w/])scripts/(\w+)", said):
+                self.assertTrue(os.path.exists(os.path.join(ROOT, "scripts", script)), f"{page}: scripts/{script}")
+
     def test_links_lead_to_files_and_headings_that_are_there(self):
         for document in documents():
             for link in re.findall(r"\]\(([^)\s]+)\)", "\n".join(prose(text(document)))):

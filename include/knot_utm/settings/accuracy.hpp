@@ -43,7 +43,7 @@ struct RelativeErrors {
 /// to the square of their length. Those of contact tolerance, presliding displacement, longest step and residual are
 /// proportional to their values. Three kinds of sections were studied: elastic ones with friction on the centrelines,
 /// ones whose fibres rub with friction's whole couple, and soft ones of rubber. Of knots that files describe, their
-/// largest load was studied in the same way (`scripts/bench knots`), in one material at a time.
+/// largest load was studied in the same way (bench/results/knots.md), in one material at a time.
 RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                                const PhysicsOptions& physics);
 
