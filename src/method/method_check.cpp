@@ -103,9 +103,9 @@ void check_other_material(const Method& m) {
   const bool several = m.specimen.drawing && m.specimen.drawing->strands.size() > 1;
   has_effect(m.material.other != nullptr, "physics.friction.pair", m.physics.pair_friction.value_or(-1.0), -1.0,
              "with other_material");
-  const bool mean = m.physics.pair_rule == PairRule::kMean;
-  has_effect(m.material.other != nullptr, "physics.friction.pair", std::string(mean ? "mean" : "smaller"),
-             std::string("smaller"), "with other_material");
+  const auto rule = [](PairRule which) { return std::string(kPairRules[static_cast<std::size_t>(which)]); };
+  has_effect(m.material.other != nullptr, "physics.friction.pair", rule(m.physics.pair_rule), rule(PairRule::kSmaller),
+             "with other_material");
   if (!m.material.other) return;
   const Material &own = m.material, &other = *m.material.other;
   has_effect(several, "other_material", other.name, std::string(),

@@ -118,7 +118,7 @@ inline void physics(Fields& f, PhysicsOptions& o) {
     friction.choice("law", o.friction.law, kFrictionLawNames);
     friction.choice("at", o.friction_at, std::array{"surface", "centreline"});
     law_keys<FrictionRegistry>(friction, o.friction);
-    friction.number_or_word("pair", o.pair_friction, Range{0.0, 5.0, "-"}, o.pair_rule, std::array{"smaller", "mean"});
+    friction.number_or_word("pair", o.pair_friction, Range{0.0, 5.0, "-"}, o.pair_rule, kPairRules);
   });
   f.section("contact", [&o](Fields& contact) {
     enum class Law { kSmooth } only = Law::kSmooth;
