@@ -4,13 +4,17 @@ import difflib
 import functools
 import re
 
-from knot_utm.importing.names import QUANTITIES
+from knot_utm.importing.names import QUANTITIES, SET_POINT
 from knot_utm.importing.text import folded, has_digit, is_number, SEPARATORS, shown, split, split_names
 
 TIME, EXTENSION, LOAD = range(3)
 BETWEEN = " _/,"        # a name and its unit
 BEHIND = r" _.:\-/#"    # the number of a specimen or a channel
 WORDS = re.compile(r"[^\W\d_eE]|[eE](?![-+\d])")  # more than numbers: no row without is one of names
+# "load(8800 (0,3):load)" and "displacement(linear|digital position)": the quantity, a console and its channel, as WaveMatrix writes them.
+CHANNEL = re.compile(r"([^(]+)\((.+)[:|]([^:|]+)\)")
+ON_SPECIMEN = re.compile("strain|extens|gau?ge|lvdt")  # a channel that is no crosshead's
+RESULTS = re.compile(r"\bmax|\bmin(imum)?\b|peak|valley|break|rupture|hochst|bruch|yield|amplitude|\bfmax|\brm\b|modulus")
 HANDFUL = 4             # of known names in a message
 
 
@@ -32,7 +36,24 @@ class Head:
 
     def __init__(self, names, names_row, separator, given):
         self.names_row, self.first, self.separator, self.cells = names_row, names_row + 1, separator, len(names)
+        self.names, self.given = tuple(names), given
         self.columns = [_columns_in(i, given[i], names) for i in range(3)]
+
+    def repeated(self, row):
+        """The same where the names stand once and a row of readings goes on with as many numbers for each further specimen, as those of
+        Mecmesin do."""
+        once = max((place + 1 for place, name in enumerate(self.names) if name), default=len(row) + 1)
+        if len(self.names) < 2 * once or len(row) < 2 * once or not all(map(is_number, row[:2 * once])):
+            return self
+        return Head(self.names[:once] * (len(row) // once), self.names_row, self.separator, self.given)
+
+    def wanted(self, cells):
+        """Those of time, extension and load, of the first specimen; empty where the row has none, or no time is named."""
+        places = [column.place for column in self.of_specimen(0) if column]
+        return [cells[place] if place < len(cells) else "" for place in places]
+
+    def is_reading(self, cells):
+        return all(map(is_number, self.wanted(cells)))
 
     def is_complete(self, with_time):
         return all(self.columns[i] for i in ((TIME, EXTENSION, LOAD) if with_time else (EXTENSION, LOAD)))
@@ -77,6 +98,18 @@ def head_in(row, index, given, with_time):
     return None
 
 
+def kind_of(rows):
+    """What a file is that holds no readings, or not as a table of named ones, in words; empty where it may be another one."""
+    if rows and rows[0].startswith("LabVIEW Measurement"):
+        return "it is a measurement file of LabVIEW (lvm), which does not say what its columns are: --columns and --units may"
+    for row in rows:
+        names = [folded(cell) for cell in split_names(row, next((mark for mark in SEPARATORS[:-1] if mark in row), " "))]
+        if sum(map(bool, map(RESULTS.search, names))) > 1:
+            of = "cycle" if any("cycle" in name for name in names) else "specimen"
+            return f"row \"{shown(row)}\" is the head of a table of results, one row a {of}, and of no readings: export the raw data"
+    return ""
+
+
 def nearest_head(rows, given, with_time):
     """A sentence about the row that names the most columns, and which it does not name; empty where there is no such row."""
     most, found = -1, ""
@@ -110,7 +143,7 @@ def head_by_numbers(rows, given, with_time):
             for above in range(index - 1, max(index - 3, -1), -1):  # at most two rows of words, the upper one of names
                 cells = split_names(rows[above], separator)
                 own = [cells[place] if place < len(cells) else "0" for place in places]
-                if any(map(has_digit, own)) or not any(own):
+                if any(map(is_number, own)) or not any(own):
                     break
                 has_units = QUANTITIES[LOAD].si(without_brackets(own[-1])) is not None
                 head.columns = Head(cells, above, separator, given).columns
@@ -151,6 +184,11 @@ def _as_column(quantity, given, cell, place):
             rank = None if given else of.ranks.get(whole, of.ranks.get(base))
             if rank is not None:
                 return Column(place, cell, unit, rank, base, rank >= of.machines)
+            channel = None if given else CHANNEL.fullmatch(whole)
+            rank = of.ranks.get(channel[1].strip()) if channel and not SET_POINT.search(whole) else None
+            if rank is not None:  # no two of them are those of two specimens
+                other = bool(ON_SPECIMEN.search(channel[3]))
+                return Column(place, cell, unit, rank + other * len(of.names), whole, rank >= of.machines and not other)
     return None
 
 
