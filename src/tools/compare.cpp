@@ -107,7 +107,7 @@ CurveOfFile imported(const std::string& file, const ReadingWords& words, int spe
   if (!words.units.empty()) with.push_back("--units=" + words.units);
   if (!words.invert.empty()) with.push_back("--invert=" + words.invert);
   if (!words.rate.empty()) with.push_back("--rate=" + words.rate);
-  if (!words.join.empty()) with.push_back(words.join);
+  if (!words.join.empty()) with.emplace_back("--join");
   if (specimen > 0) with.push_back("--specimen=" + std::to_string(specimen));
   with.insert(with.end(), {"--", file, curve});
   const int code = run_python("knot_utm.importing.import_instron", with, said);
@@ -196,7 +196,7 @@ int main(int argc, char** argv) {
                    "columns of raw data by name or number: time=NAME,extension=NAME,load=NAME, or one or two of these");
     app.add_option("--units", arguments.words.units,
                    "units of raw data: time=s,extension=in,load=lbf, or one or two of these");
-    app.add_flag("--join{--join}", arguments.words.join, "raw data: go on where the crosshead was set to zero");
+    app.add_flag("--join{yes}", arguments.words.join, "raw data: go on where the crosshead was set to zero");
     app.add_option("--rate", arguments.words.rate, "readings per second of raw data without times");
     app.add_option("--specimen", arguments.words.specimen,
                    "which specimen of raw data, a bag or a batch with several, from 1; N,M for A and B");
