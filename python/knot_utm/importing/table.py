@@ -21,7 +21,7 @@ from knot_utm.importing.faults import spikes, spoilt, zero_set
 from knot_utm.importing.heads import EXTENSION, head_by_numbers, head_in, kind_of, LOAD, nearest_head, TIME, without_brackets, WORDS
 from knot_utm.importing.load_cell import load_cell_of
 from knot_utm.importing.names import QUANTITIES, TONF
-from knot_utm.importing.text import has_digit, is_number, mark_of_decimals, number, require_text, rows_of, shown, split, texts_of
+from knot_utm.importing.text import folded, has_digit, is_number, mark_of_decimals, number, require_text, rows_of, shown, split, texts_of
 
 ALIKE = 0.05  # of the way: two columns go the same way
 NAMED = 5     # rows of one kind in messages
@@ -29,6 +29,7 @@ EXTREMES = re.compile(r"max\w* ?/ ?min|peak ?/ ?valley|extrem", re.IGNORECASE)
 MTS = re.compile(r"MTS793(?:\|[^|]*){4}\|([.,])\|")  # what its first line says of the file: the mark of decimals
 DATE = re.compile(r"[0-9]{1,4}[./-] ?([0-9]{1,2}[./-][0-9]*|[^\W\d_]{3,}.*)|[^\W\d_]{3,}\.?[ -][0-9]{2,4}|#+")
 INVERT = ("falling", "extension", "load", "both")
+CYCLES = re.compile("((total|elapsed) )?cycles?( count| number)?")
 NAN = math.nan
 # Names and units of curve.csv, of which the machine measures three.
 UNITS = {"time": "s", "extension": "m", "load": "N", "knot_distance": "m", "end_to_end": "m", "load_lower": "N", "phase": "-",
@@ -134,7 +135,7 @@ def _of_machine(texts, file, reading):
             if head is None:
                 nearest = nearest or kind_of(rows) or nearest_head(rows, reading.columns, reading.needs_time)
                 continue
-            tests, notes = _tests_of(*_tables_from(rows, head, reading), rows)
+            tests, notes = _tests_of(*_tables_from(rows, head, reading))
             table = _Table(declared_mark(rows), *_chosen(tests, reading, file), reading, file)
             return table.record(sum(blocks[0].head.specimens() for blocks in tests), notes)
     raise WrongInput(f"{shown(file)}: no row names the columns {'time, ' if reading.needs_time else ''}extension and load"
@@ -143,80 +144,74 @@ def _of_machine(texts, file, reading):
 
 
 class _Block:
-    """A table with names of its own. `above`: the row that may have units above the names, `units`: that below them; `cells`: [(row, cells)]
-    of its readings; `times`: those of them, as far as they are numbers; `key`: what tables of one kind have in common."""
+    """A table with names of its own. `units`: the row that may have them, below the names or else above; `cells`: [(row, cells)] of its
+    readings; `times`: those that are numbers; `kind`: what tables of one kind have in common; `is_of_extremes`: the lines above say so."""
 
     def __init__(self, rows, head, end):
         cells = [(i, split(rows[i], head.separator)) for i in range(head.first, end)]
         self.head = head = head.repeated(next((own for _, own in cells if head.is_reading(own)), []))
-        self.above = split(rows[head.names_row - 1], head.separator) if head.names_row else []
         begins = next((i for i, (_, own) in enumerate(cells) if any(map(is_number, head.wanted(own)))), len(cells))
-        words = [own for _, own in cells[:begins] if any(own)]
-        self.units = words[0] if words and not any(map(has_digit, head.wanted(words[0]))) else []
-        self.cells = cells[begins:]
-        time = head.columns[TIME][0].place if head.columns[TIME] else math.inf
+        words = next((own for _, own in cells[:begins] if any(own)), ["0"])
+        above = split(rows[head.names_row - 1], head.separator) if head.names_row else []
+        self.units = above if any(map(has_digit, head.wanted(words))) or words == ["0"] else words
+        self.units_above = self.units is above
+        self.cells, time = cells[begins:], head.columns[TIME][0].place if head.columns[TIME] else math.inf
         texts = [own[time] for _, own in self.cells if time < len(own)]
         mark = mark_of_decimals(texts)[0] or declared_mark(rows) or "."
         self.times = [value for text in texts if (value := number(text, mark)) is not None]
-        self.key = head.names, tuple(self.units)
+        self.kind = head.names, () if self.units_above else tuple(self.units)
+        self.is_of_extremes = any(map(EXTREMES.search, rows[max((head.names_row or 0) - 5, 0):head.names_row or 0]))
 
 
 def _tables_from(rows, first, reading):
-    """Tables below each other, each with names of its own, and the rows of names of such as have no readings. Text between two tables
-    belongs to none."""
-    blocks, others, head = [], [], first
+    """Tables below each other, each with names of its own, and rows of names of other quantities. Text between belongs to none."""
     begins = [(first.names_row or 0, first)]
     for row in range(first.first, len(rows) if first.names_row is not None else 0):
         cells = split(rows[row], first.separator)
         if first.is_reading(cells) or not WORDS.search(rows[row]):
             continue
         head = head_in(rows[row], row, reading.columns, bool(first.columns[TIME]) and any(reading.columns))
-        # Where it is not right below a reading, a row of words begins a table of other quantities.
         words = [cell for cell in cells if cell]
-        if head or (len(words) > 1 and not any(map(is_number, words)) and row > begins[-1][0] + 2
-                     and not first.is_reading(split(rows[row - 1], first.separator))):
+        is_apart = row > begins[-1][0] + 2 and not first.is_reading(split(rows[row - 1], first.separator))
+        if head or (is_apart and len(words) > 1 and not any(map(is_number, words))):
             begins.append((row, head))
+    blocks, others = [], []
     for (row, head), (end, _) in zip(begins, [*begins[1:], (len(rows), None)]):
-        if head is None:
-            others.append(row)
-            continue
-        while end > head.first and end < len(rows) and not head.is_reading(split(rows[end - 1], head.separator)):
+        while head and head.first < end < len(rows) and not head.is_reading(split(rows[end - 1], head.separator)):
             end -= 1
-        blocks.append(_Block(rows, head, end))
+        blocks += [_Block(rows, head, end)] if head else []
+        others += [row] if head is None and any(is_number(split(line, first.separator)[0]) for line in rows[row:end] if line) else []
     return blocks, others
 
 
-def _tests_of(blocks, others, rows):
-    """[[block, ...]], a list for each test, and what a user should see of that: tables with like heads whose time goes on are one test, and
-    a table of extremes is none."""
-    tests, end = [], 0
+def _tests_of(blocks, others):
+    """[[block, ...]], a list for each test, and what a user should see of that: tables of one kind whose time goes on are one test, and a
+    table of extremes is none. `others`: rows with the names of what is none either."""
+    tests = []
     for block in blocks:
-        label = rows[end:block.head.names_row or 0][-8:]
-        end = block.cells[-1][0] if block.cells else block.head.first
-        before = [test for test in tests if test[0].key == block.key and test[0].times and block.times
+        before = [test for test in tests if test[0].kind == block.kind and test[0].times and block.times
                   and test[0].times[0] < block.times[0] >= test[-1].times[-1]]
-        if len(blocks) > 1 and any(map(EXTREMES.search, label)):
+        if block.is_of_extremes and len(blocks) > 1:
             others = [*others, block.head.names_row]
         elif before:
             max(before, key=lambda test: test[-1].times[-1]).append(block)
         else:
             tests.append([block])
-    within = [test for test in tests if any(_are_extremes(test, other) for other in tests if other is not test)]
+    within = [test for test in tests if any(_are_extremes(test, other) for other in tests)]
     others = [*others, *(block.head.names_row for test in within for block in test)]
     tests = [test for test in tests if test not in within] or [blocks]
     notes = [f"one test in {len(test)} tables whose time goes on, with their names in rows {_listed(test)}" for test in tests if len(test) > 1]
-    if others:
-        notes.append(f"what stands below the names in row {min(others) + 1}, such as extremes, is no part of the record")
+    notes += [f"what stands below the names in row {min(others) + 1}, such as extremes, is no part of the record"] if others else []
     return tests, notes
 
 
 def _are_extremes(test, other):
-    """Whether a test holds but extremes of the other one: it has no times, or fewer and from their midst, or a handful."""
+    """Whether a test holds but extremes of the other one: it has no times, or fewer and from their midst."""
     own, all_ = ([time for block in blocks for time in block.times] for blocks in (test, other))
     if not own or not all_:
         return bool(all_)
-    few = len(own) <= 2 and 10 * len(own) < len(all_) and test[0].key != other[0].key
-    return few or (2 * len(own) <= len(all_) and all_[0] < own[0] and max(own) <= all_[-1])
+    is_amid = all_[0] < min(own) and max(own) <= all_[-1] if len(own) > 2 else all_[0] <= min(own) <= all_[-1]
+    return 2 * len(own) <= len(all_) and is_amid
 
 
 def declared_mark(rows):
@@ -237,12 +232,10 @@ def _chosen(tests, reading, file):
     if wanted == 0 and count > 1:
         where = f"in tables that begin with rows {_listed([blocks[0] for blocks in tests])}" if len(tests) > 1 else "side by side"
         raise WrongInput(f"{shown(file)}: the file holds {count} specimens, {where}: choose one by --specimen 1 to {count}")
-    left = max(wanted - 1, 0)
-    for blocks in tests:
-        if left < blocks[0].head.specimens():
-            return blocks, left
-        left -= blocks[0].head.specimens()
-    raise WrongInput(f"{shown(file)}: --specimen is {wanted}, but the file holds {count} specimen{'s' if count > 1 else ''}")
+    all_ = [(blocks, place) for blocks in tests for place in range(blocks[0].head.specimens())]
+    if wanted > count:
+        raise WrongInput(f"{shown(file)}: --specimen is {wanted}, but the file holds {count} specimen{'s' if count > 1 else ''}")
+    return all_[max(wanted - 1, 0)]
 
 
 class _Table:
@@ -254,14 +247,14 @@ class _Table:
         if self.columns[EXTENSION].place == self.columns[LOAD].place:
             raise WrongInput(f"--columns is {shown(reading.columns[EXTENSION])} and {shown(reading.columns[LOAD])}, but must be another "
                              "column for the extension than for the load")
-        own = self._wanted(blocks[0].above)
+        self.cells, self.notes, own = [row for block in blocks for row in block.cells], [], self._wanted(blocks[0].units)
         all_known = all(QUANTITIES[i].si(without_brackets(own[i])) is not None for i, column in enumerate(self.columns) if column)
-        self.below = blocks[0].units or (blocks[0].above if all_known else [])
-        self.cells, self.notes = [row for block in blocks for row in block.cells], []
+        self.below = blocks[0].units if all_known or not blocks[0].units_above else []
         self.mark = self._decimals(mark)
         self._prefer_crosshead(specimen)
         self.si = [column and self._si(i, column) for i, column in enumerate(self.columns)]
         self._ask_for_load(specimen)
+        self._judge_cycles()
 
     def record(self, specimens, notes):
         values, counts = self._values()
@@ -387,31 +380,36 @@ class _Table:
                 continue
             if abs(way - own) > ALIKE * max(way, own):
                 self.columns[EXTENSION], others[i] = other, self.columns[EXTENSION]
-        self.notes += [self._not_read(EXTENSION, other, f", which goes over {_short(1e3 * way)} mm,")
-                       for other in others if (way := self._travel(other)) is not None]
+        for other in others:
+            if (way := self._travel(other)) is not None:
+                self._leave(EXTENSION, other, f", which goes over {_short(1e3 * way)} mm,")
 
     def _ask_for_load(self, specimen):
         """Two columns of a load are those of two cells, unless they read the same. Raises WrongInput."""
-        own = self.columns[LOAD]
-        values = self._numbers(LOAD, own)
+        own, chosen = self.columns[LOAD], self.reading.columns[LOAD]
         for other in self.head.others(LOAD, specimen):
-            pairs = [(a, b) for a, b in zip(values, self._numbers(LOAD, other)) if a is not None and b is not None]
-            if not pairs or self.reading.columns[LOAD]:
-                self.notes.append(self._not_read(LOAD, other, ""))
-                continue
-            ranges = [(min(column), max(column)) for column in zip(*pairs)]
-            way = max(high - low for low, high in ranges)
-            if max(abs(a - b) for a, b in pairs) > ALIKE * way:
-                told = (f"column {column.place + 1} \"{shown(column.label)}\" reads {_short(low)} to {_short(high)} N"
-                        for column, (low, high) in zip((own, other), ranges))
-                raise WrongInput(f"{shown(self.file)}: there are two loads, {' and '.join(told)}: choose one by --columns "
-                                 f"load={own.place + 1} or load={other.place + 1}")
-            self.notes.append(self._not_read(LOAD, other, ", which reads the same,"))
+            pairs = [(a, b) for a, b in zip(self._numbers(LOAD, own), self._numbers(LOAD, other)) if a is not None and b is not None]
+            (low, high), (least, most) = [(min(column), max(column)) for column in zip(*pairs)] or [(0.0, 0.0)] * 2
+            if not chosen and any(abs(a - b) > ALIKE * max(high - low, most - least) for a, b in pairs):
+                raise WrongInput(f"{shown(self.file)}: there are two loads, column {own.place + 1} \"{shown(own.label)}\" from {_short(low)} "
+                                 f"to {_short(high)} N and column {other.place + 1} \"{shown(other.label)}\" from {_short(least)} to "
+                                 f"{_short(most)} N: choose one by --columns load={own.place + 1} or load={other.place + 1}")
+            self._leave(LOAD, other, "")
 
-    @staticmethod
-    def _not_read(quantity, column, what):
+    def _leave(self, quantity, column, what):
         place = column.place + 1
-        return f"column {place} \"{shown(column.label)}\"{what} is not read; --columns {QUANTITIES[quantity].name}={place} would read it"
+        self.notes.append(f"column {place} \"{shown(column.label)}\"{what} is not read; --columns {QUANTITIES[quantity].name}={place} "
+                          "would read it")
+
+    def _judge_cycles(self):
+        """Says where a record begins behind its first cycle. Raises WrongInput where it has one row a cycle."""
+        place = next((i for i, name in enumerate(self.head.names) if CYCLES.fullmatch(folded(name))), math.inf)
+        cycles = [(number(own[place], self.mark), i) for i, own in self.cells if place < len(own)]
+        counts = [count for count, _ in cycles if count is not None]
+        if len(counts) > 3 and all(a < b and b % 1.0 == 0.0 for a, b in zip(counts, counts[1:])):
+            self._refuse(cycles[0][1], ": from here on there is one row a cycle, as in a file of trends: give that of all readings (tracking)")
+        if counts and counts[0] > 1.0:
+            self.notes.append(f"it begins with cycle {counts[0]:g}, as a file of the last ones (Stop): what was before is in another file")
 
     def _without_spikes(self, rows, *columns):
         """Without single readings whose extension lies far off those before and behind them, on the same side."""
@@ -419,23 +417,21 @@ class _Table:
         out = spikes(*columns)
         self.notes += [f"row {rows[i] + 1}, whose extension of {_short(1e3 * s[i])} mm lies far off the readings before and behind it, "
                        f"is left out, and with it its load of {_short(load[i])} N" for i in out[:NAMED]]
-        if (more := len(out) - NAMED) > 0:
-            self.notes.append(f"{more} other {'rows are' if more > 1 else 'row is'} left out for the same reason, with loads of "
-                              f"{_short(min(load[i] for i in out))} to {_short(max(load[i] for i in out))} N")
+        if more := out[NAMED:]:
+            self.notes.append(f"{len(more)} other {'rows are' if len(more) > 1 else 'row is'} left out for the same reason, with loads from "
+                              f"{_short(min(load[i] for i in more))} to {_short(max(load[i] for i in more))} N")
         left_out = set(out)
         return [[value for i, value in enumerate(column) if i not in left_out] for column in (rows, *columns)]
 
     def _as_one(self, rows, time, s, load):
         """The record with one zero, where the crosshead was set to zero in it and it may be joined. Raises WrongInput where not."""
         for i, by, force in zero_set(time, s, load):
-            zeroed = f", and the load by {_short(force)} N" if force else ""
+            jump = f"by {_short(1e3 * by)} mm" + (f", and the load by {_short(force)} N" if force else "")
             if not self.reading.join:
-                self._refuse(rows[i], f": the extension jumps by {_short(1e3 * by)} mm{zeroed} from the row before, as no machine moves: it "
-                                      "was set to zero within the test; --join shifts what is before to go on there")
-            s = [value + by if k < i else value for k, value in enumerate(s)]
-            load = [value + force if k < i else value for k, value in enumerate(load)]
-            self.notes.append(f"joined at row {rows[i] + 1}, where the crosshead was set to zero: the extension before it is shifted by "
-                              f"{_short(1e3 * by)} mm{zeroed}")
+                self._refuse(rows[i], f": the extension jumps {jump} from the row before, as no machine moves: it was set to zero within the "
+                                      "test; --join shifts what is before, to go on there")
+            self.notes.append(f"joined at row {rows[i] + 1}, where the crosshead was set to zero: the extension before it is shifted {jump}")
+            s, load = ([value + shift if k < i else value for k, value in enumerate(column)] for column, shift in ((s, by), (load, force)))
         return [time, s, load]
 
     def _refuse(self, row, why):

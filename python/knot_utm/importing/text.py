@@ -1,7 +1,6 @@
 """Files whose character encoding nobody names, as text; their rows as cells, and cells as numbers."""
 import re
 import unicodedata
-import zlib
 
 from knot_utm.errors import WrongInput
 
@@ -14,7 +13,6 @@ BLANK = " \t\r"
 
 SAVE = ": save its table as CSV (comma-separated text) and give that file"
 EXPORT = ", and no text: export its raw data as text in the program that wrote it, and give that file"
-ZS2 = b"\xAF\xBE\xAD\xDE"  # with which what is compressed in one begins (zs2decode, C. Petrich)
 NO_TEXT = {b"TDSm": "a measurement file of LabVIEW (TDMS)" + EXPORT,
            b"MATLAB 5.0": "a MAT-file" + EXPORT, b"\x89HDF": "an HDF5 file" + EXPORT,
            b"PK\x03\x04": "a workbook (xlsx, ods) or another zip archive, and no text" + SAVE,
@@ -43,7 +41,7 @@ def shown(text):
 def require_text(content, file):
     """Raises WrongInput where the bytes of a file are no text, such as those of a workbook, and says what to do about it."""
     kind = next((what for mark, what in NO_TEXT.items() if content.startswith(mark)), "")
-    if content.startswith(b"\x1F\x8B") and _unpacked(content).startswith(ZS2):
+    if content.startswith(b"\x1F\x8B") and file.lower().endswith(".zs2"):
         kind = "a test of testXpert (zs2)" + EXPORT
     if content[:512].lstrip(b" \r\n\t\xEF\xBB\xBF").startswith(b"<"):
         kind = "XML or HTML, as some programs write for a workbook, and no table of text" + SAVE
@@ -56,14 +54,6 @@ def require_text(content, file):
     if content.count(b"\r") > 2 * content.count(b"\n") and content.find(b"\r") + 1 < len(content):
         raise WrongInput(f"{shown(file)}: the lines of the file end with a carriage return alone, as on old Macs: give it the usual line "
                          r"ends first, for example by tr '\r' '\n' <FILE >NEW_FILE")
-
-
-def _unpacked(content):
-    """The first bytes of what is compressed; empty where it is damaged."""
-    try:
-        return zlib.decompressobj(31).decompress(content[:4096], 4)
-    except zlib.error:
-        return b""
 
 
 def texts_of(content):
