@@ -32,11 +32,11 @@ class Column:
 
 class Head:
     """Where a table begins. `names_row`: None where there is none; `first`: the row behind it, which may have units; `cells`: how many
-    columns there are; `columns`: those that may have each quantity, best first."""
+    columns there are; `period`: after how many names and units come again; `columns`: those that may have each quantity, best first."""
 
     def __init__(self, names, names_row, separator, given):
         self.names_row, self.first, self.separator, self.cells = names_row, names_row + 1, separator, len(names)
-        self.names, self.given = tuple(names), given
+        self.names, self.given, self.period = tuple(names), given, len(names)
         self.columns = [_columns_in(i, given[i], names) for i in range(3)]
 
     def repeated(self, row):
@@ -45,7 +45,9 @@ class Head:
         once = max((place + 1 for place, name in enumerate(self.names) if name), default=len(row) + 1)
         if len(self.names) < 2 * once or len(row) < 2 * once or not all(map(is_number, row[:2 * once])):
             return self
-        return Head(self.names[:once] * (len(row) // once), self.names_row, self.separator, self.given)
+        head = Head(self.names[:once] * (len(row) // once), self.names_row, self.separator, self.given)
+        head.period = once
+        return head
 
     def wanted(self, cells):
         """Those of time, extension and load, of the first specimen; empty where the row has none, or no time is named."""
@@ -89,13 +91,26 @@ def without_brackets(text):
 
 def head_in(row, index, given, with_time):
     """The head, if this row names extension and load, and time where it must."""
-    for separator in SEPARATORS if WORDS.search(row) else ():
-        cells = split_names(row, separator)
+    for cells, separator in _rows_of_names(row):
         if len(cells) >= (3 if with_time else 2):
             head = Head(cells, index, separator, given)
             if head.is_complete(with_time):
                 return head
     return None
+
+
+def _rows_of_names(row):
+    """[(cells, separator)]: what a row may name."""
+    found = [(split_names(row, separator), separator) for separator in SEPARATORS if WORDS.search(row)]
+    # Where columns are padded with blanks, as MTS 793 does, only one stands behind a long name.
+    words, names = " ".join(found[-1][0]).split() if found else [], []
+    while words:
+        known = (count for count in (4, 3, 2, 1) if any(folded(" ".join(words[:count])) in of.ranks for of in QUANTITIES))
+        count = next(known, 0)
+        if not count:
+            return found
+        names, words = [*names, " ".join(words[:count])], words[count:]
+    return [*found, (names, " ")] if names else found
 
 
 def kind_of(rows):
@@ -114,8 +129,7 @@ def nearest_head(rows, given, with_time):
     """A sentence about the row that names the most columns, and which it does not name; empty where there is no such row."""
     most, found = -1, ""
     for index, row in enumerate(rows):
-        for separator in SEPARATORS if WORDS.search(row) else ():
-            cells = split_names(row, separator)
+        for cells, separator in _rows_of_names(row):
             if len(cells) < 2 or all(map(has_digit, cells)):
                 continue
             head = Head(cells, index, separator, given)

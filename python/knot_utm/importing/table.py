@@ -210,7 +210,7 @@ def _are_extremes(test, other):
     own, all_ = ([time for block in blocks for time in block.times] for blocks in (test, other))
     if not own or not all_:
         return bool(all_)
-    is_amid = all_[0] < min(own) and max(own) <= all_[-1] if len(own) > 2 else all_[0] <= min(own) <= all_[-1]
+    is_amid = all_[0] < min(own) and max(own) <= all_[-1] if len(own) > 2 else all_[0] < max(own) and min(own) < all_[-1]
     return 2 * len(own) <= len(all_) and is_amid
 
 
@@ -339,7 +339,8 @@ class _Table:
         return f"column {column.place + 1}{label}{unit}"
 
     def _below(self, column):
-        return without_brackets(self.below[column.place]) if column.place < len(self.below) else ""
+        place = column.place % self.head.period
+        return without_brackets(self.below[place]) if place < len(self.below) else ""
 
     def _unit(self, quantity, column):
         """As the user or the file gives it; empty where nobody does."""
