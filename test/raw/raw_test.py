@@ -323,7 +323,7 @@ class Raw(unittest.TestCase):
             draw = random.Random(seed)
             s, load = drawn_record(draw)
             for spiked in (False, True):
-                dirty, far, places = list(s), 8.0 * max(abs(b - a) for a, b in zip(s, s[1:])), set()
+                dirty, far, places = list(s), 12.0 * max(abs(b - a) for a, b in zip(s, s[1:])), set()
                 while spiked and len(places) < 1 + len(s) // 80:
                     i = draw.randrange(3, len(s) - 4)
                     if places.isdisjoint(range(i - 3, i + 4)) and abs(load[i + 1] - load[i]) < 0.1 * max(load):

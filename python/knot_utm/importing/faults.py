@@ -18,7 +18,7 @@ ROUGHER = 3.0      # than with its decimals where they were: the column is spoil
 def spikes(times, s, load):
     """Indices of single readings whose extension goes off and comes back as no crosshead does: farther than noise, and faster than its
     neighbours move. So a turn of a cycle is none. The last reading before a fall of the load is none either, nor one whose load goes
-    off with it, unless all else in the record is much slower."""
+    off with it, unless all else in the record is much slower, or its neighbours on their steady way."""
     n, speed, found = len(s), _speeds(times, s), set()
     for i in range(1, n - 1) if n > 4 else ():
         before, behind = s[i] - s[i - 1], s[i] - s[i + 1]
@@ -44,9 +44,12 @@ def spikes(times, s, load):
         fall = abs(load[i] - load[i + 1])
         if fall > FALL * all_load and abs(load[i] - load[min(i + 2, n - 1)]) > 0.5 * fall:
             return False
-        stray = abs(load[i] - 0.5 * (load[i - 1] + load[i + 1]))
+        near = load[i - 1], load[i + 1]
+        stray = max(load[i] - max(near), min(near) - load[i])
         usual = median(_steps(load[max(i - WINDOW, 0):i]) or [0.0])
-        return stray <= max(FAR * usual, STRAY * all_load) or own > IMPOSSIBLE * max(between)
+        moves = [b - a for a, b in zip(calm[max(left - 1, 0):right + 2], calm[max(left, 1):right + 2])]
+        is_steady = min(moves) > 0.0 or max(moves) < 0.0
+        return stray <= max(FAR * usual, STRAY * all_load) or own > IMPOSSIBLE * max(beside if is_steady else between)
 
     return [i for i in sorted(found) if is_spike(i)]
 
