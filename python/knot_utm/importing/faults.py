@@ -41,7 +41,7 @@ def spikes(times, s, load):
         beside = between[max(left - 1, 0):left] + between[right:right + 1]
         if min(abs(s[i] - s[i - 1]), abs(s[i] - s[i + 1])) <= far or own <= FASTER * max(beside, default=0.0):
             return False
-        fall = abs(load[i] - load[i + 1])
+        fall = abs(load[i]) - abs(load[i + 1])
         if fall > FALL * all_load and abs(load[i] - load[min(i + 2, n - 1)]) > 0.5 * fall:
             return False
         near = load[i - 1], load[i + 1]
