@@ -12,7 +12,7 @@ BETWEEN = " _/,"        # a name and its unit
 BEHIND = r" _.:\-/#"    # the number of a specimen or a channel
 WORDS = re.compile(r"[^\W\d_eE]|[eE](?![-+\d])")  # more than numbers: no row without is one of names
 # "load(8800 (0,3):load)" and "displacement(linear|digital position)": the quantity, a console and its channel, as WaveMatrix writes them.
-CHANNEL = re.compile(r"([^(]+)\((.+)[:|]([^:|]+)\)")
+CHANNEL = re.compile(r"([^(]+)\((.+)[:|]([^:|()]+)\)")
 ON_SPECIMEN = re.compile("strain|extens|gau?ge|lvdt")  # a channel that is no crosshead's
 RESULTS = re.compile(r"\bmax|\bmin(imum)?\b|peak|valley|break|rupture|hochst|bruch|yield|amplitude|\bfmax|\brm\b|modulus")
 HANDFUL = 4             # of known names in a message

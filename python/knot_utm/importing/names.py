@@ -10,7 +10,7 @@ import re
 from knot_utm.importing.text import folded
 
 TIME = """
-    time;test time;total time;elapsed time;running time;machine time
+    time;test time;total time;elapsed time;running time;machine time;x value
     zeit;prüfzeit;pruefzeit;testzeit;versuchszeit;messzeit;laufzeit;czas;czas próby;czas badania;godzina
     temps;temps d'essai;durée;durée d'essai;tiempo;tiempo de ensayo;tiempo de prueba
     tempo;tempo di prova;tempo prova;tempo de ensaio;tijd;testtijd;proeftijd;čas;čas zkoušky;tid;zaman;süre;idő
