@@ -1,4 +1,5 @@
 """Files whose character encoding nobody names, as text; their rows as cells, and cells as numbers."""
+import csv
 import re
 import unicodedata
 
@@ -10,6 +11,8 @@ SEPARATORS = ";\t|, "  # in the order in which they are tried; a blank stands fo
 MOST_ROWS, MOST_LINES = 2_000_000, 8  # the latter of a cell in quotes, behind its first
 LARGEST = 2**30
 BLANK = " \t\r"
+NO_LINE = dict.fromkeys(map(ord, "\0\r\n"), " ")
+csv.field_size_limit(LARGEST)
 
 SAVE = ": save its table as CSV (comma-separated text) and give that file"
 EXPORT = ", and no text: export its raw data as text in the program that wrote it, and give that file"
@@ -135,20 +138,9 @@ def split(row, separator):
     """The cells of a row, without blanks around them. A quoted cell may contain the separator, and two quotes for one."""
     if separator == " ":
         return [word for word in row.strip(BLANK).split(" ") if word]
-    if '"' not in row:
-        return [cell.strip(BLANK) for cell in row.split(separator)]
-    cells, quoted, i = [""], False, 0
-    while i < len(row):
-        if quoted and row[i:i + 2] == '""':
-            cells[-1] += '"'
-            i += 1
-        elif row[i] == '"' and (quoted or not cells[-1].strip(BLANK)):  # elsewhere it may be an inch
-            quoted = not quoted
-        elif row[i] == separator and not quoted:
-            cells.append("")
-        else:
-            cells[-1] += row[i]
-        i += 1
+    cells = row.split(separator)
+    if '"' in row:
+        cells = next(csv.reader([row.translate(NO_LINE)], delimiter=separator, skipinitialspace=True), [""])
     return [cell.strip(BLANK) for cell in cells]
 
 
