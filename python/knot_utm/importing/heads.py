@@ -49,10 +49,13 @@ class Head:
         head.period = once
         return head
 
+    @functools.cached_property
+    def places(self):
+        """Of time, if it is named, extension and load of the first specimen."""
+        return [column.place for column in self.of_specimen(0) if column]
+
     def wanted(self, cells):
-        """Those of time, extension and load, of the first specimen; empty where the row has none, or no time is named."""
-        places = [column.place for column in self.of_specimen(0) if column]
-        return [cells[place] if place < len(cells) else "" for place in places]
+        return [cells[place] if place < len(cells) else "" for place in self.places]
 
     def is_reading(self, cells):
         return all(map(is_number, self.wanted(cells)))

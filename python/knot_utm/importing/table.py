@@ -386,12 +386,12 @@ class _Table:
                 self._leave(EXTENSION, other, f", which goes over {_short(1e3 * way)} mm,")
 
     def _ask_for_load(self, specimen):
-        """Two columns of a load are those of two cells, unless they read the same. Raises WrongInput."""
-        own, chosen = self.columns[LOAD], self.reading.columns[LOAD]
+        """Two columns of a load are those of two cells, unless they read the same but for the sign. Raises WrongInput."""
+        own = self.columns[LOAD]
         for other in self.head.others(LOAD, specimen):
             pairs = [(a, b) for a, b in zip(self._numbers(LOAD, own), self._numbers(LOAD, other)) if a is not None and b is not None]
             (low, high), (least, most) = [(min(column), max(column)) for column in zip(*pairs)] or [(0.0, 0.0)] * 2
-            if not chosen and any(abs(a - b) > ALIKE * max(high - low, most - least) for a, b in pairs):
+            if any(abs(abs(a) - abs(b)) > ALIKE * max(high - low, most - least) for a, b in pairs):
                 raise WrongInput(f"{shown(self.file)}: there are two loads, column {own.place + 1} \"{shown(own.label)}\" from {_short(low)} "
                                  f"to {_short(high)} N and column {other.place + 1} \"{shown(other.label)}\" from {_short(least)} to "
                                  f"{_short(most)} N: choose one by --columns load={own.place + 1} or load={other.place + 1}")
