@@ -353,17 +353,21 @@ class Raw(unittest.TestCase):
             self.assertEqual(len(self.of_text(text).columns["load"]), len(rows))
 
     def test_what_a_spreadsheet_spoilt_is_refused(self):
-        for mark, other in (",.", ".,"):
-            for decimals in (4, 5, 6):
-                cells = [f"{0.1 + 0.0321 * i:.{decimals}f}".rstrip("0").rstrip(".") for i in range(200)]
-                shown = [f"{int(cell.replace('.', '')):,}" if cell[0] != "0" and len(cell.partition(".")[2]) > 2 else cell for cell in cells]
-                for column in (cells, shown):
-                    text = HEAD + "".join(f"{i};{cell.replace('.', mark)};1\n" if column is cells or "," not in cell
-                                          else f"{i};{cell.replace(',', mark)};1\n" for i, cell in enumerate(column))
-                    if column is cells:
-                        self.assertEqual(len(self.of_text(text).columns["load"]), 200)
-                    else:
-                        self.assertIn("a spreadsheet took decimals for thousands and moved the mark", self.refusal(self.written(text)))
+        """Of numbers with fixed decimals, with and without zeros behind them; numbers of four digits, of which 524.7 is and 1152, are sound."""
+        def of(cells, mark):
+            return HEAD + "".join(f"{i};{cell.replace(',', '.').replace('.', mark)};1\n" for i, cell in enumerate(cells))
+
+        values = [0.1 + 0.0321 * i for i in range(200)]
+        for mark in ",.":
+            for form in (".4f", ".5f", ".6f"):
+                for cells in ([f"{value:{form}}" for value in values], [f"{value:{form}}".rstrip("0").rstrip(".") for value in values]):
+                    self.assertEqual(len(self.of_text(of(cells, mark)).columns["load"]), 200)
+                    spoilt = [f"{int(cell.replace('.', '')):,}" if cell[0] != "0" and len(cell.partition(".")[2]) > 2 else cell for cell in cells]
+                    said = self.refusal(self.written(of(spoilt, mark)))
+                    self.assertIn("a spreadsheet took decimals for thousands and moved the mark", said)
+                    self.assertIn("row 32: Extension is 10", said)
+            for low, rise in ((0.01, 1.07), (524.7, 1.02), (-43.0, 1.01)):
+                self.assertEqual(len(self.of_text(of([f"{low * rise**i:.4g}" for i in range(140)], mark)).columns["load"]), 140)
 
     def test_options_have_a_form(self):
         for wrong in ("", "Zeit", "zeit=Zeit", "time=", "time=a,time=b", "Weg,time=a"):

@@ -76,23 +76,25 @@ def zero_set(times, s, load):
 
 def spoilt(cells, mark):
     """(place, number meant) of the first cell of a column whose decimals a spreadsheet took for thousands: it read 1,0272 as 10272, and
-    shows 10,272. None of a sound column, and of one with three digits behind every mark, which does not tell."""
-    digits = {len(cell.partition(mark)[2]) for cell in cells}
+    shows 10,272. None of a sound column, and of one with three digits behind every mark, which does not tell. It shows where digits
+    behind a 0 are more than three and all other cells have lost theirs, or where the column is smoother with its decimals back."""
+    digits, read = [len(cell.partition(mark)[2]) for cell in cells], [number(cell, mark) for cell in cells]
     bare = [bool(GROUPED[mark].fullmatch(cell)) or (cell.isdigit() and len(cell) > 3 and cell[0] != "0") for cell in cells]
-    if not any(bare) or digits <= {0, 3} or any(len(cell.partition(mark)[2]) > 3 and abs(number(cell, mark) or 0.0) >= 1.0
-                                                for cell, own in zip(cells, bare) if not own):
+    whole = [value is not None and abs(value) >= 1.0 for value in read]
+    if None in read or not any(bare) or {0, 3} >= {*digits} or any(n > 3 and b > a for n, a, b in zip(digits, bare, whole)):
         return None
-    read, meant = [number(cell, mark) for cell in cells], []
-    if None in read:
-        return None
+    meant = []
     for cell, own, value in zip(cells, bare, read):
-        whole = cell.replace(mark, "")
-        may = [float(whole[:k] + "." + whole[k:]) for k in range(len(whole), 1, -1)] + [float(whole[:1] + "." + whole[1:])] if own else []
+        plain = cell.replace(mark, "")
+        may = [int(plain) / 10.0**k for k in range(len(plain.lstrip("+-")))] if own else []
         near = meant[-1] if meant else value
         meant.append(min([value, *may], key=lambda other: abs(other - near)))
-    if sum(_steps(read)) <= ROUGHER * sum(_steps(meant)):
+    least = 10 ** max((n for n, big in zip(digits, whole) if not big), default=0)
+    lost = least > 1000 and all(own and abs(int(cell.replace(mark, ""))) >= least for cell, own, big in zip(cells, bare, whole) if big)
+    rough, smooth = (sum(_steps(column)) / (max(column) - min(column) or 1.0) for column in (read, meant))
+    if not lost and rough <= ROUGHER * smooth:
         return None
-    return next((i, b) for i, (a, b) in enumerate(zip(read, meant)) if not 0.5 * abs(b) < abs(a) < 2.0 * abs(b) and a != b)
+    return next(((i, b) for i, (a, b) in enumerate(zip(read, meant)) if not 0.5 * abs(b) < abs(a) < 2.0 * abs(b) and a != b), None)
 
 
 def _speeds(times, values):

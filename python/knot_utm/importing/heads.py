@@ -148,29 +148,26 @@ def head_by_numbers(rows, given, with_time):
     of numbers, where there are such. None where the columns are not given so."""
     wanted = given if with_time or given[TIME] else given[1:]
     places = [_number_in(text) - 1 for text in wanted]
-    if min(places) < 0:
+    tables = ((i, mark) for i, row in enumerate(rows) for mark in SEPARATORS
+              if all(place < len(cells) and is_number(cells[place]) for cells in [split(row, mark)] for place in places))
+    index, separator = next(tables, (None, "")) if min(places) >= 0 else (None, "")
+    if index is None:
         return None
-    for index, row in enumerate(rows):
-        for separator in SEPARATORS:
-            numbers = split(row, separator)
-            if not all(place < len(numbers) and is_number(numbers[place]) for place in places):
-                continue
-            head = Head([""] * len(numbers), index, separator, given)
-            head.names_row, head.first = None, index
-            for above in range(index - 1, max(index - 3, -1), -1):  # at most two rows of words, the upper one of names
-                cells = split_names(rows[above], separator)
-                own = [cells[place] if place < len(cells) else "0" for place in places]
-                if any(map(is_number, own)) or not any(own):
-                    break
-                has_units = QUANTITIES[LOAD].si(without_brackets(own[-1])) is not None
-                head.columns = Head(cells, above, separator, given).columns
-                head.first = above if has_units else above + 1
-                head.cells = max(head.cells, len(cells))
-                if not has_units:
-                    head.names_row = above
-                    break
-            return head
-    return None
+    head = Head([""] * len(split(rows[index], separator)), index, separator, given)
+    head.names_row, head.first = None, index
+    for above in range(index - 1, max(index - 3, -1), -1):  # at most two rows of words, the upper one of names
+        cells = split_names(rows[above], separator)
+        own = [cells[place] if place < len(cells) else "0" for place in places]
+        if any(map(is_number, own)) or not any(own):
+            break
+        has_units = QUANTITIES[LOAD].si(without_brackets(own[-1])) is not None
+        head.columns = Head(cells, above, separator, given).columns
+        head.first = above if has_units else above + 1
+        head.cells = max(head.cells, len(cells))
+        if not has_units:
+            head.names_row = above
+            break
+    return head
 
 
 def _number_in(given):

@@ -3,6 +3,7 @@
 Its form is that of the program linescaleGUI (src/logfile/logfile.cpp): the device, date, time, LogNo, Unit, Mode, RelZero, Speed, Trig, Stop,
 Pre, Catch and Total in a line each, and a load in each line behind them. Owners find the true rate 0.9 of the one that is said, with some
 firmwares (PyLS3, TimingCorrectionFactor)."""
+import math
 import re
 
 from knot_utm.errors import WrongInput
@@ -14,7 +15,7 @@ FORCE = QUANTITIES[2]
 
 
 def load_cell_of(text, file, rate):
-    """(times, loads, notes) of such a log; None of another file. `rate`: instead of that of the head, unless 0. Raises WrongInput."""
+    """([times, extensions, loads], notes) of such a log; None of another file. `rate`: instead of that of the head, unless 0. Raises WrongInput."""
     rows = [(i + 1, row.strip("\r\t ;,\"")) for i, row in enumerate(text.split("\n"))]
     said = [(i, found[1], found[2]) for i, row in rows[:40] if (found := KEY.fullmatch(row))]
     head = {key: value for _, key, value in said}
@@ -29,4 +30,5 @@ def load_cell_of(text, file, rate):
     notes = [f"{len(cells)} loads of a LineScale in {head['Unit']}, {rate or speed:g} a second, and no travel"]
     notes += [] if rate else [f"with some firmwares the true rate is 0.9 of that which the head says: --rate {0.9 * speed:g} takes that"]
     notes += [f"its loads are relative to {head.get('RelZero')} {head['Unit']}"] if head["Mode"] == "REL" else []
-    return [i / (rate or speed) for i in range(len(cells))], [number(cell, mark) * size for _, cell in cells], notes
+    loads = [number(cell, mark) * size for _, cell in cells]
+    return [[i / (rate or speed) for i in range(len(loads))], [math.nan] * len(loads), loads], notes

@@ -10,7 +10,7 @@ import re
 from knot_utm.importing.text import folded
 
 TIME = """
-    time;test time;total time;elapsed time;running time;machine time;x value
+    time;test time;total time;elapsed time;running time;machine time;time measurement;x value
     zeit;prüfzeit;pruefzeit;testzeit;versuchszeit;messzeit;laufzeit;czas;czas próby;czas badania;godzina
     temps;temps d'essai;durée;durée d'essai;tiempo;tiempo de ensayo;tiempo de prueba
     tempo;tempo di prova;tempo prova;tempo de ensaio;tijd;testtijd;proeftijd;čas;čas zkoušky;tid;zaman;süre;idő
@@ -41,7 +41,7 @@ TRAVEL = """
 
 LOAD = """
     load;force;standard force;test force;axial force;axial load;tensile force;tensile load
-    compressive load;compressive force;machine load;machine force;load cell
+    primary load measurement;compressive load;compressive force;machine load;machine force;load cell
     last;kraft;standardkraft;prüfkraft;pruefkraft;zugkraft;druckkraft;obciążenie;siła;siła standardowa
     charge;force standard;force d'essai;effort;carga;fuerza;fuerza estándar;fuerza de ensayo
     carico;forza;forza standard;forza di prova;força;força padrão;força de ensaio;kracht;standaardkracht;trekkracht;belasting

@@ -69,18 +69,16 @@ def read_record(file, reading=Reading()):
         raise WrongInput(f"cannot read {shown(file)}: {error.strerror.lower()}") from error
     require_text(content, file)
     texts = texts_of(content)
-    if found := load_cell_of(texts[0], file, reading.rate):
-        times, load, notes = found
-        none = [NAN] * len(load)
-        values = [times, none, load]
-        notes += _turned(values, reading.invert)
-        return Record(_columns(*values), UNITS, [f"{file}: {note}" for note in notes], False)
+    if log := load_cell_of(texts[0], file, reading.rate):
+        return _measured(file, *log, reading.invert)
     return _own_curve(content, texts[0], file) or _of_machine(texts, file, reading)
 
 
-def _columns(time, extension, load):
-    none = [NAN] * len(load)
-    return dict(zip(UNITS, [time, extension, load, none, none, none, ["pull"] * len(load), [0.0] * len(load)]))
+def _measured(file, values, notes, invert):
+    """A record of [times, extensions, loads], their signs as the user wants them."""
+    turned, count = _turned(values, invert), len(values[LOAD])
+    columns = [*values, *[[NAN] * count] * 3, ["pull"] * count, [0.0] * count]
+    return Record(dict(zip(UNITS, columns)), UNITS, [f"{file}: {note}" for note in [*notes, *turned]], False)
 
 
 def parsed_columns(text, option):
@@ -259,8 +257,7 @@ class _Table:
     def record(self, specimens, notes):
         values, counts = self._values()
         values = self._as_one(*self._without_spikes(*zip(*values)))
-        turned = _turned(values, self.reading.invert)
-        count = len(values[0])
+        count = len(values[LOAD])
         line = f"{count} reading{'s' if count > 1 else ''}"
         line += f" of specimen {self.reading.specimen} of {specimens}" if specimens > 1 else ""
         line += ": " + ", ".join(f"{QUANTITIES[i].name} is {self._described(i)}" for i, column in enumerate(self.columns) if column)
@@ -268,8 +265,7 @@ class _Table:
         line += "".join(f"; {what}: {number}" for what, number in counts.items() if number)
         compressed = [f"\"{shown(column.label)}\" is the name of a test in compression; its sign is kept"
                       for column in self.columns if column and column.base.startswith("compressi")]
-        notes = [line, *compressed, *notes, *self.notes, *turned]
-        return Record(_columns(*values), UNITS, [f"{self.file}: {note}" for note in notes], False)
+        return _measured(self.file, values, [line, *compressed, *notes, *self.notes], self.reading.invert)
 
     def _values(self):
         """[(row, time, extension, load)] in SI, and how many rows were left out."""

@@ -16,7 +16,7 @@ csv.field_size_limit(LARGEST)
 
 SAVE = ": save its table as CSV (comma-separated text) and give that file"
 EXPORT = ", and no text: export its raw data as text in the program that wrote it, and give that file"
-NO_TEXT = {b"TDSm": "a measurement file of LabVIEW (TDMS)" + EXPORT,
+NO_TEXT = {b"TDSm": "a measurement file of LabVIEW (TDMS)" + EXPORT, b"TDAT": "a test of Bluehill (id_tens and others)" + EXPORT,
            b"MATLAB 5.0": "a MAT-file" + EXPORT, b"\x89HDF": "an HDF5 file" + EXPORT,
            b"PK\x03\x04": "a workbook (xlsx, ods) or another zip archive, and no text" + SAVE,
            b"\xD0\xCF\x11\xE0": "an old workbook (xls), and no text" + SAVE,
