@@ -78,19 +78,19 @@ def spoilt(cells, mark):
     """(place, number meant) of the first cell of a column whose decimals a spreadsheet took for thousands: it read 1,0272 as 10272, and
     shows 10,272. None of a sound column, and of one with three digits behind every mark, which does not tell. It shows where digits
     behind a 0 are more than three and all other cells have lost theirs, or where the column is smoother with its decimals back."""
-    digits, read = [len(cell.partition(mark)[2]) for cell in cells], [number(cell, mark) for cell in cells]
+    digits = [len(cell.partition(mark)[2]) for cell in cells]
     bare = [bool(GROUPED[mark].fullmatch(cell)) or (cell.isdigit() and len(cell) > 3 and cell[0] != "0") for cell in cells]
+    plain = [int(cell.replace(mark, "")) if own else 0 for cell, own in zip(cells, bare)]
+    read = [a / 1e3 if own and mark in cell else number(cell, mark) for cell, own, a in zip(cells, bare, plain)]
     whole = [value is not None and abs(value) >= 1.0 for value in read]
     if None in read or not any(bare) or {0, 3} >= {*digits} or any(n > 3 and b > a for n, a, b in zip(digits, bare, whole)):
         return None
     meant = []
-    for cell, own, value in zip(cells, bare, read):
-        plain = cell.replace(mark, "")
-        may = [int(plain) / 10.0**k for k in range(len(plain.lstrip("+-")))] if own else []
-        near = meant[-1] if meant else value
-        meant.append(min([value, *may], key=lambda other: abs(other - near)))
+    for value, lost in zip(read, plain):
+        may = [lost / 10.0**k for k in range(len(str(abs(lost))))] if lost else []
+        meant.append(min([value, *may], key=lambda other: abs(other - (meant[-1] if meant else value))))
     least = 10 ** max((n for n, big in zip(digits, whole) if not big), default=0)
-    lost = least > 1000 and all(own and abs(int(cell.replace(mark, ""))) >= least for cell, own, big in zip(cells, bare, whole) if big)
+    lost = least > 1000 and all(abs(value) >= least for value, big in zip(plain, whole) if big)
     rough, smooth = (sum(_steps(column)) / (max(column) - min(column) or 1.0) for column in (read, meant))
     if not lost and rough <= ROUGHER * smooth:
         return None
