@@ -77,6 +77,7 @@ CASES = [
     ("spike.csv", {}, (60, (0, 0, 0), (6, 10, 14)), "row 20, whose extension of 5.4 mm lies far off"),
     ("mts793_blocks.dat", {}, (5, (1.25, 0.25, 12), (2.25, 3, 250)), "one test in 2 tables whose time goes on, with their names in rows 14 and 21"),
     ("mts793_blocks.dat", {}, (5, (1.25, 0.25, 12), (2.25, 3, 250)), "what stands below the names in row 27, such as extremes, is no part"),
+    ("mts793_blocks.dat", {"columns": "time=2,extension=5,load=4"}, (5, (1.25, 0.25, 12), (2.25, 3, 250)), "one test in 2 tables"),
     ("mts793_padded.dat", {}, (5, (0.1, 5, 1), (0.5, 5.4, 16)), 'extension is column 3 "Axial Displacement"'),
     ("wavematrix_colon.csv", {}, (4, (0, -76.88, 1.6), (0.03, -76.16, 121.6)), 'load is column 8 "Load(8800 (0,3):Load) (kN)"'),
     ("wavematrix_colon.csv", {"columns": "time=1,extension=10,load=8"}, (4, (0, -0.03, 1.6), (0.03, -0.027, 121.6)), "4 readings"),

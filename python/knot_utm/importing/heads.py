@@ -165,7 +165,7 @@ def head_by_numbers(rows, given, with_time):
         head.first = above if has_units else above + 1
         head.cells = max(head.cells, len(cells))
         if not has_units:
-            head.names_row = above
+            head.names_row, head.names = above, tuple(cells)
             break
     return head
 

@@ -163,16 +163,19 @@ class _Block:
 
 def _tables_from(rows, first, reading):
     """Tables below each other, each with names of its own, and rows of names of other quantities. Text between belongs to none."""
-    begins = [(first.names_row or 0, first)]
+    begins, latest = [(first.names_row or 0, first)], math.inf
     for row in range(first.first, len(rows) if first.names_row is not None else 0):
         cells = split(rows[row], first.separator)
-        if first.is_reading(cells) or not WORDS.search(rows[row]):
-            continue
-        head = head_in(rows[row], row, reading.columns, bool(first.columns[TIME]) and any(reading.columns))
-        words = [cell for cell in cells if cell]
-        is_apart = row > begins[-1][0] + 2 and not first.is_reading(split(rows[row - 1], first.separator))
-        if head or (is_apart and len(words) > 1 and not any(map(is_number, words))):
-            begins.append((row, head))
+        if first.is_reading(cells):
+            latest = row
+        elif WORDS.search(rows[row]):
+            head = head_in(rows[row], row, reading.columns, bool(first.columns[TIME]) and any(reading.columns))
+            # By numbers any row of words would name them.
+            is_named = head and (head.names == first.names or not any(map(str.isdigit, reading.columns)))
+            words = [] if any(map(is_number, cells)) else list(filter(None, cells))
+            if is_named or (latest < row - 1 and (head or (len(words) > 1 and not _goes_on(rows, first, latest, row)))):
+                begins.append((row, head if is_named else None))
+                latest = math.inf
     blocks, others = [], []
     for (row, head), (end, _) in zip(begins, [*begins[1:], (len(rows), None)]):
         while head and head.first < end < len(rows) and not head.is_reading(split(rows[end - 1], head.separator)):
@@ -180,6 +183,14 @@ def _tables_from(rows, first, reading):
         blocks += [_Block(rows, head, end)] if head else []
         others += [row] if head is None and any(is_number(split(line, first.separator)[0]) for line in rows[row:end] if line) else []
     return blocks, others
+
+
+def _goes_on(rows, head, latest, row):
+    """Whether readings behind a row of words continue those up to the row `latest`, so that it is one amid the record."""
+    cells = [split(line, head.separator) for line in (rows[latest], *rows[row + 1:row + 4])]
+    times = [own[head.places[0]] for own in cells if head.is_reading(own)]
+    mark = mark_of_decimals(times)[0] or declared_mark(rows) or "."
+    return len(times) > 1 and (not head.columns[TIME] or number(times[1], mark) >= number(times[0], mark))
 
 
 def _tests_of(blocks, others):
