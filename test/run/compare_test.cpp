@@ -118,7 +118,7 @@ TEST_F(Compare, ReadsLoadsOverTimeWhereThereIsNoTravel) {
   const Answer answer = compare("line.csv", "a.csv");
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text,
-              AllOf(HasSubstr("line.csv: the record has no travel"), HasSubstr("peak_force: {a: 5000, b: 100"),
+              AllOf(HasSubstr("line.csv: it has no travel"), HasSubstr("peak_force: {a: 5000, b: 100"),
                     HasSubstr("largest_drop: {a: 2000, b: 0"), HasSubstr("slips: {a: 2, b: 0"),
                     HasSubstr("peak_time: {a: 0.9, b: 10"), HasSubstr("plateau_force: {a: null, b: null")));
   EXPECT_THAT(compare("line.csv", "a.csv", "--rate 9").text, HasSubstr("peak_time: {a: 1, b: 10"));
