@@ -75,7 +75,8 @@ def balanced(record, file):
     rows = [row for row, phase in enumerate(record.columns["phase"]) if phase in PULLS]
     growth = max((s[row] - s[rows[0]] for row in rows), default=0.0)
     if not growth > 0.0:
-        raise WrongInput(f"{file}: nothing is pulled, so that --balance finds no zero: no reading has a larger extension than the first one")
+        raise WrongInput(f"{file}: {'there is no travel' if math.isnan(growth) else 'nothing is pulled'}, so that --balance finds no zero: no "
+                         "reading has a larger extension than the first one")
     begun = next(i for i, row in enumerate(rows) if s[row] > s[rows[0]] + MOVED * growth)
     first = max(i for i in range(begun) if s[rows[i]] <= s[rows[0]])
     last, rest = rows[first], []
