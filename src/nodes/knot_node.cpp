@@ -2,6 +2,7 @@
 #include "knot_utm/ros/knot_node.hpp"
 
 #include "knot_utm/ros/method_setup.hpp"
+#include "knot_utm/ros/process.hpp"
 
 namespace {
 

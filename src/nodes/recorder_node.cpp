@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "knot_utm/ros/method_setup.hpp"
+#include "knot_utm/ros/process.hpp"
 
 namespace {
 

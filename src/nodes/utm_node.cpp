@@ -4,8 +4,9 @@
 #include <cstdio>
 #include <map>
 
-#include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/method_setup.hpp"
+#include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/process.hpp"
 #include "knot_utm/words/number.hpp"
 
 namespace {
@@ -22,6 +23,11 @@ file sets (doc/ros.md).
 
 constexpr int kInvalidInput = 2;
 
+void require_pace(double factor, const std::string& text) {
+  if (!(factor >= 0.0))  // not-a-number is none either
+    throw knot_utm::InvalidInput("real_time_factor", text, "0 (as fast as possible) or more");
+}
+
 /// For launch/check, before there is a master: utm_node --check NAME:=VALUE..., with arguments of the launch file.
 int check(int argc, char** argv) {
   std::map<std::string, std::string> given;
@@ -32,8 +38,7 @@ int check(int argc, char** argv) {
   }
   try {
     const std::string factor = given["real_time_factor"];
-    if (!(knot_utm::parse_number(factor).value_or(-1.0) >= 0.0))
-      throw knot_utm::InvalidInput("real_time_factor", factor, "0 (as fast as possible) or more");
+    require_pace(knot_utm::parse_number(factor).value_or(-1.0), factor);
     knot_utm::set_up(knot_utm::read_words([&](const std::string& name) { return given[name]; }));
   } catch (const knot_utm::InvalidInput& invalid) {
     std::fprintf(stderr, "utm_node: %s\n", invalid.what());
@@ -46,10 +51,10 @@ int check(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc > 1 && argv[1] == std::string("--check")) return check(argc, argv);
-  std::string verdict;
+  std::string verdict, sim_time_found;
   const int code = knot_utm::run_node(argc, argv, "utm_node", kHelp, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "utm_node");
-    const knot_utm::SimTimeFound sim_time_found;
+    knot_utm::read_parameter(node, knot_utm::names::kSimTimeFound, &sim_time_found, "a text");
     const ros::NodeHandle own("~");
     knot_utm::UtmOptions options;
     knot_utm::read_parameter(own, "verdict", &verdict, "a file");
@@ -58,11 +63,10 @@ int main(int argc, char** argv) {
     knot_utm::read_parameter(own, "autostart", &options.autostart, "true or false");
     knot_utm::read_parameter(own, "record", &options.record, "true or false");
     knot_utm::read_parameter(own, "exit_at_end", &options.exit_at_end, "true or false");
-    if (!(options.real_time_factor >= 0.0))
-      throw knot_utm::InvalidInput("real_time_factor", std::to_string(options.real_time_factor),
-                                   "0 (as fast as possible) or more");
+    require_pace(options.real_time_factor, std::to_string(options.real_time_factor));
     return knot_utm::UtmNode(node, knot_utm::read_test_setup(node), options).spin();
   });
+  knot_utm::put_back_sim_time(sim_time_found);
   if (code == kInvalidInput) knot_utm::write_verdict(verdict, code, "");
   return code;
 }

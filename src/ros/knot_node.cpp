@@ -4,11 +4,11 @@
 
 #include "knot_utm/grips/grips.hpp"
 #include "knot_utm/program/phases.hpp"
-#include "knot_utm/ros/ask_master.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/process.hpp"
 #include "knot_utm/ros/urdf.hpp"
 #include "knot_utm/tying/tied_loop.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
@@ -76,8 +76,8 @@ void KnotNode::begin_specimen() {
                                  hung_weight(method_.specimen, method_.material),
                                  marks_of(method_.specimen, method_.program));
   show_.begin(method_, machine_.lower_grip(), machine_.state().position, machine_.rod().cuts);
-  const std::string urdf = machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip());
-  ask_master("setParam", {XmlRpc::XmlRpcValue(node_.resolveName(names::kRobotDescription)), XmlRpc::XmlRpcValue(urdf)});
+  set_parameter(node_.resolveName(names::kRobotDescription),
+                XmlRpc::XmlRpcValue(machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip())));
 
   info_.header.stamp = stamp_;
   info_.header.frame_id = names::kBaseFrame;
@@ -95,7 +95,7 @@ void KnotNode::on_command(const Crosshead::ConstPtr& command) {
   if (message.run != run_) {
     if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
     try {
-      const Method method = method_of(given_order(node_));
+      const Method method = given_order(node_).method;
       if (next_ != 0 || method_yaml(method) != method_yaml(method_)) put_in(method);
     } catch (const InvalidInput& invalid) {
       return refuse(message, invalid.what());

@@ -6,14 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "knot_utm/ros/ask_master.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/method_setup.hpp"
+#include "knot_utm/ros/process.hpp"
 #include "knot_utm/ros/run_bag.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
-#include "wall_time.hpp"
 
 namespace knot_utm {
 namespace {

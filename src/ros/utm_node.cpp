@@ -11,14 +11,13 @@
 
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
-#include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/process.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/summary.hpp"
 #include "knot_utm/settings/accuracy.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
-#include "wall_time.hpp"
 
 namespace knot_utm {
 namespace {
@@ -26,7 +25,12 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 using std::chrono::steady_clock;
 
-constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
+// How the machine publishes /clock and its health [s of the wall clock]
+constexpr double kClockPeriod = 0.002;    // shortest time between two messages of the clock
+constexpr double kIdleClockPeriod = 0.1;  // longest time between them
+constexpr double kHealthPeriod = 1.0;
+constexpr double kGoodbye = 0.3;  // for the last messages to leave before the node ends
+
 constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
 constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
 constexpr double kGapBetweenTests = 1.0;    // on /clock [s]
@@ -89,7 +93,7 @@ int UtmNode::spin() {
     if (may_advance()) advance();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock(true);
     if (seconds_since(status_published_) > kStatusPeriod && active()) publish_status();
-    if (seconds_since(diagnosed_) > kDiagnosticsPeriod) {
+    if (seconds_since(diagnosed_) > kHealthPeriod) {
       diagnosed_ = steady_clock::now();
       diagnostics_.force_update();
     }
@@ -144,8 +148,8 @@ std::string UtmNode::start(const StartTest::Request& request) {
     ProgramRunner program = make_program(method, longest_step);
     if (options_.record) require_no_record_in(setup.out, method);
     const std::string folder = options_.record ? free_folder(setup.out) : "";
-    if (!give_order(node_, order_of(method, setup.out))) return "the ROS master does not answer";
-    for (const std::string& line : setup.told) ROS_INFO("%s", line.c_str());
+    if (!give_order(node_, {method, setup.out})) return "the ROS master does not answer";
+    for (const std::string& line : setup.notices) ROS_INFO("%s", line.c_str());
     folder_ = folder;
     method_ = method;
     program_.emplace(std::move(program));

@@ -3,10 +3,10 @@
 
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/ros/process.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/number.hpp"
-#include "wall_time.hpp"
 
 namespace knot_utm {
 namespace {
