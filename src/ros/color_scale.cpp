@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/ros/base_marker.hpp"
-
 namespace knot_utm {
 namespace {
 
@@ -44,6 +42,15 @@ double rounded_up(double value) {
 }
 
 }  // namespace
+
+std_msgs::ColorRGBA color(double red, double green, double blue) {
+  std_msgs::ColorRGBA c;
+  c.r = static_cast<float>(red);
+  c.g = static_cast<float>(green);
+  c.b = static_cast<float>(blue);
+  c.a = 1.0f;
+  return c;
+}
 
 ColorScale ColorScale::of_tension(const Material& material, const LoadCellOptions& cell) {
   const double stretched = std::min(kLargestStrain * material.stretching_stiffness, cell.capacity);

@@ -73,6 +73,19 @@ void take(const From& from, PerKnot& to, const char* name) {
   to = PerKnot::of(from);
 }
 
+geometry_msgs::TransformStamped transform(const char* parent, const char* child, const Vec3& translation,
+                                          const ros::Time& stamp) {
+  geometry_msgs::TransformStamped t;
+  t.header.stamp = stamp;
+  t.header.frame_id = parent;
+  t.child_frame_id = child;
+  t.transform.translation.x = translation.x();
+  t.transform.translation.y = translation.y();
+  t.transform.translation.z = translation.z();
+  t.transform.rotation.w = 1.0;
+  return t;
+}
+
 }  // namespace
 
 ros::Time test_stamp(double start, double time) {
@@ -122,6 +135,14 @@ void put_motion(const MotionPatternTracker& motion, KnotState& message) {
   message.locked = static_cast<std::uint8_t>(motion.lock_extension().has_value());
 }
 
+geometry_msgs::Point to_point(const Vec3& place) {
+  geometry_msgs::Point point;
+  point.x = place.x();
+  point.y = place.y();
+  point.z = place.z();
+  return point;
+}
+
 KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius, const Crosshead& command) {
   KnotShape m;
   m.header.stamp = command.header.stamp;
@@ -129,13 +150,8 @@ KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, doubl
   m.run = command.run;
   m.sequence = command.sequence;
   m.radius = radius;
-  m.points.resize(static_cast<std::size_t>(points.cols()));
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    geometry_msgs::Point& point = m.points[static_cast<std::size_t>(i)];
-    point.x = points(0, i);
-    point.y = points(1, i);
-    point.z = points(2, i);
-  }
+  m.points.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) m.points.push_back(to_point(points.col(i)));
   m.tension.assign(tension.data(), tension.data() + tension.size());
   return m;
 }
@@ -175,6 +191,18 @@ sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sam
   m.velocity = {command.velocity};
   m.effort = {sample.load};
   return m;
+}
+
+Transforms fixed_frames(const Vec3& lower_grip, const ros::Time& stamp) {
+  return {transform(names::kWorldFrame, names::kBaseFrame, Vec3::Zero(), stamp),
+          transform(names::kBaseFrame, names::kLowerGripFrame, lower_grip, stamp),
+          transform(names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero(), stamp)};
+}
+
+Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const ros::Time& stamp) {
+  const Vec3 now = crosshead + Vec3(0.0, 0.0, displacement);
+  return {transform(names::kBaseFrame, names::kCrossheadFrame, now, stamp),
+          transform(names::kCrossheadFrame, names::kUpperGripFrame, upper_grip - now, stamp)};
 }
 
 }  // namespace knot_utm

@@ -11,8 +11,6 @@
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/process.hpp"
 #include "knot_utm/ros/run_bag.hpp"
-#include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/run/run_writer.hpp"
 
 namespace knot_utm {
 namespace {
@@ -26,9 +24,6 @@ constexpr double kStatusPeriod = 1.0;  // wall time between two messages of the 
 EndedBy ended_by_from_name(const std::string& name) { return ended_by_named(name).value_or(EndedBy::kNotYet); }
 
 }  // namespace
-
-RecorderNode::Run::Run(ClaimedFolder claimed_, const Method& method_)
-    : claimed(std::move(claimed_)), folder(claimed.path()), method(method_) {}
 
 RecorderNode::RecorderNode(const ros::NodeHandle& node) : node_(node), diagnostics_(node) {
   const auto machine_is_there = [this](bool is_there) {
@@ -47,31 +42,28 @@ RecorderNode::RecorderNode(const ros::NodeHandle& node) : node_(node), diagnosti
 int RecorderNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kLookPeriod));
-    if (run_ && !run_->complete && error_.empty()) finish_when_ready();
+    if (is_under_way()) finish_when_ready();
     const bool news =
         run_number_ != published_.run || is_complete() != (published_.complete != 0) || error_ != published_.error;
     const bool due = seconds_since(published_at_) > kStatusPeriod;
     if (news || due) publish_status();
     if (due) diagnostics_.force_update();
   }
-  if (run_ && !run_->complete && error_.empty()) finish_early();
+  if (is_under_way()) finish_early();
   return error_.empty() ? 0 : 1;
 }
 
 void RecorderNode::begin_run(const Crosshead& first) {
-  if (run_ && !run_->complete) {
-    finish(EndedBy::kOperator, "another test was started");
-  }
+  if (run_ && !run_->complete) finish(EndedBy::kOperator, "another test was started");
   run_.reset();
   run_number_ = first.run;
   const TestOrder order = given_order(node_);
-  const Method method = method_of(order);
-  require_no_record_in(order.out, method);
-  ClaimedFolder claimed = ClaimedFolder::first_free(order.out);
-  if (claimed.path() != order.out) ROS_WARN("%s", moved_notice(order.out, claimed.path()).c_str());
-  begin_run_folder(claimed.path(), method);
-  run_ = std::make_unique<Run>(std::move(claimed), method);
-  run_->samples.emplace(run_->folder);
+  require_no_record_in(order.out, order.method);
+  ClaimedFolder folder = ClaimedFolder::first_free(order.out);
+  if (folder.path() != order.out) ROS_WARN("%s", moved_notice(order.out, folder.path()).c_str());
+  begin_run_folder(folder.path(), order.method);
+  run_ = Run{std::move(folder), order.method};
+  run_->samples.emplace(run_->folder.path());
 }
 
 void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
@@ -139,7 +131,7 @@ void RecorderNode::make_files(const std::string& bag_name, ResultsOptions option
     bag = std::make_unique<RunBag>((fs::path(folder) / bag_name).string(), method);
     return FurtherWriter{[&](const Record& record) { bag->add(record); }, [&] { bag->close(); }};
   };
-  const MadeResults made = make_results(run.folder, run.method, options);
+  const MadeResults made = make_results(run.folder.path(), run.method, options);
   run.rows = made.rows;
   run.full_rows = made.full_rows;
   run.bag_messages = bag->messages();
@@ -153,14 +145,14 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason) {
   } catch (const std::exception& error) {
     return fail(error.what());
   }
-  ROS_INFO("%zu readings were written to %s", run.rows, run.folder.c_str());
-  point_latest_to(run.folder);
+  ROS_INFO("%zu readings were written to %s", run.rows, run.folder.path().c_str());
+  point_latest_to(run.folder.path());
   run.complete = true;
 }
 
 void RecorderNode::fail(const std::string& why) {
   error_ = why;
-  if (run_) error_ += what_stands(run_->folder);
+  if (run_) error_ += what_stands(run_->folder.path());
   ROS_ERROR("%s", error_.c_str());
 }
 
@@ -169,7 +161,7 @@ bool RecorderNode::save(std::string& said) {
     said = "there is nothing to save yet";
     return false;
   }
-  if (!run_->complete && error_.empty()) {
+  if (is_under_way()) {
     try {
       ResultsOptions options;
       options.without_end.reason = "saved while the test was running";
@@ -178,7 +170,7 @@ bool RecorderNode::save(std::string& said) {
       fail(error.what());
     }
   }
-  said = error_.empty() ? "saved to " + run_->folder : error_;
+  said = error_.empty() ? "saved to " + run_->folder.path() : error_;
   return error_.empty();
 }
 
@@ -193,7 +185,7 @@ void RecorderNode::publish_status() {
     status.curve_rows = run_->rows;
     status.full_rows = run_->full_rows;
     status.bag_messages = run_->bag_messages;
-    status.directory = run_->folder;
+    status.directory = run_->folder.path();
   }
   published_ = status;
   published_at_ = Clock::now();
@@ -210,7 +202,7 @@ void RecorderNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
     status.summary(DiagnosticStatus::OK, run_ ? "recording" : "nothing to record yet");
   }
   if (!run_) return;
-  status.add("folder", run_->folder);
+  status.add("folder", run_->folder.path());
   status.add("commands recorded", run_->recorded);
   status.add("rows", run_->rows);
   status.add("rows of time steps", run_->full_rows);

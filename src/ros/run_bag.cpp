@@ -21,13 +21,13 @@ constexpr char kTf[] = "tf";
 
 }  // namespace
 
-RunBag::RunBag(const std::string& file, const Method& method, const Centreline& drawn)
+RunBag::RunBag(const std::string& file, const Method& method, const Centreline& centreline)
     : bag_(file),
       method_(method_yaml(method)),
       radius_(method.material.radius),
-      cuts_(drawn.cuts),
-      grips_(method.specimen, method.machine, drawn, method.material),
-      frames_(grips_.lower(), method.specimen.end_to_end),
+      cuts_(centreline.cuts),
+      grips_(method.specimen, method.machine, centreline, method.material),
+      crosshead_(grips_.lower() + Vec3(0.0, 0.0, method.specimen.end_to_end)),
       picture_(method.specimen, method.machine, method.material),
       motion_(rollers_hold(method.specimen, method.machine), 0.0, marks_of(method.specimen, method.program)) {}
 
@@ -87,7 +87,8 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   // On a compliant frame the grip goes less far than the crosshead.
   const Vec3 upper_grip = grips_.upper(sample.end_to_end - grips_.end_to_end(0.0));
   tf2_msgs::TFMessage frames;
-  for (const Transforms& some : {frames_.fixed(stamp), frames_.moving(stamp, sample.displacement, upper_grip)})
+  for (const Transforms& some :
+       {fixed_frames(grips_.lower(), stamp), moving_frames(crosshead_, sample.displacement, upper_grip, stamp)})
     frames.transforms.insert(frames.transforms.end(), some.begin(), some.end());
   bag_.write(kTf, stamp, frames);
   const SceneView view{record.shape, record.tension, {}, grips_.lower(), upper_grip, sample, stamp};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
@@ -57,8 +58,8 @@ void Show::apply() {
 }
 
 void Show::begin(const Method& method, const Vec3& lower_grip, const Points& points, const std::vector<int>& cuts) {
-  frames_.emplace(lower_grip, method.specimen.end_to_end);
-  fixed_.sendTransform(frames_->fixed(ros::TIME_MIN));
+  crosshead_ = lower_grip + Vec3(0.0, 0.0, method.specimen.end_to_end);
+  fixed_.sendTransform(fixed_frames(lower_grip, ros::TIME_MIN));
   picture_.emplace(method.specimen, method.machine, method.material);
   if (points.cols() > 0) picture_->begin(points, cuts);
   apply();
@@ -81,7 +82,7 @@ void Show::publish_frames(const SceneView& view) {
   if (valid <= published_) return;
   published_ = valid;
   tf2_msgs::TFMessage message;
-  message.transforms = frames_->moving(valid, view.sample.displacement, view.upper_grip);
+  message.transforms = moving_frames(crosshead_, view.sample.displacement, view.upper_grip, valid);
   moving_.publish(message);
 }
 

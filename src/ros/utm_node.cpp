@@ -31,9 +31,9 @@ constexpr double kIdleClockPeriod = 0.1;  // longest time between them
 constexpr double kHealthPeriod = 1.0;
 constexpr double kGoodbye = 0.3;  // for the last messages to leave before the node ends
 
-constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
-constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
-constexpr double kGapBetweenTests = 1.0;    // on /clock [s]
+constexpr double kCatchUp = 0.1;           // wall time that is made up for after a slow step [s]
+constexpr double kLongestPause = 86400.0;  // between two commands, however slow the pace asked for [s]
+constexpr double kGapBetweenTests = 1.0;   // on /clock [s]
 constexpr std::uint32_t kJointStates = 1000;
 
 steady_clock::duration to_duration(double seconds) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotRecord.h>
@@ -10,6 +12,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/numeric/points.hpp"
@@ -34,6 +37,8 @@ Sample from_message(const KnotState& message);
 /// Enters the motion pattern so far into a message.
 void put_motion(const MotionPatternTracker& motion, KnotState& message);
 
+geometry_msgs::Point to_point(const Vec3& place);
+
 /// The rod after a command.
 KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius, const Crosshead& command);
 Points points_from_message(const KnotShape& message);
@@ -44,5 +49,12 @@ geometry_msgs::WrenchStamped to_wrench(const Sample& sample, const ros::Time& st
 
 /// The crosshead as a prismatic joint: displacement [m], velocity [m/s], load [N].
 sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sample, const ros::Time& stamp);
+
+/// The frames of a test, all with the axes of `world`: world -> utm_base -> lower_grip, and utm_base -> crosshead ->
+/// upper_grip -> load_cell. The second ones move. `crosshead`: where it stood at the beginning of the test, above the
+/// lower grip by the distance of the grips [m].
+using Transforms = std::vector<geometry_msgs::TransformStamped>;
+Transforms fixed_frames(const Vec3& lower_grip, const ros::Time& stamp);
+Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const ros::Time& stamp);
 
 }  // namespace knot_utm

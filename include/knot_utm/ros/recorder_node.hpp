@@ -7,7 +7,6 @@
 #include <ros/ros.h>
 
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -39,17 +38,15 @@ class RecorderNode {
 
   /// The test that is being written.
   struct Run {
-    Run(ClaimedFolder claimed_, const Method& method_);
-    ClaimedFolder claimed;
-    std::string folder;
+    ClaimedFolder folder;
     Method method;
-    std::optional<SamplesWriter> samples;
+    std::optional<SamplesWriter> samples{};
     std::size_t rows = 0, full_rows = 0;  ///< of the curves
     std::uint64_t bag_messages = 0;       ///< of the bag, once it is written
     std::uint64_t recorded = 0;           ///< number of records written: the sequence number of the next
-    Points shape;                         ///< the latest
+    Points shape{};                       ///< the latest
     bool is_shaped = false;               ///< that shape is the one of the last record
-    ros::Time stamp;                      ///< stamp of the last record
+    ros::Time stamp{};                    ///< stamp of the last record
     Clock::time_point begin = Clock::now();
     bool failed = false;  ///< the last answer reports that the simulation failed
     bool complete = false;
@@ -67,13 +64,14 @@ class RecorderNode {
   void make_files(const std::string& bag_name, ResultsOptions options);
   void fail(const std::string& why);
   bool is_complete() const { return run_ && run_->complete; }
+  bool is_under_way() const { return run_ && !run_->complete && error_.empty(); }
   bool test_has_ended() const { return test_.state == TestStatus::ENDED && test_.run == run_number_; }
   void publish_status();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
   std::uint32_t run_number_ = 0;
-  std::unique_ptr<Run> run_;   ///< null before the first record
+  std::optional<Run> run_;     ///< empty before the first record
   TestStatus test_;            ///< the latest
   bool machine_died_ = false;  ///< its connection broke
   Clock::time_point died_at_;  ///< when the machine or the physics died, if one has

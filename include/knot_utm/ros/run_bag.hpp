@@ -9,7 +9,6 @@
 #include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
-#include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/run/samples.hpp"
 #include "knot_utm/settings/step_settings.hpp"
@@ -36,7 +35,7 @@ class RunBag {
   std::uint64_t messages() const { return bag_.messages(); }  ///< number of messages written so far
 
  private:
-  RunBag(const std::string& file, const Method& method, const Centreline& drawn);
+  RunBag(const std::string& file, const Method& method, const Centreline& centreline);
   void add_reading(const Sample& reading, const ros::Time& answered);
   void begin(const ros::Time& stamp, const Points& shape);
   void add_status(const Record& record, const ros::Time& stamp);
@@ -47,7 +46,7 @@ class RunBag {
   double radius_;          ///< [m]
   std::vector<int> cuts_;  ///< edges between one rope and the next
   Grips grips_;
-  MachineFrames frames_;
+  Vec3 crosshead_;  ///< at the beginning of the test [m]
   ScenePicture picture_;
   bool begun_ = false;
   bool broken_ = false;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
 
 namespace knot_utm {
@@ -41,8 +40,8 @@ class Show {
 
   std::function<SceneView()> latest_;
   std::optional<ViewConfig> view_;
-  std::optional<MachineFrames> frames_;  ///< empty, as the next one: before the first specimen
-  std::optional<ScenePicture> picture_;
+  Vec3 crosshead_ = Vec3::Zero();        ///< at the beginning of the test [m]
+  std::optional<ScenePicture> picture_;  ///< empty: before the first specimen
   bool is_old_ = true;
   std::uint32_t viewers_ = 0;
   ros::Time published_;  ///< stamp of the last moving frames
