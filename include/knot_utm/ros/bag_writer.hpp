@@ -16,8 +16,23 @@ namespace knot_utm {
 /// rosbag::Bag does.
 class BagWriter {
  public:
-  explicit BagWriter(const std::string& file);
-  ~BagWriter();
+  explicit BagWriter(const std::string& file) : file_(file) {
+    constexpr std::uint32_t kChunk =
+        64 * 1024;  // small enough to be read in pieces, large enough for few chunks [bytes]
+    try {
+      bag_ = std::make_unique<rosbag::Bag>(file_, rosbag::bagmode::Write);
+    } catch (const rosbag::BagException&) {
+      throw CannotWrite(file_);
+    }
+    bag_->setChunkThreshold(kChunk);
+  }
+  ~BagWriter() {
+    try {
+      close();
+    } catch (const std::runtime_error&) {
+      // Who wants to know closes it.
+    }
+  }
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
@@ -44,7 +59,18 @@ class BagWriter {
     write(topic, stamp, message, header);
   }
 
-  void close();  ///< writes the index, without which the file cannot be read
+  /// Writes the index, without which the file cannot be read.
+  void close() {
+    if (!bag_) return;
+    try {
+      bag_->close();
+      bag_.reset();
+    } catch (const rosbag::BagException&) {
+      // Its destructor would try once more, and end the process.
+      static_cast<void>(bag_.release());
+      throw CannotWrite(file_);
+    }
+  }
 
   std::uint64_t messages() const { return messages_; }  ///< number of messages written so far
 
