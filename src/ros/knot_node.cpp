@@ -1,14 +1,26 @@
-#include "knot_utm/ros/knot_node.hpp"
+// The simulation as a node.
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <knot_utm/Crosshead.h>
+#include <knot_utm/KnotRecord.h>
+#include <knot_utm/SpecimenInfo.h>
+#include <knot_utm/TestStatus.h>
+#include <ros/ros.h>
 
 #include <algorithm>
+#include <string>
 
+#include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/grips/grips.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/nodes.hpp"
 #include "knot_utm/ros/process.hpp"
+#include "knot_utm/ros/show.hpp"
 #include "knot_utm/ros/urdf.hpp"
 #include "knot_utm/tying/tied_loop.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
@@ -24,7 +36,55 @@ TestingMachine make_bench(const Method& method) {
   return TestingMachine(method.specimen, method.material, method.machine, method.physics);
 }
 
-}  // namespace
+constexpr char kKnotNodeHelp[] = R"(The physics: answers each command of utm_node with forces and shape.
+It is a part of: roslaunch knot_utm tighten.launch. It reads the test from the parameters test/..., which the launch
+file sets (doc/ros.md).
+
+  _marker_rate:=NUMBER        most pictures per second for rviz [25]
+  _color_by:=WORD             what the colours of the rod show, tension or curvature [tension]
+  _contact_forces:=FLAG       shows them in the picture [true]
+)";
+
+/// The simulation as a node. It answers each command with the state of the same sequence number and stamp. Command 0 of
+/// a new test begins with a new specimen, which is that of the test's order (method_setup.hpp). A command out of order,
+/// as when the specimen was reset during a test, is answered with a failure. Only commands of the machine's node are
+/// accepted.
+class KnotNode {
+ public:
+  KnotNode(const ros::NodeHandle& node, const Method& method);
+
+ private:
+  void on_command(const Crosshead::ConstPtr& command);
+  void on_status(const TestStatus::ConstPtr& ended);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  void put_in(const Method& method);  ///< puts in a new specimen; throws InvalidInput, and then the last one stays
+  void begin_specimen();
+  void answer(const Crosshead& message);
+  void refuse(const Crosshead& message, const std::string& why);
+  void publish(const KnotRecord& record);
+  void put_shape(KnotRecord& record) const;
+  SceneView view() const;
+
+  ros::NodeHandle node_;
+  Method method_;  ///< method of the present specimen
+  TestingMachine machine_;
+  SpecimenInfo info_;
+  std::uint32_t run_ = 0;        ///< number of the present test; 0: there is none
+  std::uint64_t next_ = 0;       ///< sequence number of the next command
+  Crosshead last_;               ///< the last command
+  Sample sample_;                ///< the last answer
+  MotionPatternTracker motion_;  ///< motion pattern of this specimen
+  ros::Time stamp_;              ///< stamp of the last answer
+  Sample diagnosed_;             ///< the answer at the last diagnosis
+  Show show_;
+
+  ros::Publisher state_, record_, load_cell_, shape_, specimen_;
+  ros::Subscriber commands_, status_;
+  ros::ServiceServer reset_;
+  ros::SteadyTimer diagnostics_timer_;
+  diagnostic_updater::Updater diagnostics_;
+};
 
 KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
     : node_(node),
@@ -205,6 +265,17 @@ void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("contacts", sample_.contacts);
   status.add("deepest contact [fraction of radius]", sample_.max_penetration);
   diagnosed_ = sample_;
+}
+
+}  // namespace
+
+int run_knot_node(int argc, char** argv) {
+  return run_node(argc, argv, names::kKnotNode, kKnotNodeHelp, [&] {
+    const ros::NodeHandle node = join_ros(argc, argv, names::kKnotNode);
+    const KnotNode knot(node, read_test_setup(node).method);
+    ros::spin();
+    return 0;
+  });
 }
 
 }  // namespace knot_utm
