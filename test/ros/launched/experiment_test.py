@@ -43,7 +43,7 @@ class ExperimentTest(unittest.TestCase):
             from sensor_msgs.msg import Image
             rospy.init_node('experiment_test', disable_signals=True)
             panels = client.Latest('view/panel', Image)
-            panels.wait('both curves', lambda image: client.drawn(image, OURS) and client.drawn(image, MEASURED))
+            panels.wait('both curves', lambda image: client.shows(image, OURS) and client.shows(image, MEASURED))
             wait_for('the result', lambda: os.path.exists(launch.out + '/result.yaml'))
             self.assertEqual(launch.result('ended_by'), 'program')
             rows = list(csv.DictReader(launch.text('curve.csv').splitlines()))[1:]
