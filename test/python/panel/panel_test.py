@@ -172,18 +172,24 @@ class ReadingsTest(unittest.TestCase):
 
 class DrawingTest(unittest.TestCase):
 
-    def assert_legible(self, drawing):
-        renderer = drawing.canvas.get_renderer()
-        boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in texts_of(drawing)]
+    def setUp(self):
+        self.drawing = Drawing()
+
+    def texts(self, readings):
+        """The texts of a picture of these, each of which lies within it and apart from the others."""
+        self.drawing.draw(readings)
+        renderer = self.drawing.canvas.get_renderer()
+        boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in texts_of(self.drawing)]
         self.assertGreater(len(boxes), 10)
         for text, box in boxes:
             self.assertTrue(box.x0 >= 0 and box.y0 >= 0 and box.x1 <= WIDTH and box.y1 <= HEIGHT, (text, box))
         for (one, a), (other, b) in itertools.combinations(boxes, 2):
             apart = a.x1 <= b.x0 or b.x1 <= a.x0 or a.y1 <= b.y0 or b.y1 <= a.y0
             self.assertTrue(apart, '"%s" lies over "%s"' % (one, other))
+        return [text for text, _ in boxes]
 
     def test_before_anything_is_known(self):
-        self.assertEqual(Drawing().draw(Readings()).shape, (HEIGHT, WIDTH, 3))
+        self.assertEqual(self.drawing.draw(Readings()).shape, (HEIGHT, WIDTH, 3))
 
     def test_texts_lie_within_the_picture_and_apart(self):
         for loads, fields, full in (([0.0], {}, 5000.0),
@@ -196,54 +202,42 @@ class DrawingTest(unittest.TestCase):
                 readings = Readings()
                 readings.take_method({'material': {'name': 'polypropylene'}, 'specimen': {'knot': 'fisherman'}})
                 readings.bar = color_bar(full)
-                drawing = Drawing()
-                drawing.draw(pull(readings, loads, step=0.04, **fields))
-                self.assert_legible(drawing)
+                self.texts(pull(readings, loads, step=0.04, **fields))
+
+    def test_axes_before_the_pull_do_not_end_at_a_metre(self):
+        readings = Readings()
+        readings.bar = color_bar()
+        self.assertIn('10', self.texts(pull(readings, [0.0, 0.3], step=0.0, phase='tie')))
 
     def test_small_loads_have_axes_of_their_own(self):
         readings = pull(pull(Readings(), [0.0, 4.0, 6.0, 6.5]), [500.0, 6352.8], begin=10.0, locked=True)
         readings.bar = color_bar()
         readings.take_status(status(state=ENDED, ended_by='extension'))
-        drawing = Drawing()
-        picture = drawing.draw(readings).copy()
-        self.assert_legible(drawing)
-        texts = [text.get_text() for text in texts_of(drawing)]
+        texts = self.texts(readings)
         self.assertTrue({'load [N]', 'small loads [N]', 'extension [mm]', 'ended by extension'} <= set(texts), texts)
         self.assertEqual(texts.count('extension [mm]'), 1)
+        before = self.drawing.draw(readings).copy()
         readings.take_state(20.0, state(time=20.0, status=BROKEN, highest_load=7000.0))
-        self.assertTrue((drawing.draw(readings) != picture).any())
-        self.assertIn('grey: of a rod that has parted no tension is known', [text.get_text() for text in texts_of(drawing)])
-        self.assert_legible(drawing)
+        self.assertIn('grey: of a rod that has parted no tension is known', self.texts(readings))
+        self.assertTrue((self.drawing.draw(readings) != before).any())
 
     def test_with_a_measured_curve(self):
         readings = pull(Readings(), [0.0, 10.0])
         readings.bar = color_bar()
-        drawing = Drawing()
         for stamp in (20.0, 21.0):
             readings.take_measured_extension(stamp, 0.001 * stamp)
             readings.take_measured_load(stamp, 30.0)
-        drawing.draw(readings)
-        self.assertTrue({'simulated', 'measured', '30'} <= {text.get_text() for text in texts_of(drawing)})
-        self.assert_legible(drawing)
+        self.assertLessEqual({'simulated', 'measured', '30'}, set(self.texts(readings)))
 
     def test_what_changes_is_drawn_anew_without_the_rest(self):
-        drawing = Drawing()
         readings = pull(Readings(), [0.0, 3.0, 5.0])
-        before = drawing.draw(readings).copy()
+        before = self.drawing.draw(readings).copy()
         readings.take_state(1.2, state(time=1.2, phase='hold'))
-        after = drawing.draw(readings)
+        after = self.drawing.draw(readings)
         rows = (before != after).any(axis=(1, 2)).nonzero()[0]
         self.assertGreater(len(rows), 0)
         self.assertLess(rows.max(), HEIGHT // 2)  # in the table only
-        self.assertTrue((drawing.draw(readings) == after).all())
-
-    def test_axes_before_the_pull_do_not_end_at_a_metre(self):
-        drawing = Drawing()
-        readings = Readings()
-        readings.bar = color_bar()
-        drawing.draw(pull(readings, [0.0, 0.3], step=0.0, phase='tie'))
-        self.assertIn('10', [text.get_text() for text in texts_of(drawing)])
-        self.assert_legible(drawing)
+        self.assertTrue((self.drawing.draw(readings) == after).all())
 
 
 class PanelNodeTest(unittest.TestCase):
