@@ -68,10 +68,10 @@ double ColorScale::place(double value) const {
 
 double ColorScale::lowest() const { return what_ == ColorBy::kTension ? place(-kCompression * full_) : 0.0; }
 
-std_msgs::ColorRGBA ColorScale::color(double value) const {
-  const double x = place(value);
-  if (x >= 0.0) return tension_color(x);
-  return tension_color(std::max(x / std::abs(place(-kCompression * full_)), -1.0));
+std_msgs::ColorRGBA ColorScale::color(double value) const { return at(place(value)); }
+
+std_msgs::ColorRGBA ColorScale::at(double place) const {
+  return tension_color(place < 0.0 ? std::max(place / std::abs(lowest()), -1.0) : place);
 }
 
 ColorBar ColorScale::bar() const {
@@ -85,10 +85,7 @@ ColorBar ColorScale::bar() const {
     bar.ticks = {0.0, 0.25 * full_, 0.5 * full_, 0.75 * full_, full_};
   }
   for (const double tick : bar.ticks) bar.places.push_back((place(tick) - lowest()) / (1.0 - lowest()));
-  for (int i = 0; i < kColors; ++i) {
-    const double x = lowest() + (1.0 - lowest()) * i / (kColors - 1);
-    bar.colors.push_back(tension_color(x < 0.0 ? x / -lowest() : x));
-  }
+  for (int i = 0; i < kColors; ++i) bar.colors.push_back(at(lowest() + (1.0 - lowest()) * i / (kColors - 1)));
   return bar;
 }
 

@@ -59,56 +59,47 @@ void for_each(const rosbag::Bag& bag, const std::string& topic, Take take) {
   }
 }
 
-/// A reading and the test that it belongs to, as its command numbers them.
-struct Reading {
-  CurveRow row;
-  std::uint32_t run = 0;
-};
-
 /// The readings of each test, one after the other. Tests of one number differ in that their time begins anew.
-std::vector<std::vector<CurveRow>> tests_of(const std::vector<Reading>& readings) {
-  std::vector<std::vector<CurveRow>> out;
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const bool goes_on = i > 0 && readings[i].run == readings[i - 1].run &&
-                         (out.back().size() < 2 || readings[i].row.time > out.back().front().time);
-    if (!goes_on) out.emplace_back();
-    out.back().push_back(readings[i].row);
-  }
-  return out;
-}
-
-std::vector<Reading> readings_of(const rosbag::Bag& bag) {
+std::vector<std::vector<CurveRow>> tests_in(const rosbag::Bag& bag) {
   const std::string load_cell = required_topic(bag, names::kLoadCell);
   const std::string crosshead = required_topic(bag, names::kCrosshead);
-  const std::string state = topic_named(bag, names::kKnotState);
-  std::map<ros::Time, Reading> at;
+  struct Place {
+    CurveRow row;
+    std::uint32_t run = 0;
+  };
+  std::map<ros::Time, Place> at;
   for_each<Crosshead>(bag, crosshead, [&](const Crosshead& message) {
     const Command command = from_message(message);
-    Reading& reading = at[message.header.stamp];
-    reading.run = message.run;
-    CurveRow& row = reading.row;
+    CurveRow row;
     row.time = command.time;
     row.extension = command.displacement;
     row.phase = command.phase;
     row.end_to_end = row.load_lower = Sample::kNone;
+    at[message.header.stamp] = {row, message.run};
   });
-  for_each<KnotState>(bag, state, [&](const KnotState& message) {
+  for_each<KnotState>(bag, topic_named(bag, names::kKnotState), [&](const KnotState& message) {
     at[message.header.stamp] = {curve_row(from_message(message)), message.run};
   });
-  std::vector<Reading> out;
+  std::vector<std::vector<CurveRow>> tests;
+  std::uint32_t run = 0;
   for_each<geometry_msgs::WrenchStamped>(bag, load_cell, [&](const geometry_msgs::WrenchStamped& message) {
     const auto found = at.find(message.header.stamp);
     if (found == at.end())
       throw InvalidInput::sentence(
           "topic " + load_cell, "a reading on topic " + shown(load_cell) + " has no command with the same time stamp");
-    out.push_back(found->second);
-    out.back().row.load = message.wrench.force.z;
+    Place reading = found->second;
+    reading.row.load = message.wrench.force.z;
+    const bool goes_on = !tests.empty() && reading.run == run &&
+                         (tests.back().size() < 2 || reading.row.time > tests.back().front().time);
+    if (!goes_on) tests.emplace_back();
+    tests.back().push_back(reading.row);
+    run = reading.run;
   });
-  return out;
+  return tests;
 }
 
 std::vector<CurveRow> rows_of(const rosbag::Bag& bag, int wanted) {
-  std::vector<std::vector<CurveRow>> tests = tests_of(readings_of(bag));
+  std::vector<std::vector<CurveRow>> tests = tests_in(bag);
   if (tests.empty() && wanted <= 1) return {};
   const std::string all = std::to_string(tests.size());
   if (wanted == 0 && tests.size() > 1)

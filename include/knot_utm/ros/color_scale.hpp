@@ -39,6 +39,7 @@ class ColorScale {
  private:
   ColorScale(ColorBy what, double full) : what_(what), full_(full) {}
   double lowest() const;  ///< place of the lower end of the bar
+  std_msgs::ColorRGBA at(double place) const;
 
   ColorBy what_;
   double full_;
