@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """scripts/tighten and the launch files as a user meets them: arguments, exit codes, what is said and what is written."""
 import os
-import pty
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -39,21 +39,9 @@ LINE = re.compile(r'\r(\w+) +[\d.]+ %  s +[-\d.]+ mm  F +\S+ N +\S+ x real time 
 
 def on_terminal(*command, **environment):
     """What a command says on one."""
-    ours, its = pty.openpty()
-    process = subprocess.Popen(command, stdin=its, stdout=its, stderr=its, env=dict(os.environ, **environment), start_new_session=True)
-    os.close(its)
-    said = b''
-    while True:
-        try:
-            part = os.read(ours, 65536)
-        except OSError:  # so ends a terminal
-            break
-        said += part
-        if not part:
-            break
-    os.close(ours)
-    process.wait(LAST_RESORT)
-    return said.decode('utf-8', 'replace')
+    run = subprocess.run(['script', '-qfc', shlex.join(command), '/dev/null'], env=dict(os.environ, **environment), check=False,
+                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, timeout=LAST_RESORT)
+    return run.stdout.decode('utf-8', 'replace')
 
 
 class TightenTest(unittest.TestCase):
