@@ -6,7 +6,6 @@
 #include <std_msgs/String.h>
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "knot_utm/ros/conversions.hpp"
@@ -15,7 +14,6 @@
 #include "knot_utm/ros/process.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/run/summary.hpp"
 #include "knot_utm/settings/accuracy.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
 #include "knot_utm/words/number.hpp"
@@ -55,8 +53,6 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
     : node_(node),
       launched_(launched.words),
       options_(options),
-      progress_(std::make_unique<ProgressLine>(stderr)),
-      factor_(std::numeric_limits<double>::quiet_NaN()),
       actions_(
           node, without_timer(node), [this](const Actions::GoalHandle& goal) { on_goal(goal); },
           [this](const Actions::GoalHandle& goal) { on_cancel(goal); }, false),
@@ -79,8 +75,6 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
   publish_method(launched.method);
   publish_status();
 }
-
-UtmNode::~UtmNode() = default;
 
 int UtmNode::spin() {
   while (ros::ok()) {
@@ -214,7 +208,7 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   motion_pattern_ = state.motion_pattern;
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
   waiting_ = false;
-  progress_->show(sample_, *program_, seconds_since(run_began_));
+  progress_.show(sample_, *program_, seconds_since(run_began_));
   now_ = state.header.stamp;
   publish_clock(false);
   if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
@@ -264,7 +258,7 @@ void UtmNode::send(const Command& command) {
 
 void UtmNode::end() {
   state_ = State::kEnded;
-  progress_->end();
+  progress_.end();
   if (program_->reason().empty()) {
     ROS_INFO("the test ended by %s", ended_by_name(program_->ended_by()));
   } else {

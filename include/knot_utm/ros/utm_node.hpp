@@ -14,7 +14,7 @@
 #include <ros/ros.h>
 
 #include <chrono>
-#include <memory>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,10 +22,9 @@
 #include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/method_setup.hpp"
+#include "knot_utm/run/summary.hpp"
 
 namespace knot_utm {
-
-class ProgressLine;
 
 /// How the machine runs its tests.
 struct UtmOptions {
@@ -48,7 +47,6 @@ class UtmNode {
 
   /// `launched`: the setup of a test of which nothing else is asked.
   UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options);
-  ~UtmNode();
 
   /// Runs until ROS is shut down. Ends the launch with `exit_at_end` when the test has ended, and where the simulation
   /// has died. Returns the exit code of the node: 1 where the simulation failed or died, or the recorder failed.
@@ -117,15 +115,15 @@ class UtmNode {
   std::string folder_;  ///< of the recorder's files or, before it has said it, the one that it will make; empty: none
   ros::Time now_;       ///< time on /clock
 
-  std::unique_ptr<ProgressLine> progress_;  ///< on the terminal of the launch
+  ProgressLine progress_{stderr};  ///< on the terminal of the launch
   Clock::time_point run_began_;
   Clock::time_point due_;  ///< time at which the next command may be sent
   Clock::time_point clock_published_;
   Clock::time_point status_published_;
   Clock::time_point diagnosed_;
   Clock::time_point factor_measured_;
-  double factor_time_ = 0.0;  ///< test time at which the factor was last measured [s]
-  double factor_;             ///< recent ratio of test time to wall time
+  double factor_time_ = 0.0;                                  ///< test time at which the factor was last measured [s]
+  double factor_ = std::numeric_limits<double>::quiet_NaN();  ///< recent ratio of test time to wall time
 
   ros::Publisher crosshead_, joint_states_, status_, method_text_, clock_;
   ros::Subscriber states_, specimens_, recorder_;
