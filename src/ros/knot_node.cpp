@@ -62,6 +62,7 @@ class KnotNode {
   void begin_specimen();
   void answer(const Crosshead& message);
   void refuse(const Crosshead& message, const std::string& why);
+  KnotRecord record_of(const Crosshead& message, const Sample& answer) const;
   void publish(const KnotRecord& record);
   void put_shape(KnotRecord& record) const;
   SceneView view() const;
@@ -175,10 +176,7 @@ void KnotNode::answer(const Crosshead& message) {
   ++next_;
   show_.state_changed();
 
-  KnotRecord record;
-  record.command = message;
-  record.answer = to_message(sample_, message.run, stamp_);
-  put_motion(motion_, record.answer);
+  KnotRecord record = record_of(message, sample_);
   const double start = stamp_.toSec() - command.time;
   record.steps.reserve(machine_.substeps().size());
   for (const Sample& step : machine_.substeps()) {
@@ -193,11 +191,15 @@ void KnotNode::refuse(const Crosshead& message, const std::string& why) {
   failed.sequence = message.sequence;
   failed.status = BenchStatus::kFailed;
   failed.message = why;
+  publish(record_of(message, failed));
+}
+
+KnotRecord KnotNode::record_of(const Crosshead& message, const Sample& answer) const {
   KnotRecord record;
   record.command = message;
-  record.answer = to_message(failed, message.run, message.header.stamp);
+  record.answer = to_message(answer, message.run, message.header.stamp);
   put_motion(motion_, record.answer);
-  publish(record);
+  return record;
 }
 
 void KnotNode::put_shape(KnotRecord& record) const {

@@ -139,7 +139,6 @@ void RecorderNode::begin_run(const Crosshead& first) {
   run_.reset();
   run_number_ = first.run;
   const TestOrder order = given_order(node_);
-  require_no_record_in(order.out, order.method);
   ClaimedFolder folder = ClaimedFolder::first_free(order.out);
   if (folder.path() != order.out) ROS_WARN("%s", moved_notice(order.out, folder.path()).c_str());
   begin_run_folder(folder.path(), order.method);
