@@ -26,6 +26,11 @@ static_assert(static_cast<int>(BenchStatus::kNotEquilibrated) == KnotState::NOT_
 static_assert(static_cast<int>(BenchStatus::kBroken) == KnotState::BROKEN);
 static_assert(static_cast<int>(BenchStatus::kFailed) == KnotState::FAILED);
 
+Phase phase_from_name(const std::string& name) {
+  if (const std::optional<Phase> phase = phase_named(name)) return *phase;
+  throw std::invalid_argument("\"" + name + "\" is not a phase");
+}
+
 /// What a command and its message call by the same name, there or back.
 template <class From, class To>
 void copy_command(const From& from, To& to) {
@@ -91,11 +96,6 @@ geometry_msgs::TransformStamped transform(const char* parent, const char* child,
 ros::Time test_stamp(double start, double time) {
   // The start is worked out from a stamp, and may come out a little before the clock's, which no ros::Time can hold.
   return std::max(ros::Time(std::max(start + time, 0.0)), ros::TIME_MIN);
-}
-
-Phase phase_from_name(const std::string& name) {
-  if (const std::optional<Phase> phase = phase_named(name)) return *phase;
-  throw std::invalid_argument("\"" + name + "\" is not a phase");
 }
 
 Crosshead to_message(const Command& command, std::uint32_t run, const ros::Time& stamp) {

@@ -11,7 +11,6 @@
 #include <sensor_msgs/JointState.h>
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
@@ -25,10 +24,8 @@ namespace knot_utm {
 /// time".
 ros::Time test_stamp(double start, double time);
 
-/// The phase with a name of `phase_name`. Throws std::invalid_argument for any other name.
-Phase phase_from_name(const std::string& name);
-
-/// Conversions to messages and back. They preserve every bit.
+/// Conversions to messages and back. They preserve every bit. Those back throw std::invalid_argument where a message
+/// says what no test can.
 Crosshead to_message(const Command& command, std::uint32_t run, const ros::Time& stamp);
 Command from_message(const Crosshead& message);
 KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& stamp);

@@ -17,7 +17,7 @@ from launched import FILES, METHOD, ROOT, Headless, Launch, wait_for
 
 PROGRAM = os.path.join(ROOT, 'test/ros/whole_program.yaml')
 KNOT = ['physics.accuracy=draft', 'program.pull.until={extension: 0.002}']
-STANDSTILL = 12.0  # [s] longer than the recorder waits for the last records of a test
+STANDSTILL = 5.0  # [s] longer than the recorder waits for the last records of a test
 
 
 class OperatorTest(unittest.TestCase):
