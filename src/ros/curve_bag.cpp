@@ -12,9 +12,9 @@
 #include <system_error>
 #include <utility>
 
-#include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/run_bag.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {

@@ -21,7 +21,6 @@
 #include "knot_utm/ros/nodes.hpp"
 #include "knot_utm/ros/process.hpp"
 #include "knot_utm/ros/show.hpp"
-#include "knot_utm/ros/urdf.hpp"
 #include "knot_utm/tying/tied_loop.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/run_bag.hpp"

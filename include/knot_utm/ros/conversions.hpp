@@ -11,9 +11,11 @@
 #include <sensor_msgs/JointState.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/samples.hpp"
@@ -53,5 +55,12 @@ sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sam
 using Transforms = std::vector<geometry_msgs::TransformStamped>;
 Transforms fixed_frames(const Vec3& lower_grip, const ros::Time& stamp);
 Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const ros::Time& stamp);
+
+/// The machine of a method as URDF, for the parameter robot_description. Its links are these frames,
+/// and its only joint that moves is the one in utm/joint_states. Its shapes are those of the grips, as in knot/markers.
+///
+/// `lower_grip`, `upper_grip`: where the grips stand before the test [m]. The upper grip is fixed to the crosshead
+/// there. On mounting it is let down onto the loop, and a compliant frame gives way: only its frame shows that.
+std::string machine_urdf(const Method& method, const Vec3& lower_grip, const Vec3& upper_grip);
 
 }  // namespace knot_utm
