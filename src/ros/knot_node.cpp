@@ -1,13 +1,21 @@
-// The simulation as a node.
+// The simulation as a node, and what it shows of a test.
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <dynamic_reconfigure/server.h>
+#include <knot_utm/ColorBar.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotRecord.h>
 #include <knot_utm/SpecimenInfo.h>
 #include <knot_utm/TestStatus.h>
+#include <knot_utm/ViewConfig.h>
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/grips/grips.hpp"
@@ -16,16 +24,126 @@
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/nodes.hpp"
 #include "knot_utm/ros/process.hpp"
-#include "knot_utm/ros/show.hpp"
 #include "knot_utm/tying/tied_loop.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {
+
+constexpr char kFrames[] = "/tf";  // where tf2 listens
+constexpr std::uint32_t kShownQueue = 100;
+constexpr double kSlowest = 0.1, kFastest = 60.0;  // pictures in a second [Hz]
+
+std::optional<InvalidInput> fault_of(const ViewConfig& wanted) {
+  if (!(wanted.marker_rate >= kSlowest && wanted.marker_rate <= kFastest))
+    return InvalidInput("marker_rate", format_number(wanted.marker_rate),
+                        format_number(kSlowest) + " to " + format_number(kFastest));
+  if (wanted.color_by != View_tension && wanted.color_by != View_curvature)
+    return InvalidInput("color_by", "\"" + wanted.color_by + "\"", "tension or curvature");
+  return std::nullopt;
+}
+
+/// What a node shows of a test: the frames on /tf and /tf_static, the pictures for rviz, and the meaning of their
+/// colours. Pictures show the latest state, at most ~marker_rate of them, while somebody subscribes. Whoever subscribes
+/// late gets the last moving frames: before a test and after it nothing moves, and no others come.
+///
+/// The parameters ~marker_rate, ~color_by and ~contact_forces can be changed by dynamic_reconfigure while the node
+/// runs. Where a value is not allowed all of them stay as they were, which the client is told, and a line says what is
+/// allowed.
+class Show {
+ public:
+  /// `latest`: the state to be shown. Throws InvalidInput where a parameter has a value that is not allowed.
+  Show(ros::NodeHandle node, std::function<SceneView()> latest);
+
+  /// Begins a new specimen, with its nodes at these places and these edges between its ropes, on a machine with its
+  /// lower grip at this place.
+  void begin(const Method& method, const Vec3& lower_grip, const Points& points, const std::vector<int>& cuts);
+
+  void state_changed() { is_old_ = true; }  ///< to be called when there is another latest state
+  void show_latest();                       ///< now, for the node may end before the next picture
+
+ private:
+  void take(ViewConfig& wanted);
+  void apply();  ///< the parameters to the picture
+  void publish_frames(const SceneView& view);
+
+  std::function<SceneView()> latest_;
+  std::optional<ViewConfig> view_;
+  Vec3 crosshead_ = Vec3::Zero();        ///< at the beginning of the test [m]
+  std::optional<ScenePicture> picture_;  ///< empty: before the first specimen
+  bool is_old_ = true;
+  std::uint32_t viewers_ = 0;
+  ros::Time published_;  ///< stamp of the last moving frames
+
+  ros::Publisher markers_, colors_;
+  ros::Publisher moving_;  ///< latched
+  tf2_ros::StaticTransformBroadcaster fixed_;
+  ros::SteadyTimer timer_;
+  dynamic_reconfigure::Server<ViewConfig> server_;
+};
+
+Show::Show(ros::NodeHandle node, std::function<SceneView()> latest)
+    : latest_(std::move(latest)),
+      markers_(node.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
+      colors_(node.advertise<ColorBar>(names::kColors, 1, true)),
+      moving_(node.advertise<tf2_msgs::TFMessage>(kFrames, kShownQueue, true)),
+      timer_(node.createSteadyTimer(ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { show_latest(); })),
+      server_(ros::NodeHandle("~")) {
+  server_.setCallback([this](ViewConfig& wanted, std::uint32_t) { take(wanted); });
+}
+
+void Show::take(ViewConfig& wanted) {
+  if (const std::optional<InvalidInput> fault = fault_of(wanted)) {
+    if (!view_) throw *fault;
+    ROS_WARN("%s: refused: %s", ros::this_node::getName().c_str() + 1, fault->what());
+    wanted = *view_;
+  }
+  view_ = wanted;
+  timer_.setPeriod(ros::WallDuration(1.0 / wanted.marker_rate));
+  if (picture_) apply();
+}
+
+void Show::apply() {
+  picture_->color_by(view_->color_by == View_tension ? ColorBy::kTension : ColorBy::kCurvature);
+  picture_->show_contacts(view_->contact_forces);
+  colors_.publish(picture_->scale().bar());
+  is_old_ = true;
+}
+
+void Show::begin(const Method& method, const Vec3& lower_grip, const Points& points, const std::vector<int>& cuts) {
+  crosshead_ = lower_grip + Vec3(0.0, 0.0, method.specimen.end_to_end);
+  fixed_.sendTransform(fixed_frames(lower_grip, ros::TIME_MIN));
+  picture_.emplace(method.specimen, method.machine, method.material);
+  if (points.cols() > 0) picture_->begin(points, cuts);
+  apply();
+}
+
+void Show::show_latest() {
+  const std::uint32_t viewers = markers_.getNumSubscribers();
+  const bool somebody_is_new = viewers > viewers_;
+  viewers_ = viewers;
+  const SceneView view = latest_();
+  publish_frames(view);
+  if (viewers == 0 || !(is_old_ || somebody_is_new)) return;
+  is_old_ = false;
+  markers_.publish(picture_->draw(view));
+}
+
+/// The moving frames once for each stamp, because tf2 warns of repeated ones.
+void Show::publish_frames(const SceneView& view) {
+  const ros::Time valid = std::max(view.stamp, ros::TIME_MIN);
+  if (valid <= published_) return;
+  published_ = valid;
+  tf2_msgs::TFMessage message;
+  message.transforms = moving_frames(crosshead_, view.sample.displacement, view.upper_grip, valid);
+  moving_.publish(message);
+}
 
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kManyRejected = 0.5;       // of the time steps that were tried
