@@ -59,19 +59,68 @@ std::optional<InvalidInput> fault_of(const ViewConfig& wanted) {
 class Show {
  public:
   /// `latest`: the state to be shown. Throws InvalidInput where a parameter has a value that is not allowed.
-  Show(ros::NodeHandle node, std::function<SceneView()> latest);
+  Show(ros::NodeHandle node, std::function<SceneView()> latest)
+      : latest_(std::move(latest)),
+        markers_(node.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
+        colors_(node.advertise<ColorBar>(names::kColors, 1, true)),
+        moving_(node.advertise<tf2_msgs::TFMessage>(kFrames, kShownQueue, true)),
+        timer_(node.createSteadyTimer(ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { show_latest(); })),
+        server_(ros::NodeHandle("~")) {
+    server_.setCallback([this](ViewConfig& wanted, std::uint32_t) { take(wanted); });
+  }
 
-  /// Begins a new specimen, with its nodes at these places and these edges between its ropes, on a machine with its
-  /// lower grip at this place.
-  void begin(const Method& method, const Vec3& lower_grip, const Points& points, const std::vector<int>& cuts);
+  /// Begins a new specimen on its machine.
+  void begin(const Method& method, const TestingMachine& machine) {
+    crosshead_ = machine.lower_grip() + Vec3(0.0, 0.0, method.specimen.end_to_end);
+    fixed_.sendTransform(fixed_frames(machine.lower_grip(), ros::TIME_MIN));
+    picture_.emplace(method.specimen, method.machine, method.material);
+    picture_->begin(machine.state().position, machine.rod().cuts);
+    apply();
+  }
 
   void state_changed() { is_old_ = true; }  ///< to be called when there is another latest state
-  void show_latest();                       ///< now, for the node may end before the next picture
+
+  /// Now, for the node may end before the next picture.
+  void show_latest() {
+    const std::uint32_t viewers = markers_.getNumSubscribers();
+    const bool somebody_is_new = viewers > viewers_;
+    viewers_ = viewers;
+    const SceneView view = latest_();
+    publish_frames(view);
+    if (viewers == 0 || !(is_old_ || somebody_is_new)) return;
+    is_old_ = false;
+    markers_.publish(picture_->draw(view));
+  }
 
  private:
-  void take(ViewConfig& wanted);
-  void apply();  ///< the parameters to the picture
-  void publish_frames(const SceneView& view);
+  void take(ViewConfig& wanted) {
+    if (const std::optional<InvalidInput> fault = fault_of(wanted)) {
+      if (!view_) throw *fault;
+      ROS_WARN("%s: refused: %s", ros::this_node::getName().c_str() + 1, fault->what());
+      wanted = *view_;
+    }
+    view_ = wanted;
+    timer_.setPeriod(ros::WallDuration(1.0 / wanted.marker_rate));
+    if (picture_) apply();
+  }
+
+  /// The parameters to the picture.
+  void apply() {
+    picture_->color_by(view_->color_by == View_tension ? ColorBy::kTension : ColorBy::kCurvature);
+    picture_->show_contacts(view_->contact_forces);
+    colors_.publish(picture_->scale().bar());
+    is_old_ = true;
+  }
+
+  /// The moving frames once for each stamp, because tf2 warns of repeated ones.
+  void publish_frames(const SceneView& view) {
+    const ros::Time valid = std::max(view.stamp, ros::TIME_MIN);
+    if (valid <= published_) return;
+    published_ = valid;
+    tf2_msgs::TFMessage message;
+    message.transforms = moving_frames(crosshead_, view.sample.displacement, view.upper_grip, valid);
+    moving_.publish(message);
+  }
 
   std::function<SceneView()> latest_;
   std::optional<ViewConfig> view_;
@@ -87,63 +136,6 @@ class Show {
   ros::SteadyTimer timer_;
   dynamic_reconfigure::Server<ViewConfig> server_;
 };
-
-Show::Show(ros::NodeHandle node, std::function<SceneView()> latest)
-    : latest_(std::move(latest)),
-      markers_(node.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
-      colors_(node.advertise<ColorBar>(names::kColors, 1, true)),
-      moving_(node.advertise<tf2_msgs::TFMessage>(kFrames, kShownQueue, true)),
-      timer_(node.createSteadyTimer(ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { show_latest(); })),
-      server_(ros::NodeHandle("~")) {
-  server_.setCallback([this](ViewConfig& wanted, std::uint32_t) { take(wanted); });
-}
-
-void Show::take(ViewConfig& wanted) {
-  if (const std::optional<InvalidInput> fault = fault_of(wanted)) {
-    if (!view_) throw *fault;
-    ROS_WARN("%s: refused: %s", ros::this_node::getName().c_str() + 1, fault->what());
-    wanted = *view_;
-  }
-  view_ = wanted;
-  timer_.setPeriod(ros::WallDuration(1.0 / wanted.marker_rate));
-  if (picture_) apply();
-}
-
-void Show::apply() {
-  picture_->color_by(view_->color_by == View_tension ? ColorBy::kTension : ColorBy::kCurvature);
-  picture_->show_contacts(view_->contact_forces);
-  colors_.publish(picture_->scale().bar());
-  is_old_ = true;
-}
-
-void Show::begin(const Method& method, const Vec3& lower_grip, const Points& points, const std::vector<int>& cuts) {
-  crosshead_ = lower_grip + Vec3(0.0, 0.0, method.specimen.end_to_end);
-  fixed_.sendTransform(fixed_frames(lower_grip, ros::TIME_MIN));
-  picture_.emplace(method.specimen, method.machine, method.material);
-  if (points.cols() > 0) picture_->begin(points, cuts);
-  apply();
-}
-
-void Show::show_latest() {
-  const std::uint32_t viewers = markers_.getNumSubscribers();
-  const bool somebody_is_new = viewers > viewers_;
-  viewers_ = viewers;
-  const SceneView view = latest_();
-  publish_frames(view);
-  if (viewers == 0 || !(is_old_ || somebody_is_new)) return;
-  is_old_ = false;
-  markers_.publish(picture_->draw(view));
-}
-
-/// The moving frames once for each stamp, because tf2 warns of repeated ones.
-void Show::publish_frames(const SceneView& view) {
-  const ros::Time valid = std::max(view.stamp, ros::TIME_MIN);
-  if (valid <= published_) return;
-  published_ = valid;
-  tf2_msgs::TFMessage message;
-  message.transforms = moving_frames(crosshead_, view.sample.displacement, view.upper_grip, valid);
-  moving_.publish(message);
-}
 
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kManyRejected = 0.5;       // of the time steps that were tried
@@ -253,7 +245,7 @@ void KnotNode::begin_specimen() {
   motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine),
                                  hung_weight(method_.specimen, method_.material),
                                  marks_of(method_.specimen, method_.program));
-  show_.begin(method_, machine_.lower_grip(), machine_.state().position, machine_.rod().cuts);
+  show_.begin(method_, machine_);
   set_parameter(node_.resolveName(names::kRobotDescription),
                 XmlRpc::XmlRpcValue(machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip())));
 
