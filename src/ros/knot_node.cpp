@@ -129,7 +129,6 @@ class Show {
   bool is_old_ = true;
   std::uint32_t viewers_ = 0;
   ros::Time published_;  ///< stamp of the last moving frames
-
   ros::Publisher markers_, colors_;
   ros::Publisher moving_;  ///< latched
   tf2_ros::StaticTransformBroadcaster fixed_;
@@ -160,21 +159,190 @@ file sets (doc/ros.md).
 /// accepted.
 class KnotNode {
  public:
-  KnotNode(const ros::NodeHandle& node, const Method& method);
+  KnotNode(const ros::NodeHandle& node, const Method& method)
+      : node_(node),
+        method_(method),
+        machine_(make_bench(method)),
+        motion_(rollers_hold(method.specimen, method.machine)),
+        show_(node, [this] { return view(); }),
+        diagnostics_(node_) {
+    specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, kNoLimit, true);
+    const auto tell_in = [this](std::uint8_t SpecimenInfo::*connected) {
+      return [=](bool is_there) {
+        info_.*connected = static_cast<std::uint8_t>(is_there);
+        specimen_.publish(info_);
+      };
+    };
+    state_ =
+        advertise_watched<KnotState>(node_, names::kKnotState, names::kUtmNode, tell_in(&SpecimenInfo::answers_arrive));
+    record_ = advertise_watched<KnotRecord>(node_, names::kKnotRecord, names::kRecorderNode,
+                                            tell_in(&SpecimenInfo::records_arrive));
+    load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kReadings);
+    shape_ = node_.advertise<KnotShape>(names::kKnotShape, 10);
+    commands_ = subscribe_gated(node_, names::kCrosshead, names::kUtmNode, &KnotNode::on_command, this);
+    status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, &KnotNode::on_status, this);
+    reset_ = offer(node_, names::kReset, [this](std::string& said) {
+      put_in(method_);
+      said = "a new specimen";
+      return true;
+    });
+
+    diagnostics_.setHardwareID(method_.material.name);
+    diagnostics_.add("physics", this, &KnotNode::diagnose);
+    diagnostics_timer_ = node_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
+                                                 [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
+    begin_specimen();
+  }
 
  private:
-  void on_command(const Crosshead::ConstPtr& command);
-  void on_status(const TestStatus::ConstPtr& ended);
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void on_command(const Crosshead::ConstPtr& command) {
+    const Crosshead& message = *command;
+    if (message.run != run_) {
+      if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
+      try {
+        const Method method = given_order(node_).method;
+        if (next_ != 0 || method_yaml(method) != method_yaml(method_)) put_in(method);
+      } catch (const InvalidInput& invalid) {
+        return refuse(message, invalid.what());
+      }
+      run_ = message.run;
+    }
+    if (message.sequence == next_) return answer(message);
+    refuse(message, out_of_order(message.sequence, next_));
+  }
 
-  void put_in(const Method& method);  ///< puts in a new specimen; throws InvalidInput, and then the last one stays
-  void begin_specimen();
-  void answer(const Crosshead& message);
-  void refuse(const Crosshead& message, const std::string& why);
-  KnotRecord record_of(const Crosshead& message, const Sample& answer) const;
-  void publish(const KnotRecord& record);
-  void put_shape(KnotRecord& record) const;
-  SceneView view() const;
+  void on_status(const TestStatus::ConstPtr& ended) {
+    const TestStatus& status = *ended;
+    // The recorder wants the shape at the very end, which nobody could foresee.
+    if (status.state != TestStatus::ENDED || status.run != run_ || next_ != status.sequence + 1) return;
+    show_.show_latest();
+    KnotRecord end;
+    end.command = last_;
+    put_shape(end);
+    record_.publish(end);
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const auto since = [&](std::uint64_t Sample::*count) {
+      return static_cast<double>(sample_.*count - std::min(sample_.*count, diagnosed_.*count));
+    };
+    const double rejected = since(&Sample::rejected_steps), tried = since(&Sample::steps) + rejected;
+    if (sample_.status == BenchStatus::kFailed) {
+      status.summary(DiagnosticStatus::ERROR, "gave up: " + sample_.message);
+    } else if (sample_.status == BenchStatus::kNotEquilibrated) {
+      status.summary(DiagnosticStatus::WARN, "did not come to rest in time");
+    } else if (sample_.knot_type == KnotType::kCrossed) {
+      status.summary(DiagnosticStatus::ERROR, "the rod ran through itself");
+    } else if (sample_.max_penetration > deepest_contact(method_.material)) {
+      status.summaryf(DiagnosticStatus::WARN, "strands are pressed into each other by %.3g of the radius",
+                      sample_.max_penetration);
+    } else if (rejected > kManyRejected * tried) {
+      status.summaryf(DiagnosticStatus::WARN, "hard: %.0f of %.0f time steps had to be shortened", rejected, tried);
+    } else if (sample_.status == BenchStatus::kBroken) {
+      status.summary(DiagnosticStatus::OK, "the rod broke");
+    } else {
+      status.summary(DiagnosticStatus::OK, phase_name(sample_.phase));
+    }
+    status.add("time [s]", sample_.time);
+    status.add("time steps", sample_.steps);
+    status.add("rejected time steps", sample_.rejected_steps);
+    status.add("Newton iterations", sample_.newton_iterations);
+    status.add("Newton iterations per time step of late",
+               tried > 0.0 ? since(&Sample::newton_iterations) / tried : 0.0);
+    status.add("contacts", sample_.contacts);
+    status.add("deepest contact [fraction of radius]", sample_.max_penetration);
+    diagnosed_ = sample_;
+  }
+
+  /// Puts in a new specimen; throws InvalidInput, and then the last one stays.
+  void put_in(const Method& method) {
+    machine_ = make_bench(method);
+    method_ = method;
+    diagnostics_.setHardwareID(method_.material.name);
+    begin_specimen();
+  }
+
+  void begin_specimen() {
+    run_ = 0;
+    next_ = 0;
+    sample_ = Sample();
+    motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine),
+                                   hung_weight(method_.specimen, method_.material),
+                                   marks_of(method_.specimen, method_.program));
+    show_.begin(method_, machine_);
+    set_parameter(node_.resolveName(names::kRobotDescription),
+                  XmlRpc::XmlRpcValue(machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip())));
+
+    info_.header.stamp = stamp_;
+    info_.header.frame_id = names::kBaseFrame;
+    info_.longest_step = machine_.longest_step();
+    info_.radius = method_.material.radius;
+    info_.length = machine_.rod().length();
+    info_.nodes = static_cast<std::uint32_t>(machine_.rod().nodes());
+    info_.other_radius = machine_.rod().other_material.value_or(machine_.rod().material).radius;
+    info_.first_of_other = static_cast<std::uint32_t>(machine_.rod().first_of_other());
+    specimen_.publish(info_);
+  }
+
+  void answer(const Crosshead& message) {
+    const Command command = from_message(message);
+    last_ = message;
+    stamp_ = message.header.stamp;
+    sample_ = machine_.respond(command);
+    motion_.add(sample_);
+    ++next_;
+    show_.state_changed();
+
+    KnotRecord record = record_of(message, sample_);
+    const double start = stamp_.toSec() - command.time;
+    record.steps.reserve(machine_.substeps().size());
+    for (const Sample& step : machine_.substeps()) {
+      record.steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
+    }
+    if (shape_is_due(command, sample_) || sample_.status == BenchStatus::kFailed) put_shape(record);
+    publish(record);
+  }
+
+  void refuse(const Crosshead& message, const std::string& why) {
+    Sample failed = sample_;
+    failed.sequence = message.sequence;
+    failed.status = BenchStatus::kFailed;
+    failed.message = why;
+    publish(record_of(message, failed));
+  }
+
+  KnotRecord record_of(const Crosshead& message, const Sample& answer) const {
+    KnotRecord record;
+    record.command = message;
+    record.answer = to_message(answer, message.run, message.header.stamp);
+    put_motion(motion_, record.answer);
+    return record;
+  }
+
+  void publish(const KnotRecord& record) {
+    state_.publish(record.answer);
+    if (record_.getNumSubscribers() > 0) record_.publish(record);
+    const bool read = record.command.read_cell != 0 || record.command.balance != 0;
+    if (read && load_cell_.getNumSubscribers() > 0) {
+      load_cell_.publish(to_wrench(from_message(record.answer), record.answer.header.stamp));
+    }
+    if (!record.shape.points.empty() && shape_.getNumSubscribers() > 0) shape_.publish(record.shape);
+  }
+
+  void put_shape(KnotRecord& record) const {
+    record.shape = to_message(machine_.state().position, machine_.tension(), method_.material.radius, record.command);
+  }
+
+  SceneView view() const {
+    return {machine_.state().position,
+            machine_.tension(),
+            machine_.contact_forces(),
+            machine_.lower_grip(),
+            machine_.upper_grip(),
+            sample_,
+            stamp_};
+  }
 
   ros::NodeHandle node_;
   Method method_;  ///< method of the present specimen
@@ -195,188 +363,6 @@ class KnotNode {
   ros::SteadyTimer diagnostics_timer_;
   diagnostic_updater::Updater diagnostics_;
 };
-
-KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
-    : node_(node),
-      method_(method),
-      machine_(make_bench(method)),
-      motion_(rollers_hold(method.specimen, method.machine)),
-      show_(node, [this] { return view(); }),
-      diagnostics_(node_) {
-  specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, kNoLimit, true);
-  const auto tell_in = [this](std::uint8_t SpecimenInfo::*connected) {
-    return [=](bool is_there) {
-      info_.*connected = static_cast<std::uint8_t>(is_there);
-      specimen_.publish(info_);
-    };
-  };
-  state_ =
-      advertise_watched<KnotState>(node_, names::kKnotState, names::kUtmNode, tell_in(&SpecimenInfo::answers_arrive));
-  record_ = advertise_watched<KnotRecord>(node_, names::kKnotRecord, names::kRecorderNode,
-                                          tell_in(&SpecimenInfo::records_arrive));
-  load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kReadings);
-  shape_ = node_.advertise<KnotShape>(names::kKnotShape, 10);
-  commands_ = subscribe_gated(node_, names::kCrosshead, names::kUtmNode, &KnotNode::on_command, this);
-  status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, &KnotNode::on_status, this);
-  reset_ = offer(node_, names::kReset, [this](std::string& said) {
-    put_in(method_);
-    said = "a new specimen";
-    return true;
-  });
-
-  diagnostics_.setHardwareID(method_.material.name);
-  diagnostics_.add("physics", this, &KnotNode::diagnose);
-  diagnostics_timer_ = node_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
-                                               [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
-  begin_specimen();
-}
-
-void KnotNode::put_in(const Method& method) {
-  machine_ = make_bench(method);
-  method_ = method;
-  diagnostics_.setHardwareID(method_.material.name);
-  begin_specimen();
-}
-
-void KnotNode::begin_specimen() {
-  run_ = 0;
-  next_ = 0;
-  sample_ = Sample();
-  motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine),
-                                 hung_weight(method_.specimen, method_.material),
-                                 marks_of(method_.specimen, method_.program));
-  show_.begin(method_, machine_);
-  set_parameter(node_.resolveName(names::kRobotDescription),
-                XmlRpc::XmlRpcValue(machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip())));
-
-  info_.header.stamp = stamp_;
-  info_.header.frame_id = names::kBaseFrame;
-  info_.longest_step = machine_.longest_step();
-  info_.radius = method_.material.radius;
-  info_.length = machine_.rod().length();
-  info_.nodes = static_cast<std::uint32_t>(machine_.rod().nodes());
-  info_.other_radius = machine_.rod().other_material.value_or(machine_.rod().material).radius;
-  info_.first_of_other = static_cast<std::uint32_t>(machine_.rod().first_of_other());
-  specimen_.publish(info_);
-}
-
-void KnotNode::on_command(const Crosshead::ConstPtr& command) {
-  const Crosshead& message = *command;
-  if (message.run != run_) {
-    if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
-    try {
-      const Method method = given_order(node_).method;
-      if (next_ != 0 || method_yaml(method) != method_yaml(method_)) put_in(method);
-    } catch (const InvalidInput& invalid) {
-      return refuse(message, invalid.what());
-    }
-    run_ = message.run;
-  }
-  if (message.sequence == next_) return answer(message);
-  refuse(message, out_of_order(message.sequence, next_));
-}
-
-void KnotNode::answer(const Crosshead& message) {
-  const Command command = from_message(message);
-  last_ = message;
-  stamp_ = message.header.stamp;
-  sample_ = machine_.respond(command);
-  motion_.add(sample_);
-  ++next_;
-  show_.state_changed();
-
-  KnotRecord record = record_of(message, sample_);
-  const double start = stamp_.toSec() - command.time;
-  record.steps.reserve(machine_.substeps().size());
-  for (const Sample& step : machine_.substeps()) {
-    record.steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
-  }
-  if (shape_is_due(command, sample_) || sample_.status == BenchStatus::kFailed) put_shape(record);
-  publish(record);
-}
-
-void KnotNode::refuse(const Crosshead& message, const std::string& why) {
-  Sample failed = sample_;
-  failed.sequence = message.sequence;
-  failed.status = BenchStatus::kFailed;
-  failed.message = why;
-  publish(record_of(message, failed));
-}
-
-KnotRecord KnotNode::record_of(const Crosshead& message, const Sample& answer) const {
-  KnotRecord record;
-  record.command = message;
-  record.answer = to_message(answer, message.run, message.header.stamp);
-  put_motion(motion_, record.answer);
-  return record;
-}
-
-void KnotNode::put_shape(KnotRecord& record) const {
-  record.shape = to_message(machine_.state().position, machine_.tension(), method_.material.radius, record.command);
-}
-
-void KnotNode::publish(const KnotRecord& record) {
-  state_.publish(record.answer);
-  if (record_.getNumSubscribers() > 0) record_.publish(record);
-  const bool read = record.command.read_cell != 0 || record.command.balance != 0;
-  if (read && load_cell_.getNumSubscribers() > 0) {
-    load_cell_.publish(to_wrench(from_message(record.answer), record.answer.header.stamp));
-  }
-  if (!record.shape.points.empty() && shape_.getNumSubscribers() > 0) shape_.publish(record.shape);
-}
-
-void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
-  const TestStatus& status = *ended;
-  // The recorder wants the shape at the very end, which nobody could foresee.
-  if (status.state != TestStatus::ENDED || status.run != run_ || next_ != status.sequence + 1) return;
-  show_.show_latest();
-  KnotRecord end;
-  end.command = last_;
-  put_shape(end);
-  record_.publish(end);
-}
-
-SceneView KnotNode::view() const {
-  return {machine_.state().position,
-          machine_.tension(),
-          machine_.contact_forces(),
-          machine_.lower_grip(),
-          machine_.upper_grip(),
-          sample_,
-          stamp_};
-}
-
-void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  const auto since = [&](std::uint64_t Sample::*count) {
-    return static_cast<double>(sample_.*count - std::min(sample_.*count, diagnosed_.*count));
-  };
-  const double rejected = since(&Sample::rejected_steps), tried = since(&Sample::steps) + rejected;
-  if (sample_.status == BenchStatus::kFailed) {
-    status.summary(DiagnosticStatus::ERROR, "gave up: " + sample_.message);
-  } else if (sample_.status == BenchStatus::kNotEquilibrated) {
-    status.summary(DiagnosticStatus::WARN, "did not come to rest in time");
-  } else if (sample_.knot_type == KnotType::kCrossed) {
-    status.summary(DiagnosticStatus::ERROR, "the rod ran through itself");
-  } else if (sample_.max_penetration > deepest_contact(method_.material)) {
-    status.summaryf(DiagnosticStatus::WARN, "strands are pressed into each other by %.3g of the radius",
-                    sample_.max_penetration);
-  } else if (rejected > kManyRejected * tried) {
-    status.summaryf(DiagnosticStatus::WARN, "hard: %.0f of %.0f time steps had to be shortened", rejected, tried);
-  } else if (sample_.status == BenchStatus::kBroken) {
-    status.summary(DiagnosticStatus::OK, "the rod broke");
-  } else {
-    status.summary(DiagnosticStatus::OK, phase_name(sample_.phase));
-  }
-  status.add("time [s]", sample_.time);
-  status.add("time steps", sample_.steps);
-  status.add("rejected time steps", sample_.rejected_steps);
-  status.add("Newton iterations", sample_.newton_iterations);
-  status.add("Newton iterations per time step of late", tried > 0.0 ? since(&Sample::newton_iterations) / tried : 0.0);
-  status.add("contacts", sample_.contacts);
-  status.add("deepest contact [fraction of radius]", sample_.max_penetration);
-  diagnosed_ = sample_;
-}
 
 }  // namespace
 

@@ -49,11 +49,35 @@ It is a part of: roslaunch knot_utm tighten.launch. What is tested, and where it
 /// dies `tensile_test --from-samples` makes them.
 class RecorderNode {
  public:
-  explicit RecorderNode(const ros::NodeHandle& node);
+  explicit RecorderNode(const ros::NodeHandle& node) : node_(node), diagnostics_(node) {
+    const auto machine_is_there = [this](bool is_there) {
+      if (!is_there) died_at_ = Clock::now();
+      machine_died_ = !is_there;
+    };
+    status_ = advertise_watched<RecorderStatus>(node_, names::kRecorderStatus, names::kUtmNode, machine_is_there, true);
+    save_ = offer(node_, names::kSave, [this](std::string& said) { return save(said); });
+    records_ = subscribe_gated(node_, names::kKnotRecord, names::kKnotNode, &RecorderNode::on_record, this);
+    test_status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, &RecorderNode::on_status, this);
+    diagnostics_.setHardwareID("none");
+    diagnostics_.add("files", this, &RecorderNode::diagnose);
+    publish_status();
+  }
 
   /// Runs until ROS is shut down. A test that has not ended then, or whose machine died, is closed with the reason.
   /// Returns the exit code: 1 where something could not be written.
-  int spin();
+  int spin() {
+    while (ros::ok()) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kLookPeriod));
+      if (is_under_way()) finish_when_ready();
+      const bool news =
+          run_number_ != published_.run || is_complete() != (published_.complete != 0) || error_ != published_.error;
+      const bool due = seconds_since(published_at_) > kStatusPeriod;
+      if (news || due) publish_status();
+      if (due) diagnostics_.force_update();
+    }
+    if (is_under_way()) finish_early();
+    return error_.empty() ? 0 : 1;
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -74,22 +98,163 @@ class RecorderNode {
     bool complete = false;
   };
 
-  void on_record(const KnotRecord::ConstPtr& record);
-  void on_status(const TestStatus::ConstPtr& status);
-  bool save(std::string& said);
+  void on_record(const KnotRecord::ConstPtr& record) {
+    if (!error_.empty()) return;
+    try {
+      const Crosshead& command = record->command;
+      if (command.run != run_number_ && command.sequence == 0) begin_run(command);
+      if (!run_ || run_->complete || command.run != run_number_) return;
+      Run& run = *run_;
+      const bool is_shape = !record->shape.points.empty();
+      // The last one comes again with the shape at the end of the test.
+      const bool again = is_shape && command.sequence + 1 == run.recorded;
+      if (!again && command.sequence != run.recorded)
+        throw std::runtime_error(out_of_order(command.sequence, run.recorded));
+      if (is_shape) run.shape = points_from_message(record->shape);
+      run.is_shaped = is_shape;
+      if (!again) write(*record);
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+  }
 
-  void begin_run(const Crosshead& first);
-  void write(const KnotRecord& record);
-  void finish_when_ready();
-  void finish_early();
-  void finish(EndedBy ended_by, const std::string& reason);
-  void make_files(const std::string& bag_name, ResultsOptions options);
-  void fail(const std::string& why);
+  void on_status(const TestStatus::ConstPtr& status) {
+    test_ = *status;
+    if (test_.reason == kPhysicsDied) died_at_ = Clock::now();
+  }
+
+  bool save(std::string& said) {
+    if (!run_) {
+      said = "there is nothing to save yet";
+      return false;
+    }
+    if (is_under_way()) {
+      try {
+        ResultsOptions options;
+        options.without_end.reason = "saved while the test was running";
+        make_files("saved.bag", options);
+      } catch (const std::exception& error) {
+        fail(error.what());
+      }
+    }
+    said = error_.empty() ? "saved to " + run_->folder.path() : error_;
+    return error_.empty();
+  }
+
+  void begin_run(const Crosshead& first) {
+    if (run_ && !run_->complete) finish(EndedBy::kOperator, "another test was started");
+    run_.reset();
+    run_number_ = first.run;
+    const TestOrder order = given_order(node_);
+    ClaimedFolder folder = ClaimedFolder::first_free(order.out);
+    if (folder.path() != order.out) ROS_WARN("%s", moved_notice(order.out, folder.path()).c_str());
+    begin_run_folder(folder.path(), order.method);
+    run_ = Run{std::move(folder), order.method};
+    run_->samples.emplace(run_->folder.path());
+  }
+
+  void write(const KnotRecord& record) {
+    Record kept = from_message(record);
+    kept.wall_time = seconds_since(run_->begin);
+    run_->samples->append(kept);
+    run_->stamp = record.command.header.stamp;
+    run_->full_rows += kept.steps.size();
+    if (cell_reading(kept)) ++run_->rows;
+    run_->failed = kept.answer.status == BenchStatus::kFailed;
+    ++run_->recorded;
+  }
+
+  void finish_when_ready() {
+    const bool nothing_comes = seconds_since(died_at_) > kLastRecords;
+    if (!test_has_ended()) {
+      if (machine_died_ && nothing_comes) finish_early();
+      return;
+    }
+    // A physics that has failed may not have the specimen any more, and one that has died answers nothing.
+    const bool physics_died = test_.reason == kPhysicsDied;
+    const bool all = run_->recorded > test_.sequence && (run_->is_shaped || run_->failed || physics_died);
+    if (all || ((machine_died_ || physics_died) && nothing_comes))
+      finish(ended_by_from_name(test_.ended_by), test_.reason);
+  }
+
+  void finish_early() {
+    if (test_has_ended()) return finish(ended_by_from_name(test_.ended_by), test_.reason);
+    // Of a master that died its launch ends the nodes in any order: that of the machine may be gone before this one.
+    const char* who = !ask_master("getPid") ? "the ROS master died"
+                      : machine_died_       ? "utm_node died"
+                                            : "ROS was shut down";
+    finish(EndedBy::kInterrupted, std::string(who) + " before the test had ended");
+  }
+
+  void finish(EndedBy ended_by, const std::string& reason) {
+    Run& run = *run_;
+    try {
+      run.samples->end({ended_by, reason}, run.shape);
+      make_files("test.bag", {});
+    } catch (const std::exception& error) {
+      return fail(error.what());
+    }
+    ROS_INFO("%zu readings were written to %s", run.rows, run.folder.path().c_str());
+    point_latest_to(run.folder.path());
+    run.complete = true;
+  }
+
+  void make_files(const std::string& bag_name, ResultsOptions options) {
+    Run& run = *run_;
+    std::unique_ptr<RunBag> bag;
+    options.further = [&](const std::string& folder, const Method& method) {
+      bag = std::make_unique<RunBag>((fs::path(folder) / bag_name).string(), method);
+      return FurtherWriter{[&](const Record& record) { bag->add(record); }, [&] { bag->close(); }};
+    };
+    const MadeResults made = make_results(run.folder.path(), run.method, options);
+    run.rows = made.rows;
+    run.full_rows = made.full_rows;
+    run.bag_messages = bag->messages();
+  }
+
+  void fail(const std::string& why) {
+    error_ = why;
+    if (run_) error_ += what_stands(run_->folder.path());
+    ROS_ERROR("%s", error_.c_str());
+  }
   bool is_complete() const { return run_ && run_->complete; }
   bool is_under_way() const { return run_ && !run_->complete && error_.empty(); }
   bool test_has_ended() const { return test_.state == TestStatus::ENDED && test_.run == run_number_; }
-  void publish_status();
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  void publish_status() {
+    RecorderStatus status;
+    status.run = run_number_;
+    status.error = error_;
+    status.complete = static_cast<std::uint8_t>(is_complete());
+    if (run_) {
+      status.header.stamp = run_->stamp;
+      status.recorded = run_->recorded;
+      status.curve_rows = run_->rows;
+      status.full_rows = run_->full_rows;
+      status.bag_messages = run_->bag_messages;
+      status.directory = run_->folder.path();
+    }
+    published_ = status;
+    published_at_ = Clock::now();
+    status_.publish(status);
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    if (!error_.empty()) {
+      status.summary(DiagnosticStatus::ERROR, error_);
+    } else if (is_complete()) {
+      status.summary(DiagnosticStatus::OK, "complete");
+    } else {
+      status.summary(DiagnosticStatus::OK, run_ ? "recording" : "nothing to record yet");
+    }
+    if (!run_) return;
+    status.add("folder", run_->folder.path());
+    status.add("commands recorded", run_->recorded);
+    status.add("rows", run_->rows);
+    status.add("rows of time steps", run_->full_rows);
+    status.add("messages in the bag", run_->bag_messages);
+  }
 
   ros::NodeHandle node_;
   std::uint32_t run_number_ = 0;
@@ -105,189 +270,6 @@ class RecorderNode {
   ros::ServiceServer save_;
   diagnostic_updater::Updater diagnostics_;
 };
-
-RecorderNode::RecorderNode(const ros::NodeHandle& node) : node_(node), diagnostics_(node) {
-  const auto machine_is_there = [this](bool is_there) {
-    if (!is_there) died_at_ = Clock::now();
-    machine_died_ = !is_there;
-  };
-  status_ = advertise_watched<RecorderStatus>(node_, names::kRecorderStatus, names::kUtmNode, machine_is_there, true);
-  save_ = offer(node_, names::kSave, [this](std::string& said) { return save(said); });
-  records_ = subscribe_gated(node_, names::kKnotRecord, names::kKnotNode, &RecorderNode::on_record, this);
-  test_status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, &RecorderNode::on_status, this);
-  diagnostics_.setHardwareID("none");
-  diagnostics_.add("files", this, &RecorderNode::diagnose);
-  publish_status();
-}
-
-int RecorderNode::spin() {
-  while (ros::ok()) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kLookPeriod));
-    if (is_under_way()) finish_when_ready();
-    const bool news =
-        run_number_ != published_.run || is_complete() != (published_.complete != 0) || error_ != published_.error;
-    const bool due = seconds_since(published_at_) > kStatusPeriod;
-    if (news || due) publish_status();
-    if (due) diagnostics_.force_update();
-  }
-  if (is_under_way()) finish_early();
-  return error_.empty() ? 0 : 1;
-}
-
-void RecorderNode::begin_run(const Crosshead& first) {
-  if (run_ && !run_->complete) finish(EndedBy::kOperator, "another test was started");
-  run_.reset();
-  run_number_ = first.run;
-  const TestOrder order = given_order(node_);
-  ClaimedFolder folder = ClaimedFolder::first_free(order.out);
-  if (folder.path() != order.out) ROS_WARN("%s", moved_notice(order.out, folder.path()).c_str());
-  begin_run_folder(folder.path(), order.method);
-  run_ = Run{std::move(folder), order.method};
-  run_->samples.emplace(run_->folder.path());
-}
-
-void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
-  if (!error_.empty()) return;
-  try {
-    const Crosshead& command = record->command;
-    if (command.run != run_number_ && command.sequence == 0) begin_run(command);
-    if (!run_ || run_->complete || command.run != run_number_) return;
-    Run& run = *run_;
-    const bool is_shape = !record->shape.points.empty();
-    // The last one comes again with the shape at the end of the test.
-    const bool again = is_shape && command.sequence + 1 == run.recorded;
-    if (!again && command.sequence != run.recorded)
-      throw std::runtime_error(out_of_order(command.sequence, run.recorded));
-    if (is_shape) run.shape = points_from_message(record->shape);
-    run.is_shaped = is_shape;
-    if (!again) write(*record);
-  } catch (const std::exception& error) {
-    fail(error.what());
-  }
-}
-
-void RecorderNode::write(const KnotRecord& record) {
-  Record kept = from_message(record);
-  kept.wall_time = seconds_since(run_->begin);
-  run_->samples->append(kept);
-  run_->stamp = record.command.header.stamp;
-  run_->full_rows += kept.steps.size();
-  if (cell_reading(kept)) ++run_->rows;
-  run_->failed = kept.answer.status == BenchStatus::kFailed;
-  ++run_->recorded;
-}
-
-void RecorderNode::on_status(const TestStatus::ConstPtr& status) {
-  test_ = *status;
-  if (test_.reason == kPhysicsDied) died_at_ = Clock::now();
-}
-
-void RecorderNode::finish_when_ready() {
-  const bool nothing_comes = seconds_since(died_at_) > kLastRecords;
-  if (!test_has_ended()) {
-    if (machine_died_ && nothing_comes) finish_early();
-    return;
-  }
-  // A physics that has failed may not have the specimen any more, and one that has died answers nothing.
-  const bool physics_died = test_.reason == kPhysicsDied;
-  const bool all = run_->recorded > test_.sequence && (run_->is_shaped || run_->failed || physics_died);
-  if (all || ((machine_died_ || physics_died) && nothing_comes))
-    finish(ended_by_from_name(test_.ended_by), test_.reason);
-}
-
-void RecorderNode::finish_early() {
-  if (test_has_ended()) return finish(ended_by_from_name(test_.ended_by), test_.reason);
-  // Of a master that died its launch ends the nodes in any order: that of the machine may be gone before this one.
-  const char* who = !ask_master("getPid") ? "the ROS master died"
-                    : machine_died_       ? "utm_node died"
-                                          : "ROS was shut down";
-  finish(EndedBy::kInterrupted, std::string(who) + " before the test had ended");
-}
-
-void RecorderNode::make_files(const std::string& bag_name, ResultsOptions options) {
-  Run& run = *run_;
-  std::unique_ptr<RunBag> bag;
-  options.further = [&](const std::string& folder, const Method& method) {
-    bag = std::make_unique<RunBag>((fs::path(folder) / bag_name).string(), method);
-    return FurtherWriter{[&](const Record& record) { bag->add(record); }, [&] { bag->close(); }};
-  };
-  const MadeResults made = make_results(run.folder.path(), run.method, options);
-  run.rows = made.rows;
-  run.full_rows = made.full_rows;
-  run.bag_messages = bag->messages();
-}
-
-void RecorderNode::finish(EndedBy ended_by, const std::string& reason) {
-  Run& run = *run_;
-  try {
-    run.samples->end({ended_by, reason}, run.shape);
-    make_files("test.bag", {});
-  } catch (const std::exception& error) {
-    return fail(error.what());
-  }
-  ROS_INFO("%zu readings were written to %s", run.rows, run.folder.path().c_str());
-  point_latest_to(run.folder.path());
-  run.complete = true;
-}
-
-void RecorderNode::fail(const std::string& why) {
-  error_ = why;
-  if (run_) error_ += what_stands(run_->folder.path());
-  ROS_ERROR("%s", error_.c_str());
-}
-
-bool RecorderNode::save(std::string& said) {
-  if (!run_) {
-    said = "there is nothing to save yet";
-    return false;
-  }
-  if (is_under_way()) {
-    try {
-      ResultsOptions options;
-      options.without_end.reason = "saved while the test was running";
-      make_files("saved.bag", options);
-    } catch (const std::exception& error) {
-      fail(error.what());
-    }
-  }
-  said = error_.empty() ? "saved to " + run_->folder.path() : error_;
-  return error_.empty();
-}
-
-void RecorderNode::publish_status() {
-  RecorderStatus status;
-  status.run = run_number_;
-  status.error = error_;
-  status.complete = static_cast<std::uint8_t>(is_complete());
-  if (run_) {
-    status.header.stamp = run_->stamp;
-    status.recorded = run_->recorded;
-    status.curve_rows = run_->rows;
-    status.full_rows = run_->full_rows;
-    status.bag_messages = run_->bag_messages;
-    status.directory = run_->folder.path();
-  }
-  published_ = status;
-  published_at_ = Clock::now();
-  status_.publish(status);
-}
-
-void RecorderNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  if (!error_.empty()) {
-    status.summary(DiagnosticStatus::ERROR, error_);
-  } else if (is_complete()) {
-    status.summary(DiagnosticStatus::OK, "complete");
-  } else {
-    status.summary(DiagnosticStatus::OK, run_ ? "recording" : "nothing to record yet");
-  }
-  if (!run_) return;
-  status.add("folder", run_->folder.path());
-  status.add("commands recorded", run_->recorded);
-  status.add("rows", run_->rows);
-  status.add("rows of time steps", run_->full_rows);
-  status.add("messages in the bag", run_->bag_messages);
-}
 
 }  // namespace
 
