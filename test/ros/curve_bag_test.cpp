@@ -71,13 +71,7 @@ TEST_F(CurveBag, KeepsReadingsOfOneTimeApart) {
 
 TEST_F(CurveBag, OfASimulatedTestIsItsCurve) {
   {
-    Method method;
-    method.machine.grips = GripKind::kClamps;
-    method.material.radius = 0.003;
-    method.material.density = 1000.0;
-    method.material.stretching_stiffness = 1e4;
-    method.material.bending_stiffness = method.material.twisting_stiffness = 1e-4;
-    RunBag bag(in("test.bag"), method);
+    RunBag bag(in("test.bag"), load_method(KNOT_UTM_SOURCE_DIR "/config/straight.yaml"));
     Record record;
     for (std::uint64_t i = 0; i < 4; ++i) {
       record.command.sequence = record.answer.sequence = i;

@@ -85,8 +85,8 @@ class Drawing:
 
     def draw(self, readings):
         """The picture as an array of bytes: height, width, red green blue."""
-        curve = numpy.array(readings.curve()).reshape(-1, 2)
-        measured = numpy.array(readings.measured()).reshape(-1, 2)
+        curve = numpy.array(readings.curve).reshape(-1, 2)
+        measured = numpy.array(readings.measured).reshape(-1, 2)
         small = readings.small_load()
         self._draw_background(numpy.vstack([curve, measured]), None if small is None else limit(small), len(measured) > 0,
                               (readings.bar, readings.colours_are_known()))
