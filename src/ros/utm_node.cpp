@@ -95,7 +95,7 @@ int UtmNode::spin() {
     }
     if (state_ != State::kEnded || !all_is_recorded()) continue;
     finish_goal();
-    if (physics_died_ || options_.exit_at_end) {
+    if (test_.physics_died || options_.exit_at_end) {
       end_launch_of_test();
       break;
     }
@@ -107,11 +107,9 @@ void UtmNode::end_launch_of_test() {
   leaves_ = true;
   write_verdict(options_.verdict, failed() ? 1 : 0, folder_);
   ros::WallDuration(kGoodbye).sleep();
-  if (physics_died_) return end_launch();
+  if (test_.physics_died) return end_launch();
   end_launch_when_rviz_is_closed();
 }
-
-bool UtmNode::failed() const { return recorder_failed_ || physics_died_ || (program_ && program_->failed()); }
 
 std::string UtmNode::missing() const {
   if (specimen_.nodes == 0) return "there is no specimen yet";
@@ -160,25 +158,16 @@ void UtmNode::begin() {
   publish_method(method_);
   if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
   ++run_;
-  recorder_complete_ = false;
-  physics_died_ = false;
-  single_steps_ = 0;
-  sample_ = Sample();
-  motion_pattern_.clear();
-  max_penetration_ = 0.0;
+  test_ = Test();
   state_ = State::kRunning;
-  due_ = steady_clock::now();
-  run_began_ = due_;
-  factor_measured_ = due_;
-  factor_time_ = 0.0;
   write_verdict(options_.verdict, std::nullopt, folder_);
   send(program_->last());
   publish_status();
 }
 
 double UtmNode::wait_time() const {
-  const bool to_be_paced = state_ == State::kRunning && !waiting_ && options_.real_time_factor > 0.0;
-  const double until_due = to_be_paced ? Seconds(due_ - steady_clock::now()).count() : kIdleClockPeriod;
+  const bool to_be_paced = state_ == State::kRunning && !test_.waiting && options_.real_time_factor > 0.0;
+  const double until_due = to_be_paced ? Seconds(test_.due - steady_clock::now()).count() : kIdleClockPeriod;
   return std::clamp(until_due, 0.0, 0.02);
 }
 
@@ -190,34 +179,35 @@ void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
 }
 
 void UtmNode::physics_died() {
-  physics_died_ = true;
-  sample_.sequence = command_.sequence;
-  sample_.status = BenchStatus::kFailed;
-  sample_.message = kPhysicsDied;
+  test_.physics_died = true;
+  test_.sample.sequence = test_.command.sequence;
+  test_.sample.status = BenchStatus::kFailed;
+  test_.sample.message = kPhysicsDied;
   program_->fail(kPhysicsDied);
   // The last command that there will ever be an answer to.
-  if (waiting_ && command_.sequence > 0) --command_.sequence;
-  waiting_ = false;
+  if (test_.waiting && test_.command.sequence > 0) --test_.command.sequence;
+  test_.waiting = false;
   end();
 }
 
 void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   const KnotState& state = *answer;
-  if (!waiting_ || state.run != run_ || state.sequence != command_.sequence) return;  // of a test that has ended
-  sample_ = from_message(state);
-  motion_pattern_ = state.motion_pattern;
-  max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
-  waiting_ = false;
-  progress_.show(sample_, *program_, seconds_since(run_began_));
+  if (!test_.waiting || state.run != run_ || state.sequence != test_.command.sequence)
+    return;  // of a test that has ended
+  test_.sample = from_message(state);
+  test_.motion_pattern = state.motion_pattern;
+  test_.max_penetration = std::max(test_.max_penetration, test_.sample.max_penetration);
+  test_.waiting = false;
+  progress_.show(test_.sample, *program_, seconds_since(test_.began));
   now_ = state.header.stamp;
   publish_clock(false);
-  if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
+  if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(test_.command, test_.sample, now_));
 }
 
 void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
   const RecorderStatus& status = *recorded;
   if (status.run != run_) return;
-  recorder_complete_ = status.complete != 0;
+  test_.recorder_complete = status.complete != 0;
   folder_ = status.directory;
   if (!status.error.empty()) recorder_failed(status.error);
 }
@@ -230,29 +220,28 @@ void UtmNode::recorder_failed(const std::string& why) {
   program_->stop();
 }
 
-bool UtmNode::all_is_recorded() const { return !options_.record || recorder_complete_ || recorder_failed_; }
-
 bool UtmNode::may_advance() const {
-  if (!active() || waiting_) return false;
+  if (!active() || test_.waiting) return false;
   if (program_->ended()) return true;
-  if (state_ == State::kPaused) return single_steps_ > 0;
-  return options_.real_time_factor <= 0.0 || steady_clock::now() >= due_;
+  if (state_ == State::kPaused) return test_.single_steps > 0;
+  return options_.real_time_factor <= 0.0 || steady_clock::now() >= test_.due;
 }
 
 void UtmNode::advance() {
-  const Command next = program_->next(sample_);
+  const Command next = program_->next(test_.sample);
   if (program_->ended()) return end();
-  if (state_ == State::kPaused) --single_steps_;
+  if (state_ == State::kPaused) --test_.single_steps;
   if (options_.real_time_factor > 0.0) {
-    const auto period = to_duration(std::min((next.time - command_.time) / options_.real_time_factor, kLongestPause));
-    due_ = std::max(due_ + period, steady_clock::now() - to_duration(kCatchUp));
+    const auto period =
+        to_duration(std::min((next.time - test_.command.time) / options_.real_time_factor, kLongestPause));
+    test_.due = std::max(test_.due + period, steady_clock::now() - to_duration(kCatchUp));
   }
   send(next);
 }
 
 void UtmNode::send(const Command& command) {
-  command_ = command;
-  waiting_ = true;
+  test_.command = command;
+  test_.waiting = true;
   crosshead_.publish(to_message(command, run_, test_stamp(run_start_, command.time)));
 }
 
@@ -323,7 +312,8 @@ void UtmNode::offer_services() {
   serve(names::kBalance, &UtmNode::active, kNoTest, "the load cell is balanced with the next command",
         [this] { program_->balance(); });
   serve(names::kResume, &UtmNode::paused, kNotPaused, "the test goes on", [this] { pause(false); });
-  serve(names::kStep, &UtmNode::paused, kNotPaused, "the test went on by one command", [this] { ++single_steps_; });
+  serve(names::kStep, &UtmNode::paused, kNotPaused, "the test went on by one command",
+        [this] { ++test_.single_steps; });
   services_.push_back(offer(node_, names::kPause, [this](std::string& said) {
     const bool goes_on = paused();
     said = !active() ? kNoTest : goes_on ? "the test goes on" : "the test is paused";
@@ -334,8 +324,8 @@ void UtmNode::offer_services() {
 
 void UtmNode::pause(bool paused) {
   state_ = paused ? State::kPaused : State::kRunning;
-  single_steps_ = 0;
-  due_ = steady_clock::now();
+  test_.single_steps = 0;
+  test_.due = steady_clock::now();
   publish_status();
 }
 
@@ -346,7 +336,7 @@ void UtmNode::set_pace(MachineConfig& wanted) {
     wanted.real_time_factor = options_.real_time_factor;
   }
   options_.real_time_factor = wanted.real_time_factor;
-  due_ = steady_clock::now();
+  test_.due = steady_clock::now();
 }
 
 }  // namespace knot_utm
