@@ -34,8 +34,6 @@ constexpr double kLastRecords = 1.0;   // wall time for what is under way once a
 constexpr double kLookPeriod = 0.1;    // longest wall time between two looks at what is due [s]
 constexpr double kStatusPeriod = 1.0;  // wall time between two messages of the recorder's status [s]
 
-EndedBy ended_by_from_name(const std::string& name) { return ended_by_named(name).value_or(EndedBy::kNotYet); }
-
 constexpr char kRecorderHelp[] = R"(Writes what a test measures: curve, result and bag.
 It is a part of: roslaunch knot_utm tighten.launch. What is tested, and where it goes, utm_node says (doc/ros.md).
 )";
@@ -173,12 +171,13 @@ class RecorderNode {
     // A physics that has failed may not have the specimen any more, and one that has died answers nothing.
     const bool physics_died = test_.reason == kPhysicsDied;
     const bool all = run_->recorded > test_.sequence && (run_->is_shaped || run_->failed || physics_died);
-    if (all || ((machine_died_ || physics_died) && nothing_comes))
-      finish(ended_by_from_name(test_.ended_by), test_.reason);
+    if (all || ((machine_died_ || physics_died) && nothing_comes)) finish_as_it_ended();
   }
 
+  void finish_as_it_ended() { finish(ended_by_named(test_.ended_by).value_or(EndedBy::kNotYet), test_.reason); }
+
   void finish_early() {
-    if (test_has_ended()) return finish(ended_by_from_name(test_.ended_by), test_.reason);
+    if (test_has_ended()) return finish_as_it_ended();
     // Of a master that died its launch ends the nodes in any order: that of the machine may be gone before this one.
     const char* who = !ask_master("getPid") ? "the ROS master died"
                       : machine_died_       ? "utm_node died"
