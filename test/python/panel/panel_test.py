@@ -50,7 +50,7 @@ def texts_of(drawing):
     for axes in filter(lambda one: one.get_visible(), drawing.figure.axes):
         for axis in (axes.xaxis, axes.yaxis):
             found += [axis.label, axis.get_offset_text(), *(text for text in axis.get_ticklabels() if is_within(axis, text))]
-        found += [axes.title, *(axes.get_legend().get_texts() if axes.get_legend() else ())]
+        found += [axes.title, *(axes.get_legend().get_texts() if axes.get_legend() and axes.get_legend().get_visible() else ())]
     return [text for text in found if text.get_visible() and text.get_text()]
 
 
