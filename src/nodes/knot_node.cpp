@@ -1,3 +1,3 @@
-#include "knot_utm/ros/nodes.hpp"
+#include "knot_utm/ros/process.hpp"
 
 int main(int argc, char** argv) { return knot_utm::run_knot_node(argc, argv); }

@@ -27,7 +27,6 @@
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/nodes.hpp"
 #include "knot_utm/ros/process.hpp"
 #include "knot_utm/tying/tied_loop.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"

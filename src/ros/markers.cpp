@@ -256,31 +256,26 @@ void ScenePicture::begin(const Points& points, const std::vector<int>& cuts) {
   }
 }
 
-Eigen::Index ScenePicture::parted_edge(const SceneView& view) const {
-  if (std::isnan(view.sample.break_arclength)) return -1;
-  const double* end = arclength_.data() + arclength_.size();
-  const Eigen::Index edge =
-      std::upper_bound(arclength_.data(), end, view.sample.break_arclength) - arclength_.data() - 1;
-  return std::min(edge, view.points.cols() - 2);
-}
-
-std::vector<int> ScenePicture::missing(Eigen::Index parted) const {
-  std::vector<int> out = cuts_;
-  if (parted >= 0) out.insert(std::upper_bound(out.begin(), out.end(), parted), static_cast<int>(parted));
-  return out;
-}
-
-Colors ScenePicture::colors(const SceneView& view, Eigen::Index parted) const {
+ScenePicture::Rod ScenePicture::rod_of(const SceneView& view) const {
   const bool by_tension = color_by_ == ColorBy::kTension;
   Eigen::VectorXd value =
       by_tension ? tension_at_nodes(view.tension, cuts_) : curvature_at_nodes(view.points, radii_, cuts_);
   value.conservativeResizeLike(Eigen::VectorXd::Constant(view.points.cols(), Sample::kNone));
-  if (parted >= 0 && by_tension) value.setConstant(Sample::kNone);
-  if (parted >= 0 && !by_tension) value.segment(parted, 2).setZero();  // no bend is there any more
-  Colors out;
-  out.reserve(static_cast<std::size_t>(value.size()));
-  for (const double x : value) out.push_back(std::isfinite(x) ? scale().color(x) : kUnknown);
-  return out;
+  Rod rod{{}, cuts_};
+  if (!std::isnan(view.sample.break_arclength)) {
+    const double* begin = arclength_.data();
+    const Eigen::Index beyond = std::upper_bound(begin, begin + arclength_.size(), view.sample.break_arclength) - begin;
+    const Eigen::Index parted = std::min(beyond - 1, view.points.cols() - 2);
+    rod.missing.insert(std::upper_bound(rod.missing.begin(), rod.missing.end(), parted), static_cast<int>(parted));
+    if (by_tension) {
+      value.setConstant(Sample::kNone);
+    } else {
+      value.segment(parted, 2).setZero();  // no bend is there any more
+    }
+  }
+  rod.colors.reserve(static_cast<std::size_t>(value.size()));
+  for (const double x : value) rod.colors.push_back(std::isfinite(x) ? scale().color(x) : kUnknown);
+  return rod;
 }
 
 visualization_msgs::MarkerArray ScenePicture::with_bodies(std::vector<Marker> markers, const SceneView& view) const {
@@ -298,20 +293,19 @@ visualization_msgs::MarkerArray ScenePicture::with_bodies(std::vector<Marker> ma
 }
 
 visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view) const {
-  const Eigen::Index parted = parted_edge(view);
+  const Rod rod = rod_of(view);
   const std::vector<ContactForce> contacts = show_contacts_ ? view.contacts : std::vector<ContactForce>();
-  return with_bodies({tube_marker(view.points, colors(view, parted), radii_, missing(parted)),
-                      gauge_marker(view.points, gauge_, radii_),
-                      contact_marker(contacts, radii_.first, tension_, kLongestForce * radii_.first)},
-                     view);
+  return with_bodies(
+      {tube_marker(view.points, rod.colors, radii_, rod.missing), gauge_marker(view.points, gauge_, radii_),
+       contact_marker(contacts, radii_.first, tension_, kLongestForce * radii_.first)},
+      view);
 }
 
 visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view) const {
-  const Eigen::Index parted = parted_edge(view);
-  Colors shown = colors(view, parted);
+  Rod rod = rod_of(view);
   for (const Eigen::Index node : gauge_)
-    if (node < view.points.cols()) shown[static_cast<std::size_t>(node)] = kInk;
-  return with_bodies(sphere_markers(view.points, shown, radii_, missing(parted)), view);
+    if (node < view.points.cols()) rod.colors[static_cast<std::size_t>(node)] = kInk;
+  return with_bodies(sphere_markers(view.points, rod.colors, radii_, rod.missing), view);
 }
 
 }  // namespace knot_utm

@@ -19,7 +19,6 @@
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/nodes.hpp"
 #include "knot_utm/ros/process.hpp"
 #include "knot_utm/ros/run_bag.hpp"
 #include "knot_utm/run/run_folder.hpp"

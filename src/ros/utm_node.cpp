@@ -13,7 +13,6 @@
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/nodes.hpp"
 #include "knot_utm/ros/process.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"

@@ -31,21 +31,18 @@ TestWords launched(std::map<std::string, std::string> more = {}) {
   return read_words([&](const std::string& name) { return more[name]; });
 }
 
-TEST(ARequest, LeavesWhatItDoesNotNameToTheLaunch) {
-  const TestWords words = asked_for(launched({{"preload", "30"}}), StartTest::Request());
-  EXPECT_EQ(words.method, "straight");
-  EXPECT_EQ(words.material, "polypropylene");
-  EXPECT_EQ(words.preload, "30");
-}
-
+/// What it does not name is that of the launch.
 TEST(ARequest, StandsBeforeOverridesOfTheLaunch) {
   const TestWords before =
       launched({{"overrides", "'material=pink_vps', 'material.radius=0.002', specimen.preload=1"}});
   EXPECT_THAT(before.overrides, ElementsAre("material=pink_vps", "material.radius=0.002", "specimen.preload=1"));
   StartTest::Request request;
+  EXPECT_EQ(asked_for(launched({{"preload", "30"}}), request).preload, "30");
+  EXPECT_EQ(asked_for(launched(), request).material, "polypropylene");
   request.material = "nylon";
   request.preload = 0.1;
   const TestWords words = asked_for(before, request);
+  EXPECT_EQ(words.method, "straight");
   EXPECT_EQ(words.material, "nylon");
   EXPECT_EQ(words.preload, "0.1");
   EXPECT_THAT(words.overrides, ElementsAre("material.radius=0.002"));

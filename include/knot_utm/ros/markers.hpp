@@ -87,9 +87,12 @@ class ScenePicture {
   visualization_msgs::MarkerArray draw_small(const SceneView& view) const;
 
  private:
-  Eigen::Index parted_edge(const SceneView& view) const;  ///< -1: none
-  std::vector<int> missing(Eigen::Index parted) const;    ///< edges that are not drawn
-  Colors colors(const SceneView& view, Eigen::Index parted) const;
+  /// How the rod is drawn.
+  struct Rod {
+    Colors colors;
+    std::vector<int> missing;  ///< edges that are not drawn
+  };
+  Rod rod_of(const SceneView& view) const;
   /// These markers and the bodies, stamped.
   visualization_msgs::MarkerArray with_bodies(std::vector<visualization_msgs::Marker> markers,
                                               const SceneView& view) const;

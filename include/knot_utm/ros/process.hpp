@@ -14,6 +14,11 @@
 
 namespace knot_utm {
 
+/// The main functions of the nodes. Each returns the exit code of its process.
+int run_utm_node(int argc, char** argv);       ///< the machine
+int run_knot_node(int argc, char** argv);      ///< the physics
+int run_recorder_node(int argc, char** argv);  ///< writes what a test measures
+
 /// Runs `body` as the main function of a node. Where it throws, prints one line and ends the launch. Returns the exit
 /// code: 0 success, 1 failure, 2 invalid input. Before that, it answers --help and --version without a master, and
 /// refuses every other word that is not for ROS itself (NAME:=VALUE). `help`: what --help prints below its usage line.
