@@ -20,8 +20,9 @@
 namespace knot_utm {
 namespace {
 
-/// The name in the bag of one of the package's topics, in whatever namespace. Empty where the bag does not have it.
-std::string topic_named(const rosbag::Bag& bag, const std::string& name) {
+/// The name in the bag of one of the package's topics, in whatever namespace. Empty where the bag does not have it, and
+/// need not.
+std::string topic_named(const rosbag::Bag& bag, const std::string& name, bool required) {
   const std::string end = "/" + name;
   std::string found;
   rosbag::View all(bag);
@@ -34,14 +35,9 @@ std::string topic_named(const rosbag::Bag& bag, const std::string& name) {
                                                         shown(topic) + ", but must have one");
     found = topic;
   }
-  return found;
-}
-
-std::string required_topic(const rosbag::Bag& bag, const std::string& name) {
-  std::string topic = topic_named(bag, name);
-  if (topic.empty())
+  if (required && found.empty())
     throw InvalidInput::sentence("topic " + name, "the bag has no topic " + name + ", so it is not that of a test");
-  return topic;
+  return found;
 }
 
 /// Calls `take` with every message of a topic. Throws InvalidInput where one is of another type, or of another version
@@ -61,8 +57,8 @@ void for_each(const rosbag::Bag& bag, const std::string& topic, Take take) {
 
 /// The readings of each test, one after the other. Tests of one number differ in that their time begins anew.
 std::vector<std::vector<CurveRow>> tests_in(const rosbag::Bag& bag) {
-  const std::string load_cell = required_topic(bag, names::kLoadCell);
-  const std::string crosshead = required_topic(bag, names::kCrosshead);
+  const std::string load_cell = topic_named(bag, names::kLoadCell, true);
+  const std::string crosshead = topic_named(bag, names::kCrosshead, true);
   struct Place {
     CurveRow row;
     std::uint32_t run = 0;
@@ -77,7 +73,7 @@ std::vector<std::vector<CurveRow>> tests_in(const rosbag::Bag& bag) {
     row.end_to_end = row.load_lower = Sample::kNone;
     at[message.header.stamp] = {row, message.run};
   });
-  for_each<KnotState>(bag, topic_named(bag, names::kKnotState), [&](const KnotState& message) {
+  for_each<KnotState>(bag, topic_named(bag, names::kKnotState, false), [&](const KnotState& message) {
     at[message.header.stamp] = {curve_row(from_message(message)), message.run};
   });
   std::vector<std::vector<CurveRow>> tests;

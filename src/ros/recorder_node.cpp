@@ -220,21 +220,20 @@ class RecorderNode {
   bool test_has_ended() const { return test_.state == TestStatus::ENDED && test_.run == run_number_; }
 
   void publish_status() {
-    RecorderStatus status;
-    status.run = run_number_;
-    status.error = error_;
-    status.complete = static_cast<std::uint8_t>(is_complete());
+    published_ = RecorderStatus();
+    published_.run = run_number_;
+    published_.error = error_;
+    published_.complete = static_cast<std::uint8_t>(is_complete());
     if (run_) {
-      status.header.stamp = run_->stamp;
-      status.recorded = run_->recorded;
-      status.curve_rows = run_->rows;
-      status.full_rows = run_->full_rows;
-      status.bag_messages = run_->bag_messages;
-      status.directory = run_->folder.path();
+      published_.header.stamp = run_->stamp;
+      published_.recorded = run_->recorded;
+      published_.curve_rows = run_->rows;
+      published_.full_rows = run_->full_rows;
+      published_.bag_messages = run_->bag_messages;
+      published_.directory = run_->folder.path();
     }
-    published_ = status;
     published_at_ = Clock::now();
-    status_.publish(status);
+    status_.publish(published_);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
