@@ -40,12 +40,6 @@ std::vector<std::string> list_of_overrides(const std::string& text) {
   }
 }
 
-/// Without the overrides of this very key, which one that is given in another way would else not replace.
-void remove_overrides(std::vector<std::string>& overrides, const std::string& key) {
-  const auto is_of_key = [&](const std::string& override_) { return override_.rfind(key + "=", 0) == 0; };
-  overrides.erase(std::remove_if(overrides.begin(), overrides.end(), is_of_key), overrides.end());
-}
-
 }  // namespace
 
 TestWords read_words(const std::function<std::string(const std::string& name)>& word) {
@@ -105,19 +99,18 @@ MethodSetup set_up(const TestWords& words) {
 TestWords asked_for(TestWords launched, const StartTest::Request& request) {
   TestWords words = std::move(launched);
   const bool keeps_overrides = request.overrides.empty();
-  if (!request.method.empty()) words.method = request.method;
   if (!keeps_overrides) {
     words.overrides = request.overrides;
     words.overrides.erase(std::remove(words.overrides.begin(), words.overrides.end(), ""), words.overrides.end());
   }
-  if (!request.material.empty()) {
-    words.material = request.material;
-    if (keeps_overrides) remove_overrides(words.overrides, "material");
-  }
-  if (request.preload != 0.0) {
-    words.preload = format_yaml_number(request.preload);
-    if (keeps_overrides) remove_overrides(words.overrides, "specimen.preload");
-  }
+  const auto ask = [&](std::string& word, const char* key, const std::string& asked) {
+    if (asked.empty()) return;
+    word = asked;
+    if (keeps_overrides) words.overrides.push_back(key + ("=" + asked));  // behind the launch's: the last one counts
+  };
+  if (!request.method.empty()) words.method = request.method;
+  ask(words.material, "material", request.material);
+  ask(words.preload, "specimen.preload", request.preload == 0.0 ? "" : format_yaml_number(request.preload));
   return words;
 }
 

@@ -94,7 +94,10 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
       options_(options),
       actions_(
           node, without_timer(node), [this](const Actions::GoalHandle& goal) { on_goal(goal); },
-          [this](const Actions::GoalHandle& goal) { on_cancel(goal); }, false),
+          [this](const Actions::GoalHandle& goal) {
+            if (active() && goal_ && *goal_ == goal) program_->stop();
+          },
+          false),
       diagnostics_(node) {
   crosshead_ = advertise_watched<Crosshead>(node_, names::kCrosshead, names::kKnotNode, [this](bool is_there) {
     commands_arrive_ = is_there;
@@ -119,7 +122,10 @@ int UtmNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait_time()));
     if (run_ == 0 && missing().empty()) {
-      offer_start();
+      if (!start_) {  // not before: who waits for the service or the action, as ROS has it, may begin a test at once
+        start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
+        actions_.start();
+      }
       if (options_.autostart) {
         const std::string why_not = start({});
         if (!why_not.empty()) throw std::runtime_error(why_not);
@@ -159,13 +165,6 @@ std::string UtmNode::missing() const {
   return specimen_.records_arrive == 0 ? "the recorder is not connected yet" : "";
 }
 
-void UtmNode::offer_start() {
-  if (start_) return;
-  // Not before: who waits for the service or the action, as ROS has it, may begin a test at once.
-  start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
-  actions_.start();
-}
-
 std::string UtmNode::start(const StartTest::Request& request) {
   // What is told in the same breath as this request: the last goal gets the result of its own test.
   if (state_ == State::kEnded && all_is_recorded()) finish_goal();
@@ -189,11 +188,6 @@ std::string UtmNode::start(const StartTest::Request& request) {
   } catch (const InvalidInput& invalid) {
     return invalid.what();
   }
-  begin();
-  return "";
-}
-
-void UtmNode::begin() {
   publish_method(method_);
   if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
   ++run_;
@@ -202,6 +196,7 @@ void UtmNode::begin() {
   write_verdict(options_.verdict, std::nullopt, folder_);
   send(program_->last());
   publish_status();
+  return "";
 }
 
 double UtmNode::wait_time() const {
@@ -331,10 +326,6 @@ void UtmNode::on_goal(Actions::GoalHandle goal) {
   if (!why_not.empty()) return goal.setRejected(RunTestResult(), why_not);
   goal_ = goal;
   goal_->setAccepted("the test is running");
-}
-
-void UtmNode::on_cancel(const Actions::GoalHandle& goal) {
-  if (active() && goal_ && *goal_ == goal) program_->stop();
 }
 
 void UtmNode::offer_services() {

@@ -31,21 +31,24 @@ TestWords launched(std::map<std::string, std::string> more = {}) {
   return read_words([&](const std::string& name) { return more[name]; });
 }
 
-/// What it does not name is that of the launch.
-TEST(ARequest, StandsBeforeOverridesOfTheLaunch) {
-  const TestWords before =
-      launched({{"overrides", "'material=pink_vps', 'material.radius=0.002', specimen.preload=1"}});
-  EXPECT_THAT(before.overrides, ElementsAre("material=pink_vps", "material.radius=0.002", "specimen.preload=1"));
-  StartTest::Request request;
-  EXPECT_EQ(asked_for(launched({{"preload", "30"}}), request).preload, "30");
-  EXPECT_EQ(asked_for(launched(), request).material, "polypropylene");
-  request.material = "nylon";
-  request.preload = 0.1;
-  const TestWords words = asked_for(before, request);
+TEST(ARequest, LeavesWhatItDoesNotNameToTheLaunch) {
+  const TestWords words = asked_for(launched({{"preload", "30"}}), StartTest::Request());
   EXPECT_EQ(words.method, "straight");
-  EXPECT_EQ(words.material, "nylon");
-  EXPECT_EQ(words.preload, "0.1");
-  EXPECT_THAT(words.overrides, ElementsAre("material.radius=0.002"));
+  EXPECT_EQ(words.material, "polypropylene");
+  EXPECT_EQ(words.preload, "30");
+}
+
+TEST(ARequest, StandsBeforeOverridesOfTheLaunch) {
+  TestWords before = launched({{"overrides", "'material=pink_vps', 'material.radius=0.002'"}});
+  StartTest::Request request;
+  request.material = "nylon";
+  const Method method = set_up(asked_for(before, request)).method;
+  EXPECT_EQ(method.material.name, "nylon");
+  EXPECT_EQ(method.material.radius, 0.002);
+  before.overrides = {"specimen.preload=1"};
+  request.preload = 0.1;
+  EXPECT_THAT(asked_for(before, request).overrides,
+              ElementsAre("specimen.preload=1", "material=nylon", "specimen.preload=0.1"));
   request.overrides = {"specimen.length=0.3"};
   EXPECT_EQ(asked_for(before, request).overrides, request.overrides);
   request.overrides = {""};

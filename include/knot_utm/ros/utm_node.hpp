@@ -63,7 +63,6 @@ class UtmNode {
   bool on_start(StartTest::Request& request, StartTest::Response& response);
   void offer_services();
   void on_goal(Actions::GoalHandle goal);
-  void on_cancel(const Actions::GoalHandle& goal);
 
   bool active() const { return state_ == State::kRunning || state_ == State::kPaused; }
   bool paused() const { return state_ == State::kPaused; }
@@ -73,14 +72,12 @@ class UtmNode {
   /// Starts a test, for whoever asks: the launch, the service or the action. Returns why it cannot, in one line, and
   /// has then changed nothing; empty: the test runs.
   std::string start(const StartTest::Request& request);
-  void begin();  ///< gives the first command of a test
   bool failed() const { return recorder_failed_ || test_.physics_died || (program_ && program_->failed()); }
   void pause(bool paused);
   void advance();
   void send(const Command& command);
   void physics_died();
   void recorder_failed(const std::string& why);
-  void offer_start();
   void end_launch_of_test();
   void end();
   void publish_clock(bool at_once);
