@@ -210,10 +210,9 @@ class KnotNode {
     refuse(message, out_of_order(message.sequence, next_));
   }
 
-  void on_status(const TestStatus::ConstPtr& ended) {
-    const TestStatus& status = *ended;
+  void on_status(const TestStatus::ConstPtr& status) {
     // The recorder wants the shape at the very end, which nobody could foresee.
-    if (status.state != TestStatus::ENDED || status.run != run_ || next_ != status.sequence + 1) return;
+    if (status->state != TestStatus::ENDED || status->run != run_ || next_ != status->sequence + 1) return;
     show_.show_latest();
     KnotRecord end;
     end.command = last_;

@@ -45,7 +45,14 @@ void RunBag::add(const Record& record) {
   bag_.write(names::kKnotState, stamp, state);
   if (shape_is_due(command, sample) && record.shape.cols() > 0) {
     bag_.write(names::kKnotShape, stamp, to_message(record.shape, record.tension, radius_, crosshead));
-    if (!begun_) begin(stamp, record.shape);
+    if (!begun_) {
+      picture_.begin(record.shape, cuts_);
+      std_msgs::String text;
+      text.data = method_;
+      bag_.write_latched(names::kMethod, stamp, text);
+      bag_.write_latched(names::kColors, stamp, picture_.scale().bar());
+    }
+    begun_ = true;
     add_status(record, stamp);
     add_picture(record, stamp);
   }
@@ -59,15 +66,6 @@ void RunBag::add_reading(const Sample& reading, const ros::Time& answered) {
   const ros::Time stamp = parted ? test_stamp(0.0, reading.time) : answered;
   if (parted) bag_.write(names::kKnotState, stamp, to_message(reading, kRun, stamp));
   bag_.write(names::kLoadCell, stamp, to_wrench(reading, stamp));
-}
-
-void RunBag::begin(const ros::Time& stamp, const Points& shape) {
-  begun_ = true;
-  picture_.begin(shape, cuts_);
-  std_msgs::String text;
-  text.data = method_;
-  bag_.write_latched(names::kMethod, stamp, text);
-  bag_.write_latched(names::kColors, stamp, picture_.scale().bar());
 }
 
 void RunBag::add_status(const Record& record, const ros::Time& stamp) {

@@ -18,10 +18,7 @@ TEST(ColorScale, EndsAtARoundNumberBeyondTheBreakingForce) {
   EXPECT_DOUBLE_EQ(of_rope(2500.0).full(), 5000.0);
   EXPECT_DOUBLE_EQ(of_rope(5000.0).full(), 5000.0);
   EXPECT_DOUBLE_EQ(of_rope(0.011).full(), 0.02);
-}
-
-TEST(ColorScale, OfARodThatDoesNotPartEndsAtHalfItsStiffnessOrItsPreload) {
-  Material material;
+  Material material;  // of a rod that does not part: half of its stiffness, or its pre-load
   material.stretching_stiffness = 22.15;
   LoadCellOptions cell;
   EXPECT_DOUBLE_EQ(ColorScale::of_tension(material, cell).full(), 20.0);

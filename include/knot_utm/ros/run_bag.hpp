@@ -110,7 +110,6 @@ class RunBag {
  private:
   RunBag(const std::string& file, const Method& method, const Centreline& centreline);
   void add_reading(const Sample& reading, const ros::Time& answered);
-  void begin(const ros::Time& stamp, const Points& shape);
   void add_status(const Record& record, const ros::Time& stamp);
   void add_picture(const Record& record, const ros::Time& stamp);
 
