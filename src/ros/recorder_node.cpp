@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -26,8 +25,6 @@
 
 namespace knot_utm {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kLastRecords = 1.0;   // wall time for what is under way once a node died [s]
 constexpr double kLookPeriod = 0.1;    // longest wall time between two looks at what is due [s]
@@ -201,7 +198,7 @@ class RecorderNode {
     Run& run = *run_;
     std::unique_ptr<RunBag> bag;
     options.further = [&](const std::string& folder, const Method& method) {
-      bag = std::make_unique<RunBag>((fs::path(folder) / bag_name).string(), method);
+      bag = std::make_unique<RunBag>(folder + "/" + bag_name, method);
       return FurtherWriter{[&](const Record& record) { bag->add(record); }, [&] { bag->close(); }};
     };
     const MadeResults made = make_results(run.folder.path(), run.method, options);

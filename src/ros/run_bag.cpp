@@ -12,14 +12,6 @@
 #include "knot_utm/tying/tied_loop.hpp"
 
 namespace knot_utm {
-namespace {
-
-/// The bag holds one test, whatever number it had in the life of the node that ran it.
-constexpr std::uint32_t kRun = 1;
-
-constexpr char kTf[] = "tf";
-
-}  // namespace
 
 RunBag::RunBag(const std::string& file, const Method& method, const Centreline& centreline)
     : bag_(file),
@@ -88,7 +80,7 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   for (const Transforms& some :
        {fixed_frames(grips_.lower(), stamp), moving_frames(crosshead_, sample.displacement, upper_grip, stamp)})
     frames.transforms.insert(frames.transforms.end(), some.begin(), some.end());
-  bag_.write(kTf, stamp, frames);
+  bag_.write("tf", stamp, frames);
   const SceneView view{record.shape, record.tension, {}, grips_.lower(), upper_grip, sample, stamp};
   bag_.write(names::kMarkers, stamp, picture_.draw_small(view));
 }

@@ -2,23 +2,15 @@
 #include <limits>
 
 #include "knot_utm/program/phases.hpp"
-#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/process.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
-namespace {
-
-using std::chrono::steady_clock;
-
-constexpr double kKeepsPace = 0.9;  // of the pace asked for: below it the machine says so
-
-}  // namespace
 
 void UtmNode::publish_status() {
-  status_published_ = steady_clock::now();
+  status_published_ = Clock::now();
   TestStatus status;
   status.header.stamp = now_;
   status.state = static_cast<std::uint8_t>(state_);
@@ -31,7 +23,7 @@ void UtmNode::publish_status() {
     const double wall = seconds_since(test_.factor_measured);
     if (wall > 0.9 * kStatusPeriod) {
       factor_ = (test_.sample.time - test_.factor_time) / wall;
-      test_.factor_measured = steady_clock::now();
+      test_.factor_measured = Clock::now();
       test_.factor_time = test_.sample.time;
     }
     if (state_ == State::kEnded) {
@@ -92,6 +84,7 @@ void UtmNode::finish_goal() {
 
 void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
+  constexpr double kKeepsPace = 0.9;  // of the pace asked for: below it the machine says so
   const double asked = options_.real_time_factor;
   const bool late = state_ == State::kRunning && asked > 0.0 && factor_ < kKeepsPace * asked;
   if (recorder_failed_) {

@@ -108,6 +108,8 @@ class RunBag {
   std::uint64_t messages() const { return bag_.messages(); }  ///< number of messages written so far
 
  private:
+  static constexpr std::uint32_t kRun = 1;  ///< number of its one test, whichever it was of the node that ran it
+
   RunBag(const std::string& file, const Method& method, const Centreline& centreline);
   void add_reading(const Sample& reading, const ros::Time& answered);
   void add_status(const Record& record, const ros::Time& stamp);
