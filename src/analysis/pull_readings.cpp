@@ -124,7 +124,7 @@ std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase, 
 }
 
 /// The relaxation in the last hold at a place that is out, with a load on the grip. Where a load is held the crosshead
-/// moves, and a drawn shape that settles bears no load.
+/// moves, and a sketched shape that settles bears no load.
 std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples, const std::vector<int>& steps) {
   std::optional<Relaxation> last;
   for (const Stretch& hold : stretches(samples, Phase::kHold, steps)) {

@@ -158,7 +158,7 @@ std::string which_rope(const std::vector<int>& cuts, int edge) {
 }  // namespace
 
 std::string BreakWatch::refuse(const Exposure& to, double dt) const {
-  // A rod that begins beyond its strength, as a shape that was drawn with too sharp a bend, parts at once.
+  // A rod that begins beyond its strength, as a shape that was sketched with too sharp a bend, parts at once.
   if (before_ >= 1.0 || to.fraction <= (dt > shortest_ ? kOvershoot : kAbsurd)) return {};
   std::ostringstream text;
   text << "the " << name_of(to.limit) << " would jump from " << before_ << " to " << to.fraction

@@ -58,8 +58,9 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
   supports_ = knot.supports(specimen, material);
   for (const HungWeight& weight : centreline.weights)
     weights_.push_back({weight.node, -weight.fraction * tying_load(specimen, material) * Vec3::UnitZ()});
-  if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
-  if (supports_.pins.empty()) hold(upper_nodes_, knot.held_above(centreline, clamped));
+  if (supports_.posts.empty() || !centreline.held_lower.empty())
+    hold(lower_nodes_, knot.held_lower(centreline, clamped));
+  if (supports_.pins.empty()) hold(upper_nodes_, knot.held_upper(centreline, clamped));
   const auto half_edge = [&](int edge) {
     const bool there = edge >= 0 && edge + 1 < centreline.points.cols() &&
                        std::find(centreline.cuts.begin(), centreline.cuts.end(), edge) == centreline.cuts.end();
@@ -160,8 +161,8 @@ void Grips::hold_far_side(const Points& position, double displacement) {
   holds_far_side_ = true;
 }
 
-/// To pins in the loop as it was drawn, by a fraction of what they widen: its near side is where it will be, its half
-/// circles are narrower and further out by as much as keeps its length.
+/// To pins in the loop as it was sketched, by a fraction of what they widen: its near side is where it will be, its
+/// half circles are narrower and further out by as much as keeps its length.
 void Grips::narrow(double left, std::vector<Roller>& rollers) const {
   if (!pins_.empty()) {
     for (std::size_t i = 0; i < pins_.size(); ++i) widen(pins_[i], left, rollers[i]);
@@ -412,7 +413,7 @@ std::vector<GripBody> grip_bodies(const SpecimenOptions& specimen, const Machine
       const bool goes_up = posts == &supports.pins;
       const bool beside_grip = held_below && !goes_up;  // the lower grip is where the rope is held
       Vec3 grip = posts->front().centre;
-      if (beside_grip) grip << thickest(material) * drawing->held_below().head<2>(), 0.0;
+      if (beside_grip) grip << thickest(material) * drawing->point_in_lower_grip().head<2>(), 0.0;
       bool is_grip = &one == &posts->front() && !beside_grip;
       for (GripBody& body : bodies_of(one)) {
         body.goes_up = goes_up;

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
 
-// A shape that is pulled as it was drawn settles first, under a drag that fades as that of the tying rig does.
+// A shape that is pulled as it was sketched settles first, under a drag that fades as that of the tying rig does.
 constexpr double kAimedMotion = 0.6;    // of the fastest node, in a step [h]
 constexpr double kAimedSlip = 0.4;      // of strands on each other, in a step [h]
 constexpr double kSettlingTime = 1.0;   // [s]
@@ -93,7 +93,7 @@ struct TestingMachine::Impl {
        const PhysicsOptions& physics_)
       : specimen(specimen_),
         centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
-        material(as_it_moves(material_, physics_, slack_of(specimen_, centreline))),
+        material(with_scaled_inertia(material_, physics_, slack_of(specimen_, centreline))),
         machine(machine_),
         physics(physics_),
         grips(specimen_, machine_, centreline, material),
@@ -119,15 +119,15 @@ struct TestingMachine::Impl {
     if (material.other) bending_time = std::min(bending_time, specimen_scales(*material.other).own_time);
     StepControl::Options options;
     options.longest = options.first = tolerances(physics, specimen, material).longest_step;
-    // A drawn shape springs apart at once.
+    // A sketched shape springs apart at once.
     if (!knot_of(specimen).about().straight) options.first = std::min(bending_time, options.longest);
     options.motion = kAimedMotion * thinnest(material);
     options.slip = kAimedSlip * thinnest(material);
     options.shortest = std::min(options.shortest, kShortestStep * bending_time);
     control = StepControl(options);
     tying = make_tying(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
-    if (!centreline.free.empty()) free_ends.emplace(centreline, stepper->rod());
-    if (!centreline.read.empty()) knot_readings.emplace(centreline, stepper->rod());
+    if (!centreline.free_ends.empty()) free_ends.emplace(centreline, stepper->rod());
+    if (!centreline.readings.empty()) knot_readings.emplace(centreline, stepper->rod());
     if (type_is_followed(specimen))
       watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), material.core_radius(), centreline.points,
                     centreline.windings());
@@ -192,7 +192,7 @@ struct TestingMachine::Impl {
     return tying ? tying->held_length(from, to) : grips.end_to_end(0.0);
   }
 
-  /// A drawn shape's stored energy is an artefact of the drawing, and would throw it about. A straight rod has none;
+  /// A sketched shape's stored energy is an artefact of the sketch, and would throw it about. A straight rod has none;
   /// what the rig ties settles there.
   double drag_of_settling(double at_time) const {
     if (knot_of(specimen).about().straight || specimen.to_be_tied || at_time >= kSettlingTime) return 0.0;
@@ -205,10 +205,10 @@ struct TestingMachine::Impl {
   /// first pull on.
   double drag() const {
     const KnotDescription& knot = knot_of(specimen).about();
-    const bool drawn_knot = knot.may_hold_a_knot() && !knot.loop;
+    const bool sketched_knot = knot.may_hold_a_knot() && !knot.loop;
     const auto to_rest = [&](const RodMaterial& rope) { return drag_to_rest(rope, knot.loop); };
     const double usual = material.other ? std::max(to_rest(material), to_rest(*material.other)) : to_rest(material);
-    return physics.drag.value_or(pulled && drawn_knot ? 0.0 : usual);
+    return physics.drag.value_or(pulled && sketched_knot ? 0.0 : usual);
   }
 
   void enter_step(const Command& command) {

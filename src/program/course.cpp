@@ -33,7 +33,7 @@ double CrossheadCourse::velocity_to_extension(double left, double fastest) const
   return std::clamp(left / gain_.value, -most, most) / period();
 }
 
-double CrossheadCourse::met_extension(double fastest) const {
+double CrossheadCourse::extension_tolerance(double fastest) const {
   return gain_.value > kRigid ? kMetExtension : kMetByAFrame * fastest * period();
 }
 

@@ -169,7 +169,7 @@ void CycleStep::steer(const Sample& now, CrossheadCourse& course) {
 
 EndedBy CycleStep::ended(const Sample& now, CrossheadCourse& course) {
   const double sense = outwards_ ? 1.0 : -1.0;
-  if (extension ? reached(now.extension, target(), sense, course.met_extension(speed))
+  if (extension ? reached(now.extension, target(), sense, course.extension_tolerance(speed))
                 : reached(balanced_load(now), target(), sense, kMetLoad * (load->high - load->low))) {
     outwards_ = !outwards_;
     course.forget_stiffness();
@@ -197,7 +197,7 @@ void ReturnStep::steer(const Sample& now, CrossheadCourse& course) {
 }
 
 EndedBy ReturnStep::ended(const Sample& now, CrossheadCourse& course) {
-  if (now.extension <= extension + course.met_extension(speed)) return EndedBy::kExtension;
+  if (now.extension <= extension + course.extension_tolerance(speed)) return EndedBy::kExtension;
   const bool met = load && reached(balanced_load(now), *load, -1.0, kMetLoad * std::abs(course.begin_load()));
   return met ? EndedBy::kLoad : EndedBy::kNotYet;
 }

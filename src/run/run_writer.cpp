@@ -145,7 +145,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   known_.end_to_end = method.specimen.end_to_end;
   if (method.specimen.to_be_tied && tied_by_preload(method.specimen))
     known_.preload = method.specimen.preload.value_or(Sample::kNone);
-  known_.free_ends = drawn.free.size();
+  known_.free_ends = drawn.free_ends.size();
   hung_ = hung_weight(method.specimen, method.material);
   known_.foreseen = foreseen_warnings(method);
   weight_per_length_ =

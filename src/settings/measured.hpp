@@ -24,9 +24,9 @@ inline constexpr Tolerances kStretchingDraft{0.34, 3e-4, 0.12, 2e-2, 1.0};
 inline constexpr Tolerances kStretchingNormal{0.17, 2e-4, 0.08, 1e-2, 1.0};
 inline constexpr Tolerances kStretchingFine{0.05, 1e-5, 0.01, 1e-3, 2.0};
 
-// The same for a knot of a solid rod between clamps that is drawn open, and whose strands roll. Its swing decides how
-// far its force is off, and finer tolerances do not change it: over twelfths of the pull of open overhands with one to
-// three turns the mean force differs from that of `fine` by 0.5 to 1.3 %, and by 0.4 to 1.3 % with those of ropes.
+// The same for a knot of a solid rod between clamps that is sketched open, and whose strands roll. Its swing decides
+// how far its force is off, and finer tolerances do not change it: over twelfths of the pull of open overhands with one
+// to three turns the mean force differs from that of `fine` by 0.5 to 1.3 %, and by 0.4 to 1.3 % with those of ropes.
 inline constexpr Tolerances kOpenDraft{0.34, 5e-4, 0.2, 4e-2, 1.0};
 inline constexpr Tolerances kOpenNormal{0.17, 2e-4, 0.1, 2e-2, 1.0};
 
@@ -86,7 +86,7 @@ inline constexpr double kStraightStiffness = 1e-3;
 // The largest load of a knot from a file, in a solid rod and in a rope that slips at less than its pre-load. They hold
 // 21 of 22 and 13 of 13 means of two starts (bench/results/knots.md, and six other knots). Of six more, tried once they
 // were set, they hold 11 of 12, one being off by 10.3 % while the error of the finer mean is 9 %, and 2 of 2.
-inline constexpr double kDrawnInSolid = 0.10, kDrawnInRope = 0.15;
+inline constexpr double kSketchedInSolid = 0.10, kSketchedInRope = 0.15;
 
 // Fraction of the error that each source contributes at `normal` with edges of one radius [-]; they sum to 1. For the
 // same draws each source by itself was reduced: edges to a half, contact tolerance to a half, presliding displacement

@@ -26,16 +26,16 @@ constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which a law
 // and specimen.preload= at draft).
 constexpr double kLargestStrain = 5.0;  // by a pre-load [-]
 
-double drawn_coil(const SpecimenOptions& specimen) { return knot_of(specimen).about().drawn_coil; }  // R_0 [h]
+double sketched_coil(const SpecimenOptions& specimen) { return knot_of(specimen).about().sketched_coil; }  // R_0 [h]
 
 double bending_force(const Material& material) {
   return material.bending_stiffness / (material.radius * material.radius);
 }
 
-/// Pre-load below which the coils stay as they are drawn, but no more than closes them without friction: strands that
-/// hold each other by friction alone may be pulled tight later.
+/// Pre-load below which the coils stay as they are sketched, but no more than closes them without friction: strands
+/// that hold each other by friction alone may be pulled tight later.
 double least_preload(const SpecimenOptions& specimen, const Material& material) {
-  const double closed = closing_preload(material), fraction = kClosed / drawn_coil(specimen);
+  const double closed = closing_preload(material), fraction = kClosed / sketched_coil(specimen);
   return std::min(closed * fraction * fraction, bending_force(material) / (2.0 * kClosed * kClosed));
 }
 
@@ -120,7 +120,7 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
                            short_number(closing_preload(material)) + " N");
   check_stretch(preload, material, "material");
   if (material.other) check_stretch(preload, *material.other, "other_material");
-  const double exposed = exposed_by(strain_under(material, preload), 1.0 / drawn_coil(specimen), material);
+  const double exposed = exposed_by(strain_under(material, preload), 1.0 / sketched_coil(specimen), material);
   if (exposed >= 1.0)
     throw InvalidInput(
         "material.breaking.bending_share", short_number(material.breaking.number(FibreBreaking::kBendingShare)),
@@ -137,7 +137,7 @@ std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const M
     stretch = strain_under(material, preload);
     if (preload < closing)
       all.push_back("a pre-load of " + short_number(preload) + " N leaves the coils open, at a radius of about " +
-                    short_number(std::min(coil_radius(material, preload) / material.radius, drawn_coil(specimen))) +
+                    short_number(std::min(coil_radius(material, preload) / material.radius, sketched_coil(specimen))) +
                     " radii of the rod: they close at " + short_number(closing) + " N");
     if (stretch > kMostStretch)
       all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " +

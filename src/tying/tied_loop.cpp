@@ -23,15 +23,15 @@ constexpr double kKnotsMoved = 0.3;  // by which knots slide [h]
 
 }  // namespace
 
-void TakeUp::begin(double load, double displacement, double knot_distance) {
-  *this = TakeUp(taut_, radius_);
+void TakeUpSlack::begin(double load, double displacement, double knot_distance) {
+  *this = TakeUpSlack(taut_, radius_);
   begin_ = displacement;
   knot_distance_ = knot_distance;
   follow(load, displacement, knot_distance);
   moved_ = false;
 }
 
-void TakeUp::follow(double load, double displacement, double knot_distance) {
+void TakeUpSlack::follow(double load, double displacement, double knot_distance) {
   if (done_) return;
   const double sense = load < taut_ ? 1.0 : -1.0;
   const bool slid = sense > 0.0 && std::abs(knot_distance - knot_distance_) > kKnotsMoved * radius_;
@@ -44,7 +44,9 @@ void TakeUp::follow(double load, double displacement, double knot_distance) {
   fraction_ = std::min(finest_, sense > 0.0 && load > kMuch * taut_ ? kSlow : 1.0);
 }
 
-void TakeUp::state(Archive& archive) { archive(sense_, fraction_, finest_, begin_, knot_distance_, moved_, done_); }
+void TakeUpSlack::state(Archive& archive) {
+  archive(sense_, fraction_, finest_, begin_, knot_distance_, moved_, done_);
+}
 
 namespace {
 
@@ -82,7 +84,7 @@ TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, co
       end_to_end_(specimen.end_to_end),
       rig_(centreline, stepper.rod(), tying_options(specimen, material, creep_speed)),
       touch_(rig_.standing_nodes(), material.core_radius(), centreline.windings()),
-      take_up_(kTautLoad * specimen_scales(material).force, material.radius) {}
+      slack_(kTautLoad * specimen_scales(material).force, material.radius) {}
 
 void TiedLoop::enter(const Command& command, const Place& now) {
   const Phase phase = command.phase;
@@ -99,7 +101,7 @@ void TiedLoop::enter(const Command& command, const Place& now) {
   if (phase != Phase::kMount) return;
   speed_ = command.speed;
   at_marks_ = false;
-  begin_to_take_up(now);
+  begin_on_slack(now);
 }
 
 void TiedLoop::put_on(const Place& now) {
@@ -109,8 +111,8 @@ void TiedLoop::put_on(const Place& now) {
   if (!grips_.put_on(loop, now.grip, radius_)) not_mounted_ = kNoRoom;
 }
 
-/// Straight strands become longer or shorter until e and L are met, as if the loop had been drawn so: neither affects
-/// how a knot is tied and let go. Knots that have come nearer by themselves have opened, and stay.
+/// Straight strands become longer or shorter until e and L are met, as if the loop had been sketched so: neither
+/// affects how a knot is tied and let go. Knots that have come nearer by themselves have opened, and stay.
 bool TiedLoop::set_to_marks(const Place& now) {
   const double distance = knot_distance(), apart = knot_distance_ - distance;
   const double further = grips_.on_rollers() ? end_to_end_ - grips_.end_to_end(now.grip) : 0.0;
@@ -151,12 +153,12 @@ void TiedLoop::follow(Phase phase, const Place& now, double dt) {
 }
 
 void TiedLoop::follow_mounting(const Place& now, bool puts_on) {
-  if (puts_on || setting()) return begin_to_take_up(now);
-  take_up_.follow(load_on_both(), now.displacement, knot_distance());
-  at_marks_ = take_up_.done() && !set_to_marks(now);
+  if (puts_on || setting()) return begin_on_slack(now);
+  slack_.follow(load_on_both(), now.displacement, knot_distance());
+  at_marks_ = slack_.done() && !set_to_marks(now);
 }
 
-void TiedLoop::begin_to_take_up(const Place& now) { take_up_.begin(load_on_both(), now.displacement, knot_distance()); }
+void TiedLoop::begin_on_slack(const Place& now) { slack_.begin(load_on_both(), now.displacement, knot_distance()); }
 
 void TiedLoop::hold(Boundary& boundary, double from, double to) const {
   if (rig_.off_rollers()) {
@@ -183,7 +185,7 @@ double TiedLoop::held_length(double from, double to) const {
 double TiedLoop::mounting_velocity(double speed) const {
   // It stands while the loop is put on.
   if (!rig_.guides()) return 0.0;
-  return setting() ? set_speed_ : speed * take_up_.velocity();
+  return setting() ? set_speed_ : speed * slack_.velocity();
 }
 
 bool TiedLoop::done(Phase phase) const {
@@ -210,7 +212,7 @@ void TiedLoop::read(Sample& sample) const {
 
 void TiedLoop::state(Archive& archive) {
   archive.section("LOOP");
-  archive(rig_, touch_, take_up_, set_end_, set_speed_, apart_, further_, speed_, tied_distance_, sets_, at_marks_);
+  archive(rig_, touch_, slack_, set_end_, set_speed_, apart_, further_, speed_, tied_distance_, sets_, at_marks_);
 }
 
 double marks_of(const SpecimenOptions& specimen, const Program& program) {

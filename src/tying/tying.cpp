@@ -15,9 +15,9 @@
 namespace knot_utm {
 namespace {
 
-/// Ties a knot between the machine's grips by pulling at its ends, as a drawing says (Centreline::tied). The drawn
+/// Ties a knot between the machine's grips by pulling at its ends, as a drawing says (Centreline::tied). The sketched
 /// shape first settles under a strong drag that fades. Then each group of ends is pulled in turn by grips that move at
-/// a set speed and slip at their part of the pre-load: free ends outwards as they were drawn, and those of the upper
+/// a set speed and slip at their part of the pre-load: free ends outwards as they were sketched, and those of the upper
 /// grip, which lets them slip from then on, along z. The lower grip stands still. Earlier groups are held at their
 /// part, or pulled again to another. A group's turn ends once all of them slip and everything is at rest. A knot
 /// without an end to pull at only settles, and the crosshead pulls it tight.
@@ -76,7 +76,7 @@ EndTying::EndTying(const Centreline& centreline, const Material& material, doubl
                    const TimeStep& stepper, Grips& grips)
     : stepper_(stepper),
       grips_(grips),
-      groups_(centreline.tied),
+      groups_(centreline.pull_groups),
       preload_(preload),
       radius_(thickest(material)),
       settling_(material),

@@ -23,7 +23,7 @@ constexpr double kHalfTightWinding = 1.0;
 // While the loop is put on, it moves as a whole: waves of so many radii relax in about a tenth of the settling time.
 constexpr double kPuttingOnWave = 73.0;
 constexpr double kLongest = 2.0;          // that strands may become as the knots are set to their marks [-]
-constexpr double kShortest = 0.2;         // edge of such a strand, over the shortest one as the rod is drawn [-]
+constexpr double kShortest = 0.2;         // edge of such a strand, over the shortest one as the rod is sketched [-]
 constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
 
 }  // namespace

@@ -109,7 +109,7 @@ class Grips {
   bool comes_near(const Points& loop, double displacement, double radius);
   bool put_on_pins(const Points& loop, double displacement, double radius);
 
-  double narrower_ = 0.0;     // how much narrower than on the rollers the loop was drawn [m]
+  double narrower_ = 0.0;     // how much narrower than on the rollers the loop was sketched [m]
   double clearance_ = 0.0;    // of narrower pins in the loop [m]
   double length_held_ = 0.0;  // by the upper grip [m]
   double lift_ = 0.0;         // of the lower one while the loop is put on [m]

@@ -22,7 +22,7 @@ struct Sample;
 /// Frame: z up and along the load axis, the lower grip's roller (or node, or clamp) near z = 0.
 class TestingMachine {
  public:
-  /// The specimen is in its drawn shape, not tied yet. Throws InvalidInput where it does not fit the machine.
+  /// The specimen is in its sketched shape, not tied yet. Throws InvalidInput where it does not fit the machine.
   TestingMachine(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                  const PhysicsOptions& physics);
   ~TestingMachine();

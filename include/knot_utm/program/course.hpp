@@ -82,7 +82,7 @@ class CrossheadCourse {
   /// Velocity towards an extension that is `left` [m] away, and no further.
   double velocity_to_extension(double left, double fastest) const;
   /// How near an extension counts as met [m].
-  double met_extension(double fastest) const;
+  double extension_tolerance(double fastest) const;
   /// Magnitude of the velocity towards a load. `creeps`: slowly as long as no slope is known.
   double speed_to_load(const Sample& now, double load, double fastest, bool creeps);
   /// Velocity that keeps `wanted_load`.

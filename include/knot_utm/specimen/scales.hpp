@@ -27,26 +27,27 @@ struct SpecimenScales {
   double force = 0.0;       ///< F_0 [N]
   double own_time = 0.0;    ///< tau with the mass of the material [s]
   double mass = 0.0;        ///< m, mass per length from the material's density [kg/m]
-  double rest_speed = 0.0;  ///< slower than this it is at rest [m/s]
+  double rest_speed = 0.0;  ///< a specimen is at rest if all nodes are slower than this [m/s]
 };
 SpecimenScales specimen_scales(const RodMaterial& material);
 
 /// Accelerated mass over the rod's own (`physics.inertia`) [-]. `auto` is the mass of tau = 2e-4 s, about that of the
-/// paper's ropes, so that similar specimens move alike, from a thread to a hawser. Of a rod with a slack loop it is no
-/// more than its own, and so little that the loop comes to rest: of `slack` [m], the length of rod beyond the distance
-/// of its ends, a loop of radius R = slack/2 pi springs in the time R^2 sqrt(m/k_b), which is 0.1 s at most. The weight
-/// always follows from the rod's own mass.
+/// paper's ropes, so that similar specimens move alike, from a thread to a hawser. A rod with a slack loop gets no more
+/// than its own mass, and so little that the loop comes to rest: `slack` [m], the length of rod beyond the distance of
+/// its ends, makes a loop of radius R = slack/2 pi, which springs in the time R^2 sqrt(m/k_b), at most 0.1 s. The
+/// weight always follows from the rod's own mass.
 double inertia_factor(const RodMaterial& material, const PhysicsOptions& physics, double slack);
 /// Of two materials the smaller one, so that gravity accelerates both ropes alike.
 double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack);
 
-/// The same material with the density of its accelerated mass.
-Material as_it_moves(Material material, const PhysicsOptions& physics, double slack);
+/// The material with its densities multiplied by inertia_factor(): that of the mass which is accelerated.
+Material with_scaled_inertia(Material material, const PhysicsOptions& physics, double slack);
 
 /// Drag per length of `physics.drag: auto` [N s/m^2]: motion of the whole specimen decays to 1/e in a third of a
 /// second. c = 3/s m, which is 1.2e-7 s k_b/h^4 for every rod with tau = 2e-4 s. Nothing else stops a loop that coasts
-/// around rollers without friction, however light it is: its drag is that of tau = 2e-5 s at least.
-double drag_to_rest(const RodMaterial& as_it_moves, bool loop);
+/// around rollers without friction, however light it is, so its drag is at least that of tau = 2e-5 s. `material`: with
+/// scaled inertia.
+double drag_to_rest(const RodMaterial& material, bool loop);
 
 /// Drag per length with which bends of wavelength `wave` [m] relax in about a tenth of `time` [s]; [N s/m^2].
 double settling_drag(const RodMaterial& material, double wave, double time);

@@ -25,12 +25,12 @@ struct Material;
 ///
 /// Measured over mu = 0.1 to 0.8 and F_p h^2/k_b = 0.02 to 20 (doc/developers/history.md): a coil that is
 /// tied with F_p(closed) stays wider by 0.2 to 0.7 h than one that is tied with 20 k_b/h^2. A pull below exp(pi mu)
-/// k_b/(2 R_0^2) does not move the drawn coil, R_0 = 4.7 h.
+/// k_b/(2 R_0^2) does not move the sketched coil, R_0 = 4.7 h.
 ///
 /// Strain. The outermost fibre of a bend of radius R is strained by h/R in addition to the F_p/k_s of the tension: h/R
-/// is 1/4.7 in the drawn coil and up to 1/2 in one that lies on the strands in it.
+/// is 1/4.7 in the sketched coil and up to 1/2 in one that lies on the strands in it.
 
-/// Whether a pre-load ties the knot. A knot's file may have nothing pulled: then the drawn shape only settles.
+/// Whether a pre-load ties the knot. A knot's file may have nothing pulled: then the sketched shape only settles.
 bool tied_by_preload(const SpecimenOptions& specimen);
 
 /// Whether the pre-load has an effect: on what ties the knot, or on what hangs on it.

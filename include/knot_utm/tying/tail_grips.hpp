@@ -13,8 +13,8 @@
 
 namespace knot_utm {
 
-/// How a drawn shape settles before it is tied: under a strong drag that fades. The energy of the drawn shape is an
-/// artefact of the drawing and would otherwise throw the strands about.
+/// How a sketched shape settles before it is tied: under a strong drag that fades. The energy of the sketched shape is
+/// an artefact of the sketch and would otherwise throw the strands about.
 class Settling {
  public:
   static constexpr double kTime = 0.3;   ///< [s]

@@ -20,11 +20,11 @@ namespace knot_utm {
 /// that bears more than that load when it is put on is slackened first. Each time that the crosshead reverses it moves
 /// more slowly. A force that does not fall however far the crosshead goes back does not come from the slack; the
 /// crosshead then stops. It also stops where the knots slide before the load is reached.
-class TakeUp {
+class TakeUpSlack {
  public:
-  TakeUp() = default;
+  TakeUpSlack() = default;
   /// `taut_load`: load of a taut loop [N]; radius of the rod [m].
-  TakeUp(double taut_load, double radius) : taut_(taut_load), radius_(radius) {}
+  TakeUpSlack(double taut_load, double radius) : taut_(taut_load), radius_(radius) {}
 
   void begin(double load, double displacement, double knot_distance);
 
@@ -87,7 +87,7 @@ class TiedLoop final : public Tying {
   bool set_to_marks(const Place& now);
   bool setting() const { return set_end_ > 0.0; }
   void follow_mounting(const Place& now, bool puts_on);
-  void begin_to_take_up(const Place& now);
+  void begin_on_slack(const Place& now);
   double load_on_both() const;
   double knot_distance() const;
 
@@ -105,7 +105,7 @@ class TiedLoop final : public Tying {
   bool at_marks_ = false;               // as near as it comes
   TyingRig rig_;
   KnotTouch touch_;
-  TakeUp take_up_;
+  TakeUpSlack slack_;
   std::string not_mounted_;
 };
 

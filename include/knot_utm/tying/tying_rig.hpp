@@ -15,7 +15,7 @@ namespace knot_utm {
 /// by a grip that moves at a set speed and slips at the pre-load. The end is reached by displacement against a slipping
 /// grip, and only once everything is at rest, so the tied state does not depend on drag, step or speed.
 ///
-/// Before it pulls, the drawn shape settles.
+/// Before it pulls, the sketched shape settles.
 ///
 /// All this happens off the rollers. The loop is held by the straight part of its far side; its half circles and the
 /// side with the knots are free. The clamps stand at set distances from the knots, on straight strands.
@@ -87,7 +87,7 @@ class TyingRig {
   /// Why the knots cannot be tied; empty: they can.
   const std::string& not_tied() const { return not_tied_; }
 
-  /// A rod as if it had been drawn otherwise.
+  /// A rod as if it had been sketched otherwise.
   struct Laid {
     Eigen::VectorXd rest_length;  ///< [m]
     Points position;              ///< [m]
