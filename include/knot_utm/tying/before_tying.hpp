@@ -10,7 +10,7 @@ namespace knot_utm {
 
 struct Material;
 
-/// What is known about the knots that a pre-load ties before any time step.
+/// What can be known before the first time step about the knots that a pre-load ties.
 ///
 /// Symbols: h radius of the rod, k_b and k_s its bending and stretching stiffness, mu friction coefficient, F_p
 /// pre-load, R radius of the coil's centreline.
@@ -30,21 +30,22 @@ struct Material;
 /// Strain. The outermost fibre of a bend of radius R is strained by h/R in addition to the F_p/k_s of the tension: h/R
 /// is 1/4.7 in the sketched coil and up to 1/2 in one that lies on the strands in it.
 
-/// Whether a pre-load ties the knot. A knot's file may have nothing pulled: then the sketched shape only settles.
+/// Whether a pre-load ties the knot. The file of a knot may pull at no end: its sketched shape then only settles.
 bool tied_by_preload(const SpecimenOptions& specimen);
 
-/// Whether the pre-load has an effect: on what ties the knot, or on what hangs on it.
+/// Whether the pre-load has an effect: it ties the knot, or scales weights that hang on it.
 bool preload_acts(const SpecimenOptions& specimen);
 
 /// Least F_p that closes the coils [N].
 double closing_preload(const Material& material);
 
-/// R that a pre-load [N] bends a free coil to [m].
+/// R to which a pre-load [N] bends a free coil [m].
 double coil_radius(const Material& material, double preload);
 
+/// Throws InvalidInput (specimen.preload, material.breaking.bending_share) where the knot cannot be tied.
 void check_tying(const SpecimenOptions& specimen, const Material& material);
 
-/// Warnings of what makes tying doubtful but not impossible, one line each with its number.
+/// Warnings about what makes tying doubtful but not impossible, one line each, with its figure.
 std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const Material& material,
                                         const PhysicsOptions& physics);
 
