@@ -33,7 +33,7 @@ TEST(LedSteps, PreloadMeetsItsLoadAndBalancesStandingStill) {
   const Command& last = result.commands[first - 1];
   EXPECT_TRUE(last.balance);
   EXPECT_EQ(last.velocity, 0.0);
-  EXPECT_NEAR(result.samples[first - 1].force_upper, 2.0, 2e-3);  // kMetLoad
+  EXPECT_NEAR(result.samples[first - 1].force_upper, 2.0, 2e-3);  // kLoadTolerance
   EXPECT_EQ(result.samples[first - 1].load, 0.0);
   EXPECT_NEAR(result.samples[first].load, 1000.0 * 0.0033 * program.period(), 1e-12);
 
@@ -95,7 +95,7 @@ TEST(LedSteps, CyclesBetweenLoadsByCountOrTime) {
   cycle.cycles = 2;
   ProgramRunner by_count({cycle}, 3.0, 0.1, {});
   const Answered counted = run(FakeBench(), by_count);
-  constexpr double kMet = 3e-3;  // kMetLoad of the range
+  constexpr double kMet = 3e-3;  // kLoadTolerance of the range
   double highest = 0.0;
   for (const Sample& sample : counted.samples) highest = std::max(highest, sample.load);
   EXPECT_NEAR(highest, 4.0, kMet);
@@ -116,7 +116,7 @@ TEST(LedSteps, ReturnsToAnExtensionOrALoad) {
   ReturnStep unload;
   unload.load = 3.0;
   ProgramRunner to_load({BalanceStep(), pull(0.01), unload}, 3.0, 0.1, {});
-  EXPECT_NEAR(run(FakeBench(), to_load).samples.back().load, 3.0, 1e-3 * 10.3);  // kMetLoad of where it began
+  EXPECT_NEAR(run(FakeBench(), to_load).samples.back().load, 3.0, 1e-3 * 10.3);  // kLoadTolerance of where it began
   EXPECT_EQ(to_load.ended_by(), EndedBy::kLoad);
 }
 
