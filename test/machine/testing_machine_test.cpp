@@ -12,6 +12,7 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "overhand_specimen.hpp"
