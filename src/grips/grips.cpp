@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"

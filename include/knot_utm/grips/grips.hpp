@@ -6,13 +6,14 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/scene.hpp"
-#include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/machine_options.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+class TimeStep;
 
 /// A pin in a slack loop that becomes one of its rollers: while the loop is put on, it moves to the roller's place and
 /// widens to the roller's radius.
