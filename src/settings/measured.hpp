@@ -48,7 +48,7 @@ inline constexpr double kPlateau = 0.06, kRollingPlateau = 0.09, kSlippery = 0.8
 // locking themselves, and so does its error: by 1 + (M0 mu/kNearLocking)^2, with M0 in k_b/h. This includes all but
 // one of the plateaus of seeds 91 and 92 whose knots have the same handedness.
 inline constexpr double kNearLocking = 0.07;
-// The load at which a knot parts whose bend helps to part it (fibre_breaking.hpp), with edges of h: it is 1.7 to 4.6 %
+// The load at which a knot parts whose bend helps to part it (FibreBreaking), with edges of h: it is 1.7 to 4.6 %
 // too high in twelve knots of ropes (doc/developers/measured.md), and right within 1.6 % in those of solid rods.
 inline constexpr double kBreakInBend = 0.06;
 // The same where contacts that press it flat help, too: 3 to 8 % too high in five knots of ropes. Forces of contacts
