@@ -14,16 +14,16 @@ namespace {
 
 // doc/developers/measured.md says where these come from.
 constexpr int kBatches = 5;
-constexpr std::ptrdiff_t kFewestInPart = 2;  // in a part of the plateau, in the mean
-constexpr double kLeastSlid = 8.0;           // along the plateau [h] ...
-constexpr double kLeastShare = 0.5;          // ... and of it
+constexpr std::ptrdiff_t kFewestInPart = 2;  // readings in a part of the plateau, on average
+constexpr double kLeastSlid = 8.0;           // least way along the plateau [h] ...
+constexpr double kLeastShare = 0.5;          // ... and least share of it
 constexpr double kOfError = 0.5;             // of the relative error of a plateau force
 constexpr double kMostDoubt = 0.02;          // of the mean force
 constexpr double kOften = 0.25;              // extension between two looks [h]
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The plateau of a pull whose knots slide until they meet, as if it were pulled to its end.
+/// The whole plateau of a pull whose knots slide until they meet.
 Range whole_plateau(const Pull& pull) { return plateau_between(pull.front().extension, meeting_extension(pull)); }
 
 /// The part of it that was pulled.
@@ -89,7 +89,8 @@ double PlateauWatch::least_extension(const Pull& pull) const {
   return whole.low + std::min(length, std::max(kLeastSlid * radius_, kLeastShare * length));
 }
 
-/// Where the knots have slid far enough; a little further on where they have; never once the whole plateau was read.
+/// The extension at which the knots have slid far enough; a little further on if they have; infinite once the whole
+/// plateau was read.
 double PlateauWatch::next_look_after(const Pull& pull) const {
   const double here = pull.back().extension, least = least_extension(pull);
   return here < least ? least : here < whole_plateau(pull).high ? here + kOften * radius_ : kInfinity;
