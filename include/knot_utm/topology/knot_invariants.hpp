@@ -81,7 +81,7 @@ class LoopTopology {
   using PassedOver = std::array<int, 2>;
   OverhandStrand follow(const Points& points, const Vec3& axis, std::size_t k, int passed_over) const;
   Reading read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over);
-  /// The numbers of rises with which each overhand is the known one; 0 where no number makes it that.
+  /// For each overhand, the number of rises to be passed over so that it is the known one; 0 if no number does.
   PassedOver passed_over(const Reading& known, const Reading& found, const Points& points, const Vec3& axis) const;
 
   std::array<Eigen::Index, 2> standing_;
