@@ -374,20 +374,19 @@ struct TestingMachine::Impl {
         });
   }
 
+  /// Enters the step of a command. False: the test has failed or ended, and the rod stays as it is.
+  bool may_go_on(const Command& command) {
+    if (status == BenchStatus::kFailed || status == BenchStatus::kBroken) return false;
+    if (command.step != step_index) enter_step(command);
+    if (command.turn == turn || grips.clamp_turns()) return !give_up_tying();
+    status = BenchStatus::kFailed;
+    message = "the upper clamp cannot be turned: the rod leaves it across the load axis";
+    return false;
+  }
+
   Sample respond(const Command& command) {
     substeps.clear();
-    if (status == BenchStatus::kFailed || status == BenchStatus::kBroken) {
-      substeps.push_back(read(command, time));
-      return substeps.back();
-    }
-    if (command.step != step_index) enter_step(command);
-    if (command.turn != turn && !grips.clamp_turns()) {
-      status = BenchStatus::kFailed;
-      message = "the upper clamp cannot be turned: the rod leaves it across the load axis";
-      substeps.push_back(read(command, time));
-      return substeps.back();
-    }
-    if (give_up_tying()) {
+    if (!may_go_on(command)) {
       substeps.push_back(read(command, time));
       return substeps.back();
     }
@@ -398,12 +397,11 @@ struct TestingMachine::Impl {
       raw_extension_zero = displacement;
     }
     const std::string gave_up = advance(command, {time, displacement, turn}, command.time);
-    if (parted()) {
-      // The test ends here.
-    } else if (!gave_up.empty() || status == BenchStatus::kFailed) {
+    if (!parted() && !gave_up.empty()) {
       status = BenchStatus::kFailed;
-      if (!gave_up.empty()) message = gave_up;
-    } else {
+      message = gave_up;
+    }
+    if (!parted() && status != BenchStatus::kFailed) {
       if (!mounts()) displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
       if (tying) tying->leave(phase, place());

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -147,9 +148,6 @@ double tail_load(const SpecimenOptions& specimen, const Material& material) {
       std::min(specimen_scales(material).force, kTailStrain * material.stretching_stiffness));
 }
 
-const Knot& capstan() {
-  static const CapstanSpecimen knot;
-  return knot;
-}
+std::unique_ptr<const Knot> capstan() { return std::make_unique<CapstanSpecimen>(); }
 
 }  // namespace knot_utm

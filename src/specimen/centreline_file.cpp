@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -131,9 +132,6 @@ class SketchedRod final : public Knot {
 
 }  // namespace
 
-const Knot& sketched_rod() {
-  static const SketchedRod knot;
-  return knot;
-}
+std::unique_ptr<const Knot> sketched_rod() { return std::make_unique<SketchedRod>(); }
 
 }  // namespace knot_utm

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "knot_utm/rod/stretching_laws.hpp"
@@ -438,14 +439,8 @@ class MultipleFishermanKnot final : public FishermanKnot {
 
 }  // namespace
 
-const Knot& fisherman_knot() {
-  static const FishermanKnot knot;
-  return knot;
-}
+std::unique_ptr<const Knot> fisherman_knot() { return std::make_unique<FishermanKnot>(); }
 
-const Knot& multiple_fisherman_knot() {
-  static const MultipleFishermanKnot knot;
-  return knot;
-}
+std::unique_ptr<const Knot> multiple_fisherman_knot() { return std::make_unique<MultipleFishermanKnot>(); }
 
 }  // namespace knot_utm

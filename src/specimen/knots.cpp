@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "knot_utm/specimen/knot.hpp"
@@ -70,10 +71,7 @@ class StraightRod final : public Knot {
 
 }  // namespace
 
-const Knot& straight_rod() {
-  static const StraightRod knot;
-  return knot;
-}
+std::unique_ptr<const Knot> straight_rod() { return std::make_unique<StraightRod>(); }
 
 bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
   return knot_of(specimen).about().loop && machine.grips == GripKind::kRollers;
@@ -89,18 +87,23 @@ bool clamp_turns(const SpecimenOptions& specimen, const MachineOptions& machine)
 }
 
 // Each is defined in a file of this folder.
-const Knot& fisherman_knot();
-const Knot& multiple_fisherman_knot();
-const Knot& overhand_knot();
-const Knot& straight_rod();
-const Knot& sketched_rod();
-const Knot& capstan();
-const Knot& sketched_knot();
+std::unique_ptr<const Knot> fisherman_knot();
+std::unique_ptr<const Knot> multiple_fisherman_knot();
+std::unique_ptr<const Knot> overhand_knot();
+std::unique_ptr<const Knot> straight_rod();
+std::unique_ptr<const Knot> sketched_rod();
+std::unique_ptr<const Knot> capstan();
+std::unique_ptr<const Knot> sketched_knot();
 
 const std::vector<const Knot*>& knots() {
-  static const std::vector<const Knot*> all = {
-      &fisherman_knot(), &multiple_fisherman_knot(), &overhand_knot(), &straight_rod(), &sketched_rod(), &capstan(),
-      &sketched_knot()};
+  static const std::unique_ptr<const Knot> owned[] = {
+      fisherman_knot(), multiple_fisherman_knot(), overhand_knot(), straight_rod(), sketched_rod(), capstan(),
+      sketched_knot()};
+  static const std::vector<const Knot*> all = [] {
+    std::vector<const Knot*> out;
+    for (const auto& knot : owned) out.push_back(knot.get());
+    return out;
+  }();
   return all;
 }
 
@@ -123,7 +126,7 @@ bool type_is_followed(const SpecimenOptions& specimen) {
 std::vector<std::string> knot_names(const KnotDrawing* drawing) {
   std::vector<std::string> out;
   for (const Knot* knot : knots())
-    if (knot != &sketched_knot()) out.emplace_back(knot->about().name);
+    if (!knot->about().tied_by_ends) out.emplace_back(knot->about().name);  // a knot from a file has the name of that
   if (drawing != nullptr) out.push_back(drawing->name);
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "knot_utm/specimen/knot.hpp"
@@ -225,9 +226,6 @@ class OverhandKnot final : public Knot {
 
 }  // namespace
 
-const Knot& overhand_knot() {
-  static const OverhandKnot knot;
-  return knot;
-}
+std::unique_ptr<const Knot> overhand_knot() { return std::make_unique<OverhandKnot>(); }
 
 }  // namespace knot_utm

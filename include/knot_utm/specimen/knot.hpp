@@ -43,7 +43,7 @@ struct KnotDescription {
   bool loop = false;
   double sketched_coil = 0.0;  ///< of a loop: radius of its coils' centreline before they are tied [h]
   bool any_shape = false;      ///< the user gives its shape, which may contain any knot; the type is followed
-  bool tied_by_ends = false;   ///< tied by pulling at its free ends
+  bool tied_by_ends = false;   ///< of a knot from a file: tied by pulling at its ends
   bool straight = false;       ///< it never bends, so that it does not settle, twist or touch itself
   ErrorStudy error_study = ErrorStudy::kNone;
 
