@@ -11,6 +11,7 @@
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #include "knot_utm/words/yaml_lines.hpp"
+#include "pull_integrals.hpp"
 
 namespace knot_utm {
 
@@ -27,8 +28,7 @@ std::vector<CurveRow> pulled(const std::vector<CurveRow>& rows) {
 
 /// Load at an extension, linear from point to point.
 std::optional<double> load_at(const Pull& pull, double extension) {
-  const auto less = [](const PullPoint& point, double s) { return point.extension < s; };
-  const auto next = std::lower_bound(pull.begin(), pull.end(), extension, less);
+  const auto next = first_from(pull.begin(), pull.end(), extension);
   if (next == pull.end()) return std::nullopt;
   if (next->extension == extension) return next->force;
   if (next == pull.begin()) return std::nullopt;

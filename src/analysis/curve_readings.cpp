@@ -25,11 +25,6 @@ constexpr double kSudden = 0.05;                          // of the way to the l
 constexpr double kTakenIn = 0.125, kFallen = 0.1, kLetOut = 0.05, kLetGo = 0.5;
 constexpr int kFewestForDrops = 20;  // readings on the way to the lock
 
-double force_over(const Pull& pull, const Range& range) {
-  const Integrals part = integrate(pull, range);
-  return part.force / part.width;
-}
-
 /// Least-squares slopes over three parts of equal length.
 std::array<double, 3> slopes_of_thirds(const Pull& pull, const Range& range) {
   std::array<double, 3> slope;
@@ -43,8 +38,7 @@ std::array<double, 3> slopes_of_thirds(const Pull& pull, const Range& range) {
 /// Smallest and largest F, which is linear from point to point.
 std::pair<double, double> extremes(const Pull& pull, const Range& range) {
   const auto force_at = [&](double s) {
-    const auto after = std::lower_bound(pull.begin() + 1, pull.end() - 1, s,
-                                        [](const PullPoint& p, double extension) { return p.extension < extension; });
+    const auto after = first_from(pull.begin() + 1, pull.end() - 1, s);
     const PullPoint &a = *(after - 1), &b = *after;
     return a.force + (s - a.extension) / (b.extension - a.extension) * (b.force - a.force);
   };
@@ -224,7 +218,7 @@ std::optional<Plateau> plateau(const Pull& pull, double end) {
   out.force_slope = slope_over(pull, range);
   std::tie(out.low, out.high) = extremes(pull, range);
   const double middle = 0.5 * (range.low + range.high);
-  out.rise = 2.0 * (force_over(pull, {middle, range.high}) - force_over(pull, {range.low, middle}));
+  out.rise = 2.0 * (mean_over(pull, {middle, range.high}) - mean_over(pull, {range.low, middle}));
   return out;
 }
 
@@ -299,10 +293,7 @@ std::string why_interrupted(const Pull& pull, double end, double mean) {
 
 /// Why there are too few readings for a mean; empty: there are enough.
 std::string why_too_few(const Pull& pull, double end) {
-  const Range range = plateau_range(pull, end);
-  const std::ptrdiff_t within = std::count_if(pull.begin(), pull.end(), [&](const PullPoint& point) {
-    return point.extension >= range.low && point.extension <= range.high;
-  });
+  const std::ptrdiff_t within = count_within(pull, plateau_range(pull, end));
   if (within >= kFewestReadings) return {};
   return text("the load was read %.0f times from 0.3 to 0.8 of the way, where a mean takes at least %.0f",
               static_cast<double>(within), static_cast<double>(kFewestReadings));
@@ -327,8 +318,7 @@ std::string why_no_lock(const Pull& borne, const CurveReadings& found) {
   if (found.jumped) return "a knot jumped open";
   if (!found.no_plateau.empty()) return "there is no plateau";
   if (!found.rises_at) return "the load does not stay above twice the mean of its plateau";
-  const auto after = std::lower_bound(borne.begin() + 1, borne.end() - 1, *found.rises_at,
-                                      [](const PullPoint& p, double s) { return p.extension < s; });
+  const auto after = first_from(borne.begin() + 1, borne.end() - 1, *found.rises_at);
   const double way = *found.rises_at - borne.front().extension;
   const double apart = (after->extension - (after - 1)->extension) / way;
   if (apart <= kSudden) return {};

@@ -200,8 +200,7 @@ bool MotionPatternTracker::slid() const {
 
 /// The first point from s = `extension` on, or the last point.
 const PullPoint& MotionPatternTracker::point_at(double extension) const {
-  return *std::lower_bound(pull_.begin(), pull_.end() - 1, extension,
-                           [](const PullPoint& p, double s) { return p.extension < s; });
+  return *first_from(pull_.begin(), pull_.end() - 1, extension);
 }
 
 /// The mean load between two points of the pull [N].
@@ -231,9 +230,7 @@ double MotionPatternTracker::confidence() const {
   const Range whole = {pull_.front().extension, pull_.back().extension};
   const Range part = sliding ? plateau_range(pull_, lock_extension().value_or(whole.high)) : whole;
   const auto place = [&](double s) {
-    const auto found_at = std::lower_bound(
-        pull_.begin(), pull_.end(), s, [](const PullPoint& p, double extension) { return p.extension < extension; });
-    return static_cast<std::size_t>(found_at - pull_.begin());
+    return static_cast<std::size_t>(first_from(pull_.begin(), pull_.end(), s) - pull_.begin());
   };
   const std::size_t first = place(part.low);
   const std::size_t last = std::min(place(part.high) + 1, pull_.size());

@@ -32,17 +32,9 @@ Range plateau_read(const Pull& pull) { return plateau_range(pull, meeting_extens
 std::vector<double> means_of_parts(const Pull& pull, const Range& read) {
   std::vector<double> means;
   const double width = (read.high - read.low) / kBatches;
-  for (int k = 0; k < kBatches; ++k) {
-    const Integrals part = integrate(pull, {read.low + k * width, read.low + (k + 1) * width});
-    means.push_back(part.force / part.width);
-  }
+  for (int k = 0; k < kBatches; ++k)
+    means.push_back(mean_over(pull, {read.low + k * width, read.low + (k + 1) * width}));
   return means;
-}
-
-std::ptrdiff_t readings_within(const Pull& pull, const Range& range) {
-  return std::count_if(pull.begin(), pull.end(), [&](const PullPoint& point) {
-    return point.extension >= range.low && point.extension <= range.high;
-  });
 }
 
 /// Whether a test that ends here has the plateau of knots that slide and have not begun to lock.
@@ -56,7 +48,7 @@ bool has_plateau(const Results& results) {
 double doubt_about_plateau(const Pull& pull) {
   if (pull.empty()) return kInfinity;
   const Range read = plateau_read(pull), whole = whole_plateau(pull);
-  if (!(read.high > read.low) || readings_within(pull, read) < kBatches * kFewestInPart) return kInfinity;
+  if (!(read.high > read.low) || count_within(pull, read) < kBatches * kFewestInPart) return kInfinity;
   const double left = whole.high - read.high;
   const Statistics parts = statistics_of(means_of_parts(pull, read));
   const double of_mean = parts.high ? 0.5 * (*parts.high - *parts.low) : 0.0, share = left / (whole.high - whole.low);
