@@ -178,28 +178,28 @@ constexpr double kBears = 0.5, kLeast = 1e-4;
 class SamplePass {
  public:
   SamplePass(const std::vector<Sample>& samples, bool on_rollers, double hung, double marks, Results& results)
-      : samples_(samples), results_(results), motion_(on_rollers, hung, marks) {
+      : motion(on_rollers, hung, marks), samples_(samples), results_(results) {
     for (const Sample& sample : samples) add(sample);
   }
 
-  MotionPatternTracker& motion() { return motion_; }
-  const MotionPatternTracker& motion() const { return motion_; }
-  const std::optional<Sample>& at_break() const { return at_break_; }
-  const Sample* before_pull() const { return before_pull_; }
-  const Sample* pull_begin() const { return pull_begin_; }
+  MotionPatternTracker motion;
+  std::optional<Sample> at_break;
+  const Sample* before_pull = nullptr;
+  const Sample* pull_begin = nullptr;
+
   /// The sample once the knot is tied and released; the first one of the pull if nothing is tied.
-  const Sample* tied() const { return tied_ ? tied_ : pull_begin_; }
+  const Sample* tied() const { return tied_ ? tied_ : pull_begin; }
 
   void read_balances() const {
-    if (pull_begin_) {
+    if (pull_begin) {
       // The recoil of parted ends is no part of the test, so the balance ends at the break.
-      const Sample& end = at_break_ ? *at_break_ : samples_.back();
-      results_.energy = energy_between(before_pull_ ? *before_pull_ : *pull_begin_, end);
+      const Sample& end = at_break ? *at_break : samples_.back();
+      results_.energy = energy_between(before_pull ? *before_pull : *pull_begin, end);
       results_.kinetic_energy = end.kinetic_energy;
     }
     if (energy_scale_ > 0.0) results_.energy_balance_error = energy_error_ / energy_scale_;
-    if (motion_.pull().empty()) return;
-    const double peak = std::max(peak_force(motion_.pull()), at_break_ ? at_break_->force_upper : 0.0);
+    if (motion.pull().empty()) return;
+    const double peak = std::max(peak_force(motion.pull()), at_break ? at_break->force_upper : 0.0);
     if (!(peak > 0.0)) return;
     results_.force_balance_error = imbalance_ / peak;
     results_.moment_arm = largest_moment_arm();
@@ -219,14 +219,14 @@ class SamplePass {
   }
 
   void add(const Sample& sample) {
-    const bool recoils = at_break_.has_value();  // samples after a break say nothing about the test
+    const bool recoils = at_break.has_value();  // samples after a break say nothing about the test
     if (sample.status == BenchStatus::kBroken && !recoils) {
       if (loaded_ || loads(sample)) results_.break_extension = sample.extension;
-      at_break_ = sample;
+      at_break = sample;
     }
     loaded_ |= loads(sample);
     before_ = &sample;
-    motion_.add(sample);
+    motion.add(sample);
     if (!recoils) results_.max_penetration = std::max(results_.max_penetration, sample.max_penetration);
     if (sample.status == BenchStatus::kNotEquilibrated) results_.not_equilibrated = sample.message;
     add_energies(sample);
@@ -239,8 +239,8 @@ class SamplePass {
     if (forms(sample.phase)) tied_ = &sample;
     if (pulls(sample.phase))
       add_pull(sample, recoils);
-    else if (!pull_begin_)
-      before_pull_ = &sample;
+    else if (!pull_begin)
+      before_pull = &sample;
   }
 
   /// In a rod that has buckled, bending stores nearly all energy; it does not count.
@@ -264,7 +264,7 @@ class SamplePass {
   }
 
   void add_pull(const Sample& sample, bool recoils) {
-    if (!pull_begin_) pull_begin_ = &sample;
+    if (!pull_begin) pull_begin = &sample;
     if (recoils) return;
     keep_first(sample, sample.knots_force, 0.0, results_.first_contact_extension);
     keep_first(sample, sample.knot_on_roller, kTouch * std::abs(sample.force_upper), results_.roller_touched_at);
@@ -274,7 +274,6 @@ class SamplePass {
 
   const std::vector<Sample>& samples_;
   Results& results_;
-  MotionPatternTracker motion_;
   double imbalance_ = 0.0;
   struct Load {
     double force, moment;  // [N], sum of all moments [N m]
@@ -282,10 +281,7 @@ class SamplePass {
   std::vector<Load> loads_;  // of the pull
   double energy_error_ = 0.0, energy_scale_ = 0.0;
   bool loaded_ = false;  // something has put a load on the specimen
-  std::optional<Sample> at_break_;
   const Sample* before_ = nullptr;
-  const Sample* before_pull_ = nullptr;
-  const Sample* pull_begin_ = nullptr;
   const Sample* tied_ = nullptr;
 };
 
@@ -323,15 +319,15 @@ void read_end(const Sample& last, Results& results) {
 }
 
 void read_gauge_length(const SamplePass& pass, Results& results) {
-  if (!pass.pull_begin()) return;
-  const double length = (pass.before_pull() ? pass.before_pull() : pass.pull_begin())->end_to_end;
+  if (!pass.pull_begin) return;
+  const double length = (pass.before_pull ? pass.before_pull : pass.pull_begin)->end_to_end;
   if (!(length > 0.0)) return;
   results.gauge_length = length;
-  if (pass.at_break()) results.elongation_at_break = (pass.at_break()->end_to_end - length) / length;
+  if (pass.at_break) results.elongation_at_break = (pass.at_break->end_to_end - length) / length;
 }
 
 void read_tied(const SamplePass& pass, Results& results) {
-  const Sample *tied = pass.tied(), *pull_begin = pass.pull_begin();
+  const Sample *tied = pass.tied(), *pull_begin = pass.pull_begin;
   if (pull_begin) {
     results.balance_offset = pull_begin->balance_offset;
     results.knot_distance = known(pull_begin->knot_distance);
@@ -383,11 +379,11 @@ void read_knot(const std::vector<Sample>& samples, const Sample* pull_begin, Res
 }
 
 void read_whole_pull(const SamplePass& pass, Results& results) {
-  const Pull& pull = pass.motion().pull();
+  const Pull& pull = pass.motion.pull();
   if (pull.empty()) return;
-  std::optional<Sample> origin, at_break = pass.at_break();
-  if (pass.before_pull()) origin = origin_at(*pass.pull_begin(), *pass.before_pull());
-  if (at_break && at_break->balance_offset != pass.pull_begin()->balance_offset) at_break.reset();  // another s
+  std::optional<Sample> origin, at_break = pass.at_break;
+  if (pass.before_pull) origin = origin_at(*pass.pull_begin, *pass.before_pull);
+  if (at_break && at_break->balance_offset != pass.pull_begin->balance_offset) at_break.reset();  // another s
   read_pull(with_ends(pull, origin, at_break), results);
 }
 
@@ -410,12 +406,12 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   if (samples.empty()) return results;
   SamplePass pass(samples, on_rollers, hung, marks, results);
   read_end(samples.back(), results);
-  read_motion(samples, readings, on_rollers, pass.motion(), results);
+  read_motion(samples, readings, on_rollers, pass.motion, results);
   read_tied(pass, results);
-  read_tails(samples, pass.pull_begin(), results);
-  read_knot(samples, pass.pull_begin(), results);
+  read_tails(samples, pass.pull_begin, results);
+  read_knot(samples, pass.pull_begin, results);
   read_snap(samples, results);
-  read_curve(readings, pass.at_break(), on_rollers, results);
+  read_curve(readings, pass.at_break, on_rollers, results);
   pass.read_balances();
   results.at_start = forces_at_start(samples);
   read_gauge_length(pass, results);

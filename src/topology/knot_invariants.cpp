@@ -297,10 +297,6 @@ LoopTopology::PassedOver LoopTopology::passed_over(const Reading& known, const R
   return out;
 }
 
-LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_axis) {
-  return read(points, load_axis, PassedOver{});
-}
-
 LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over) {
   const Vec3 axis = load_axis.normalized();
   const std::array<OverhandStrand, 2> strands{follow(points, axis, 0, passed_over[0]),

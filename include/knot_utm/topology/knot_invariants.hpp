@@ -64,8 +64,11 @@ class LoopTopology {
   /// and of the upper, tied into its last; `radius`: of the rod [m]; `windings`: of each tail (OverhandStrand).
   LoopTopology(Eigen::Index lower_standing, Eigen::Index upper_standing, double radius, int windings = 1);
 
+  /// Rises of each strand that are its coil's own (OverhandStrand).
+  using PassedOver = std::array<int, 2>;
+
   /// Reads the rod as it is now. `load_axis`: from the lower grip to the upper one, of any length.
-  Reading read(const Points& points, const Vec3& load_axis);
+  Reading read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over = {});
 
   /// The same for a rod that was the knot `known`. Where the overhands are still the same and the whole is not, a tail
   /// may have gone around further than could be followed, as when a knot springs open; a free end can do so without
@@ -77,10 +80,7 @@ class LoopTopology {
   void state(Archive& archive) { archive(angle_[0], angle_[1]); }
 
  private:
-  /// Rises of each strand that are its coil's own (OverhandStrand).
-  using PassedOver = std::array<int, 2>;
   OverhandStrand follow(const Points& points, const Vec3& axis, std::size_t k, int passed_over) const;
-  Reading read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over);
   /// For each overhand, the number of rises to be passed over so that it is the known one; 0 if no number does.
   PassedOver passed_over(const Reading& known, const Reading& found, const Points& points, const Vec3& axis) const;
 
