@@ -183,9 +183,9 @@ class SamplePass {
   }
 
   MotionPatternTracker motion;
-  std::optional<Sample> at_break;
-  const Sample* before_pull = nullptr;
-  const Sample* pull_begin = nullptr;
+  std::optional<Sample> at_break;       ///< the first one of a parted rod
+  const Sample* before_pull = nullptr;  ///< the last one before the pull
+  const Sample* pull_begin = nullptr;   ///< the first one of the pull
 
   /// The sample once the knot is tied and released; the first one of the pull if nothing is tied.
   const Sample* tied() const { return tied_ ? tied_ : pull_begin; }
