@@ -64,7 +64,7 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
   const NearestPlaces nearest = nearest_places(points, exclusion, centreline.cuts, radii);
   const double touching = 2.0 * radius - nearest.radius_deficit;
   const bool of_ropes = !centreline.cuts.empty();
-  if (nearest.distance < touching - (of_ropes ? kCutCorners * radius : 0.0) &&
+  if (nearest.distance < touching - (centreline.cuts.empty() ? 0.0 : kCutCorners * radius) &&
       (of_ropes || nearest_places(sampled_centreline(points), exclusion).distance < (2.0 - kMayOverlap) * radius))
     refuse("strands overlap at " +
            (origin ? place_text((nearest.middle - *origin) / radius)

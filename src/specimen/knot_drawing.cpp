@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "knot_utm/contact/centreline_curve.hpp"
@@ -233,24 +234,32 @@ Vec3 KnotDrawing::point_in_lower_grip() const {
   return Vec3::Zero();
 }
 
-double KnotDrawing::outermost(bool upper_grip) const {
-  if (const Post* post = post_of(upper_grip)) return post->through[2];
-  double out = strands.front().points.front()[2];
+double KnotDrawing::bottom() const {
+  if (const Post* post = post_of(false)) return post->through[2];
+  double least = std::numeric_limits<double>::infinity();
   for (const Strand& strand : strands)
-    for (const Vec3& point : strand.points) out = upper_grip ? std::max(out, point[2]) : std::min(out, point[2]);
-  return out;
+    for (const Vec3& point : strand.points) least = std::min(least, point[2]);
+  return least;
+}
+
+double KnotDrawing::top() const {
+  if (const Post* post = post_of(true)) return post->through[2];
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Strand& strand : strands)
+    for (const Vec3& point : strand.points) most = std::max(most, point[2]);
+  return most;
 }
 
 double least_end_to_end(const KnotDrawing& drawing, double radius) {
   const double lower = drawing.lower.empty() ? 0.0 : kStraightToGrip,
                upper = drawing.upper.empty() ? 0.0 : kStraightToGrip;
-  return (drawing.outermost(true) - drawing.outermost(false) + lower + upper) * radius;
+  return (drawing.top() - drawing.bottom() + lower + upper) * radius;
 }
 
 double height_of_origin(const KnotDrawing& drawing, const SketchSize& size) {
-  if (drawing.lower.empty()) return -drawing.outermost(false) * size.radius;
-  if (drawing.upper.empty()) return size.end_to_end - drawing.outermost(true) * size.radius;
-  return 0.5 * (size.end_to_end - (drawing.outermost(true) + drawing.outermost(false)) * size.radius);
+  if (drawing.lower.empty()) return -drawing.bottom() * size.radius;
+  if (drawing.upper.empty()) return size.end_to_end - drawing.top() * size.radius;
+  return 0.5 * (size.end_to_end - (drawing.top() + drawing.bottom()) * size.radius);
 }
 
 Roller roller_of(const KnotDrawing::Post& post, double radius, const Vec3& origin) {

@@ -60,8 +60,8 @@ struct KnotDrawing {
   bool has_free_ends() const;
   const Post* post_of(bool upper) const;  ///< the post that stands for a grip; null if the grip holds an end
   Vec3 point_in_lower_grip() const;       ///< the outermost point of the first strand that the lower grip holds [h]
-  /// z of the highest or the lowest point, or of the middle of the post that stands for the upper or lower grip [h].
-  double outermost(bool upper_grip) const;
+  double bottom() const;  ///< the lowest z of all points, or of the middle of the post that is the lower grip [h]
+  double top() const;     ///< the highest z, likewise [h]
 };
 
 /// The dimensions with which a drawing is sketched.
