@@ -60,8 +60,6 @@ double doubt_about_plateau(const Pull& pull) {
 PlateauWatch::PlateauWatch(double radius, std::optional<double> error)
     : radius_(radius), tolerance_(std::min(kMostDoubt, kOfError * error.value_or(1.0))) {}
 
-void PlateauWatch::add(const Sample& step) { samples_.push_back(step); }
-
 bool PlateauWatch::settled_by(const Sample& reading) {
   readings_.push_back(reading);
   if (!samples_.empty() && samples_.back().time == reading.time) samples_.back() = reading;

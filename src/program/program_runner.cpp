@@ -80,12 +80,6 @@ Command ProgramRunner::next(const Sample& sample) {
   return last();
 }
 
-void ProgramRunner::stop() { end(EndedBy::kOperator, "stopped by the operator"); }
-
-void ProgramRunner::balance() { course_.balance(); }
-
-void ProgramRunner::plateau_settled(std::string where) { end(EndedBy::kPlateau, std::move(where)); }
-
 void ProgramRunner::fail(std::string why) {
   ended_by_ = EndedBy::kSolver;
   reason_ = std::move(why);
@@ -95,8 +89,6 @@ bool ProgramRunner::failed() const {
   return ended_by_ == EndedBy::kSolver || (ended_by_ == EndedBy::kUntangled && !only_ties()) ||
          (ended_by_ == EndedBy::kBreak && parts_too_early());
 }
-
-Phase ProgramRunner::phase() const { return ended() ? Phase::kDone : last().phase; }
 
 double ProgramRunner::progress() const {
   if (ended()) return 1.0;

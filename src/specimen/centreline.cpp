@@ -40,8 +40,6 @@ Points graded(const Points& way, double radius, double edge_length, double refin
 
 double Centreline::length() const { return arclengths(points).back(); }
 
-int Centreline::windings() const { return knots.empty() ? 1 : knots.front().windings; }
-
 int Centreline::nearest_node(double arclength) const {
   const std::vector<double> at = arclengths(points);
   const auto next = std::lower_bound(at.begin() + 1, at.end() - 1, arclength);

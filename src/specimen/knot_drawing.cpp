@@ -219,8 +219,6 @@ KnotDrawing::End KnotDrawing::held(const std::string& end) const {
   return contains(upper, end) ? End::kUpper : End::kFree;
 }
 
-bool KnotDrawing::has_free_ends() const { return lower.size() + upper.size() < 2 * strands.size(); }
-
 const KnotDrawing::Post* KnotDrawing::post_of(bool upper_grip) const {
   const auto found = std::find_if(posts.begin(), posts.end(), [&](const Post& one) { return one.upper == upper_grip; });
   return (upper_grip ? upper : lower).empty() && found != posts.end() ? &*found : nullptr;

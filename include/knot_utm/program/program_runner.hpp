@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "knot_utm/program/course.hpp"
 #include "knot_utm/program/program.hpp"
@@ -75,10 +76,10 @@ class ProgramRunner {
   /// with phase done. Throws std::invalid_argument for the answer to another command.
   Command next(const Sample& sample);
 
-  void stop();     ///< by the operator: the test ends now
-  void balance();  ///< by the operator: the next command balances
+  void stop() { end(EndedBy::kOperator, "stopped by the operator"); }  ///< the test ends now
+  void balance() { course_.balance(); }                                ///< by the operator: the next command balances
   /// The plateau of the pull is settled: the test ends now, which is no failure. `where`: one line about it.
-  void plateau_settled(std::string where);
+  void plateau_settled(std::string where) { end(EndedBy::kPlateau, std::move(where)); }
   /// The machine is lost: the test has ended by the solver, whatever command came before.
   void fail(std::string why);
 
@@ -91,7 +92,8 @@ class ProgramRunner {
   static constexpr const char* kTooEarly = ", before it was pulled";
   const std::string& reason() const { return reason_; }  ///< one line where the test did not end as programmed
 
-  Phase phase() const;                                ///< of the last command; done once the test has ended
+  /// Of the last command; done once the test has ended.
+  Phase phase() const { return ended() ? Phase::kDone : last().phase; }
   double period() const { return course_.period(); }  ///< of commands [s]
   double progress() const;                            ///< 0..1, fraction of the programmed time that has passed
   double time_left() const;                           ///< programmed time that is left, estimated [s]

@@ -83,7 +83,8 @@ struct Centreline {
 
   double length() const;                     ///< [m]
   int nearest_node(double arclength) const;  ///< to an arclength [m]
-  int windings() const;                      ///< of the coil of each knot; 1 where no knot is known
+  /// Of the coil of each knot; 1 if no knot is known.
+  int windings() const { return knots.empty() ? 1 : knots.front().windings; }
 };
 
 /// The strand that a coil holds runs on outwards from the middle of the sketched coil. At the first of these distances,

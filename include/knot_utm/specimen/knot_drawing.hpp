@@ -57,7 +57,7 @@ struct KnotDrawing {
 
   enum class End { kLower, kUpper, kFree };
   End held(const std::string& end) const;
-  bool has_free_ends() const;
+  bool has_free_ends() const { return lower.size() + upper.size() < 2 * strands.size(); }
   const Post* post_of(bool upper) const;  ///< the post that stands for a grip; null if the grip holds an end
   Vec3 point_in_lower_grip() const;       ///< the outermost point of the first strand that the lower grip holds [h]
   double bottom() const;  ///< the lowest z of all points, or of the middle of the post that is the lower grip [h]
