@@ -28,9 +28,8 @@ struct Exposure {
 ///   phi_i  the turn at node i, as a vector along its axis [rad]
 ///   w_i    the share of its Voronoi length that lies within h of the end, along the rod at rest [-]
 ///
-/// The mean is taken because a rod cannot bend more sharply than its section is wide. In the model a limp rope on which
-/// a strand presses bends over a length of (k_b/T)^1/2, some hundredths of h at the loads that part it, so that the
-/// largest local curvature would grow as edges get shorter. Cut edges, and the ends of ropes, are not bent.
+/// Without the mean, the largest curvature of a limp rope would grow as edges get shorter (doc/model.md, section 8,
+/// "The rod parts"). Cut edges, and the ends of ropes, are not bent.
 ///
 /// The force per length p that presses an edge flat is the mean along the same diameter, at the end where it is larger.
 /// Forces from one side count in full, because tension holds the section against them; two opposite forces count once:

@@ -54,15 +54,8 @@ struct TensionBreaking {
 ///   p       force per length by which contacts press the section flat (RopeStrengths) [N/m]
 ///   c       `crushing_share`: how much of its strength a fibre loses where it is pressed flat by F_b/h [-]
 ///
-/// With the linear law of stretching, lambda - 1 = T/k_s and eps_b = F_b/k_s, so that
-///
-///   fraction = T/F_b + b h kappa/eps_b + c h p/F_b
-///
-/// A rope around a smooth post, R from its axis, has p = T/R and parts at T = F_b (1 - b h/(R eps_b))/(1 + c h/R).
-/// Friction heats a section and fibres yield; the law leaves both out, so b and c that are fitted contain them.
-/// Sources: Pieranski et al. 2001, who see knotted strings part where tension and curvature are large at once; Rigging
-/// Institute 2011, whose wire ropes over pins of 1 to 20 diameters keep 0.50 to 0.92, as 1/(1 + c h/R) does within 0.03
-/// with c = 1.8. That the three terms add up, and what p is in a knot, are assumptions of ours.
+/// That the three terms add up, and what p is in a knot, are assumptions of ours. Friction heats a section and fibres
+/// yield; the law leaves both out, so b and c that are fitted contain them (doc/model.md, section 8, "The rod parts").
 struct FibreBreaking {
   static constexpr const char* kName = "tension_and_bending";
   static constexpr LawKey kBendingShare{

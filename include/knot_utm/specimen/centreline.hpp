@@ -126,16 +126,13 @@ struct RodProperties;
 struct RodState;
 struct SpecimenOptions;
 
-/// Curves a rod at rest by the natural curvature kappa_0 that its specimen has from its reel or packet.
-///
-/// On the reel the rod lay at rest in a plane circle of radius 1/kappa_0. At its first edge it curves towards the x
-/// axis, or rather the part of it that is normal to the edge; towards y if the edge runs along x. In frames that are
-/// transported in parallel along the sketched centreline
+/// Curves a rod at rest by the natural curvature kappa_0 that its specimen has from its reel or packet (doc/model.md,
+/// section 2). In frames that are transported in parallel along the sketched centreline
 ///
 ///     kappabar_i = kappa_0 lbar_i (cos alpha, sin alpha),
 ///
-/// alpha being the angle of that side at the first edge. Held straight, such a rod needs the couple k_b kappa_0.
-/// Without a natural curvature nothing changes, nor are there frames.
+/// alpha being the angle at the first edge of the side to which the rod curves: the x axis of the drawing, as far as it
+/// is normal to the edge, or the y axis if the edge runs along x. Without a natural curvature nothing changes.
 void give_rest_shape(const SpecimenOptions& specimen, const RodProperties& rod, RodState* state);
 
 }  // namespace knot_utm

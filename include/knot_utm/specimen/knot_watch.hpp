@@ -9,18 +9,14 @@
 
 namespace knot_utm {
 
-/// Follows whether a specimen is still the knot that it began as.
+/// Follows whether a specimen is still the knot that it began as (doc/model.md, section 12): by LoopTopology for a
+/// fisherman's loop, and for any other rod by the Alexander polynomial of the rod closed far beyond its ends.
 ///
 /// Before strands can pass each other, or an end slips out of a coil, some node has to move by about the rod's radius h
 /// (or what contacts leave of soft sections, RodMaterial::core_radius). So the topology is read again only once a node
-/// has moved by h since the last reading: a test at rest costs nothing, and one that jumps is read at every answer. The
-/// type of a loop is that of its last reading: a reading near a roller may be wrong, and is judged together with the
-/// load (MotionPatternTracker). Any other rod that has once lost its knot, or run through itself, keeps that type.
-///
-/// A rod that began without a knot keeps its type: there is none that could be lost.
-///
-/// For a fisherman's loop the reading is that of LoopTopology. For any other rod it is the Alexander polynomial of the
-/// rod closed far beyond its ends.
+/// has moved by h since the last reading. The type of a loop is that of its last reading: a reading near a roller may
+/// be wrong, and is judged together with the load (MotionPatternTracker). Any other rod that has once lost its knot, or
+/// run through itself, keeps that type; one that began without a knot cannot lose it.
 class KnotWatch {
  public:
   /// `standing_nodes`: those of the lower and the upper knot of a fisherman's loop (LoopTopology); else empty.

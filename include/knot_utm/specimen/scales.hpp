@@ -12,17 +12,10 @@ constexpr double kPaperRadius = 0.003175;
 /// Default lengths of edges for that radius, in knots and elsewhere [m].
 constexpr double kPaperKnottedEdge = 0.0032, kPaperEdge = 0.005;
 
-/// The units of all quantities of test and solver, so that similar specimens of any size and stiffness make similar
-/// tests:
-///
-///   length   h                radius of the rod
-///   force    F_0 = k_b/h^2    scale of the forces that bend the rod over a length h
-///   time     1 s              all default speeds are a fixed number of radii a second
-///
-/// Specimens are similar if k_s h^2/k_b, k_t/k_b, mu, K h^4/k_b, F_p/F_0 and all lengths over h are equal. They then
-/// differ only in inertia, by the bending time tau = h^2 sqrt(m/k_b), m being the mass per length. A slow test does not
-/// depend on tau as long as tau is much shorter than a second and the strands do not jump. Where they jump, tau decides
-/// where the jump ends. Rods have tau = 8e-9 s (a stiff thread) to 8 s (a soft hawser).
+/// Units in which similar specimens of any size and stiffness make similar tests: length h, the radius of the rod;
+/// force F_0 = k_b/h^2; time 1 s, as all default speeds are a fixed number of radii a second. Similar specimens differ
+/// only in inertia, by the bending time tau = h^2 sqrt(m/k_b), m being the mass per length: 8e-9 s (a stiff thread) to
+/// 8 s (a soft hawser). See doc/model.md, section 3, "Mass and drag".
 struct SpecimenScales {
   double force = 0.0;       ///< F_0 [N]
   double own_time = 0.0;    ///< tau with the mass of the material [s]

@@ -33,15 +33,13 @@ int linking_number(const Points& first, const Points& second);
 /// joined far away. For overhands between clamps, `axis` runs from the first end to the last.
 Points closed_far_away(const Points& open, const Vec3& axis);
 
-/// The topology of a fisherman's loop, with a closure that swinging tails do not change.
+/// The topology of a fisherman's loop, with a closure that swinging tails do not change (doc/model.md, section 12).
 ///
-/// Each knot's own strand is followed from its standing part outwards (OverhandStrand), and its tail is cut level with
-/// the coil's outermost point plus h, or where the tail turns back before; what lies beyond can be pulled in without
-/// passing anything. From the cut the closure runs on along the load axis to that level; around the threaded strand
-/// back to the direction away from the loop's far side (angle 0), by the angle theta that the cut has gone around; and
-/// straight out to far away, where the closures of both tails meet. theta is followed from one reading to the next, so
-/// a tail may go around the strand any number of times: read often enough that it gains less than half a turn in
-/// between. A tail whose end slips out of its coil leaves no turn to be followed, and the knot is lost.
+/// Each tail is cut level with its coil's outermost point plus h, or where it turns back before (OverhandStrand). From
+/// the cut the closure runs on along the load axis, around the threaded strand by the angle theta that the cut has gone
+/// around, and straight out to far away, where both closures meet. theta is followed from one reading to the next, so a
+/// tail may go around the strand any number of times, if it gains less than half a turn in between. A tail whose end
+/// slips out of its coil leaves no turn to be followed, and the knot is lost.
 ///
 /// Source: knots of open chains by their closure, e.g. Tubiana, Orlandini, Micheletti 2011; here the closure is fixed
 /// to the strands rather than averaged over directions.

@@ -11,16 +11,14 @@
 
 namespace knot_utm {
 
-/// Ties the overhands of a loop: holds the standing part and the threaded strand of each, and pulls its tail outwards
-/// by a grip that moves at a set speed and slips at the pre-load (TailGrips). Before, the sketched shape settles. All
-/// this happens off the rollers. The loop is held by the straight part of its far side; its half circles and the side
-/// with the knots are free. The clamps stand at set distances from the knots, on straight strands.
+/// Ties the overhands of a loop off the rollers (doc/model.md, section 9): holds the standing part and the threaded
+/// strand of each, and pulls its tail outwards by a grip that slips at the pre-load (TailGrips). Before, the sketched
+/// shape settles. The loop is held by the straight part of its far side; its half circles and the side with the knots
+/// are free. The clamps stand at set distances from the knots, on straight strands.
 ///
-/// Release: the tails' pull goes to zero linearly and everything comes to rest. Then each clamp is replaced by its
-/// reaction, which goes to zero linearly, and everything comes to rest again. Guides stay on the strands beyond the
-/// knots, which can then move along themselves only. If rest does not come in time, the test goes on (RestWatch).
-///
-/// Letting go, if the program pulls without a release: the tails' pull and the clamps' reactions go to zero linearly,
+/// Release: the tails' pull goes to zero linearly and everything comes to rest; then the same with the reactions of the
+/// clamps. Guides stay on the strands beyond the knots, which can then move along themselves only. If rest does not
+/// come in time, the test goes on (RestWatch). Letting go, if the program pulls without a release: both go to zero
 /// together and within a third of a second, without waiting for rest.
 ///
 /// Putting on: within a third of a second the rollers take the loop while the far side is let go. The tails lie beside
