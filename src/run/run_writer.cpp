@@ -138,7 +138,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   known_.may_hold_a_knot = knot.may_hold_a_knot();
   known_.follows_type = !knot.may_hold_a_knot() || type_is_followed(method.specimen);
   if (method.specimen.drawing)
-    for (const KnotDrawing::Reading& reading : method.specimen.drawing->read)
+    for (const KnotDrawing::Reading& reading : method.specimen.drawing->readings)
       known_.knot_readings.push_back(reading.name);
   known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
   known_.knot_distance = marks_of(method.specimen, method.program);
