@@ -61,11 +61,11 @@ void BalanceStep::begin(const Sample&, CrossheadCourse& course) { course.balance
 
 double BalanceStep::usual_duration(const CrossheadCourse& course) const { return course.period(); }
 
-void PullStep::keys(fields::Fields& f, double way) {
+void PullStep::keys(fields::Fields& f, double usual_extension) {
   f.scaled_number("speed", speed, kSpeeds);
   f.optional_number("load_rate", load_rate, kLoadRates, "none");
   f.section("until", [&](fields::Fields& u) {
-    u.optional_number("extension", until.extension, {1e-6, 100.0, "m"}, "none", way);
+    u.optional_number("extension", until.extension, {1e-6, 100.0, "m"}, "none", usual_extension);
     u.optional_number("load", until.load, {1e-6, 1e8, "N"}, "none");
     u.optional_number("time", until.time, {1e-3, 1e6, "s"}, "none");
     u.flag("break", until.broken);
@@ -233,14 +233,14 @@ void FollowStep::check(const StepPlace& place) const {
 }
 
 void FollowStep::steer(const Sample& now, CrossheadCourse& course) {
-  course.move(now, (way(course.time(1)) - way(course.time())) / course.period());
+  course.move(now, (travel(course.time(1)) - travel(course.time())) / course.period());
 }
 
 EndedBy FollowStep::ended(const Sample&, CrossheadCourse& course) {
   return course.over(recorded.back().time) ? EndedBy::kProgram : EndedBy::kNotYet;
 }
 
-double FollowStep::way(double time) const {
+double FollowStep::travel(double time) const {
   const auto after = std::lower_bound(recorded.begin(), recorded.end(), time,
                                       [](const RecordedPlace& row, double at) { return row.time < at; });
   if (after == recorded.begin()) return 0.0;
