@@ -138,14 +138,14 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   known_.may_hold_a_knot = knot.may_hold_a_knot();
   known_.follows_type = !knot.may_hold_a_knot() || type_is_followed(method.specimen);
   if (method.specimen.drawing)
-    for (const KnotDrawing::Reading& reading : method.specimen.drawing->read)
+    for (const KnotDrawing::Reading& reading : method.specimen.drawing->readings)
       known_.knot_readings.push_back(reading.name);
   known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
   known_.knot_distance = marks_of(method.specimen, method.program);
   known_.end_to_end = method.specimen.end_to_end;
   if (method.specimen.to_be_tied && tied_by_preload(method.specimen))
     known_.preload = method.specimen.preload.value_or(Sample::kNone);
-  known_.free_ends = drawn.free.size();
+  known_.free_ends = drawn.free_ends.size();
   hung_ = hung_weight(method.specimen, method.material);
   known_.foreseen = foreseen_warnings(method);
   weight_per_length_ =

@@ -51,12 +51,12 @@ void check_fits(const Method& method) {
   make_program(method, machine.longest_step());
 }
 
-DrawnSpecimen draw_specimen(const Method& method, int number) {
+SampledSpecimen draw_specimen(const Method& method, int number) {
   const SpecimensOptions& specimens = method.specimens;
   Method one = method;
   one.specimens = {};
   one.specimens.scatter.clear();
-  DrawnSpecimen specimen;
+  SampledSpecimen specimen;
   specimen.number = number;
   std::vector<std::string> overrides;
   for (const Scatter& scatter : specimens.scatter) {
@@ -78,8 +78,8 @@ DrawnSpecimen draw_specimen(const Method& method, int number) {
   return specimen;
 }
 
-std::vector<DrawnSpecimen> draw_specimens(const Method& method) {
-  std::vector<DrawnSpecimen> out;
+std::vector<SampledSpecimen> draw_specimens(const Method& method) {
+  std::vector<SampledSpecimen> out;
   for (int number = 1; number <= method.specimens.count; ++number) out.push_back(draw_specimen(method, number));
   return out;
 }
@@ -87,7 +87,7 @@ std::vector<DrawnSpecimen> draw_specimens(const Method& method) {
 namespace {
 
 namespace fs = std::filesystem;
-using Specimens = std::vector<DrawnSpecimen>;
+using Specimens = std::vector<SampledSpecimen>;
 
 std::string file_in(const std::string& folder, const char* name) { return (fs::path(folder) / name).string(); }
 
@@ -140,7 +140,7 @@ class SideBySide {
     for (std::size_t i = next_++; i < specimens_.size() && !stops(); i = next_++) test(specimens_[i]);
   }
 
-  void test(const DrawnSpecimen& specimen) {
+  void test(const SampledSpecimen& specimen) {
     const std::string folder = specimen_folder(folder_, specimen.number);
     std::string fault;
     bool ended = true;
@@ -285,7 +285,7 @@ std::string statistics_yaml(const std::vector<Row>& rows, const std::vector<Reje
 
 bool is_complete(const std::string& folder, const Specimens& specimens) {
   return fs::exists(file_in(folder, "statistics.yaml")) &&
-         std::all_of(specimens.begin(), specimens.end(), [&](const DrawnSpecimen& specimen) {
+         std::all_of(specimens.begin(), specimens.end(), [&](const SampledSpecimen& specimen) {
            return has_complete_result(specimen_folder(folder, specimen.number));
          });
 }
@@ -314,7 +314,7 @@ BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   if (out.interrupted) return out;
   const std::vector<const ResultKey*> keys = keys_of_table();
   std::vector<Row> rows;
-  for (const DrawnSpecimen& specimen : specimens) {
+  for (const SampledSpecimen& specimen : specimens) {
     rows.push_back(row_of(specimen_folder(out.folder, specimen.number), keys));
     if (!rows.back().rejected.empty()) out.rejected.push_back({specimen.number, rows.back().rejected});
   }

@@ -115,7 +115,7 @@ TEST_F(Batch, LeavesTheSameBytesHoweverManyAreTestedSideBySide) {
 TEST_F(Batch, StatisticsAreThoseOfTheSpecimens) {
   run_batch(method, options);
   std::vector<double> stiffness;
-  for (const DrawnSpecimen& specimen : draw_specimens(method)) stiffness.push_back(specimen.drawn[0].second);
+  for (const SampledSpecimen& specimen : draw_specimens(method)) stiffness.push_back(specimen.drawn[0].second);
   const Statistics drawn = statistics_of(stiffness);
   const YAML::Node chord = statistics()["chord_stiffness"];
   EXPECT_EQ(chord["n"].as<int>(), 5);
@@ -200,9 +200,9 @@ std::string refused(const std::string& method, const std::vector<std::string>& o
 
 TEST(Specimens, OneIsDrawnAsAmongAllOthers) {
   const Method method = straight("{count: 3, scatter: {specimen.length: {normal: 0.02}}}");
-  const std::vector<DrawnSpecimen> all = draw_specimens(method);
+  const std::vector<SampledSpecimen> all = draw_specimens(method);
   for (const int number : {3, 1}) {
-    const DrawnSpecimen one = draw_specimen(method, number);
+    const SampledSpecimen one = draw_specimen(method, number);
     EXPECT_EQ(one.number, number);
     EXPECT_EQ(one.drawn, all[static_cast<std::size_t>(number - 1)].drawn);
     EXPECT_EQ(method_yaml(one.method), method_yaml(all[static_cast<std::size_t>(number - 1)].method));
@@ -218,7 +218,7 @@ TEST(Specimens, AreDrawnWithTheSpreadThatTheMethodSays) {
       "{count: 400, scatter: {specimen.length: {normal: 0.02}, material.radius: {uniform: 0.1}, "
       "material.density: {log_normal: 0.2}}}");
   std::vector<double> lengths, radii, densities;
-  for (const DrawnSpecimen& specimen : draw_specimens(method)) {
+  for (const SampledSpecimen& specimen : draw_specimens(method)) {
     lengths.push_back(specimen.method.specimen.length);
     radii.push_back(specimen.method.material.radius);
     densities.push_back(std::log(specimen.method.material.density / method.material.density));
@@ -240,7 +240,7 @@ TEST(Specimens, AreDrawnWithTheSpreadThatTheMethodSays) {
 /// No number of specimens averages the cell's systematic error out, as in a laboratory.
 TEST(Specimens, AreReadByOneCellWithNoiseOfItsOwnForEach) {
   const auto drawn = draw_specimens(straight("{count: 2}")), others = draw_specimens(straight("{count: 2, seed: 2}"));
-  const auto cell = [](const DrawnSpecimen& specimen) { return specimen.method.machine.load_cell; };
+  const auto cell = [](const SampledSpecimen& specimen) { return specimen.method.machine.load_cell; };
   EXPECT_EQ(cell(drawn[0]).seed, cell(drawn[1]).seed);
   EXPECT_NE(cell(drawn[0]).noise_run, cell(drawn[1]).noise_run);
   EXPECT_NE(cell(drawn[0]).noise_run, cell(others[0]).noise_run);

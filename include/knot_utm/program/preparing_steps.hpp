@@ -18,7 +18,7 @@ class BenchStep : public Step {
 /// `tie`: the rig pulls the tails at `speed`; the crosshead stands.
 struct TieStep : BenchStep {
   TieStep() : BenchStep("tie", kPrepares | kForms | kEndsByItself) { speed = 0.01; }
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double) override { f.scaled_number("speed", speed, kSpeeds); }
   void check(const StepPlace& place) const override;
   double usual_duration(const CrossheadCourse&) const override { return 10.0; }
 };
@@ -26,14 +26,14 @@ struct TieStep : BenchStep {
 /// `release`: the tails are let go in `duration`; the crosshead stands.
 struct ReleaseStep : BenchStep {
   ReleaseStep() : BenchStep("release", kPrepares | kForms | kEndsByItself) { duration = 3.0; }
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double) override { f.number("duration", duration, {1e-3, 1e4, "s"}); }
   void check(const StepPlace& place) const override;
 };
 
 /// `mount`: a loop is put on the rollers, and the crosshead moves outwards at `speed` to take up its slack.
 struct MountStep : BenchStep {
   MountStep() : BenchStep("mount", kPrepares | kEndsByItself | kMoves) {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double) override { f.scaled_number("speed", speed, kSpeeds); }
   void check(const StepPlace& place) const override;
   void steer(const Sample& now, CrossheadCourse& course) override;
   double usual_duration(const CrossheadCourse&) const override { return kUsualDistance / speed; }
@@ -47,7 +47,7 @@ struct PreloadStep : Step {
   bool balance = true;
 
   PreloadStep() : Step("preload", kPrepares | kMoves | kLoads | kCanBreak) {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double usual_extension) override;
   void begin(const Sample&, CrossheadCourse&) override { balancing_ = false; }
   void steer(const Sample& now, CrossheadCourse& course) override;
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;

@@ -11,7 +11,7 @@
 namespace knot_utm {
 
 /// One of the specimens that a method describes, with its drawn values.
-struct DrawnSpecimen {
+struct SampledSpecimen {
   int number = 0;                                     ///< from 1
   std::vector<std::pair<std::string, double>> drawn;  ///< keys that scatter, each with its value in its unit
   Method method;                                      ///< method of this specimen alone
@@ -25,10 +25,10 @@ void check_fits(const Method& method);
 /// of the specimen (from 1) and the key, so neither a larger count nor a further key changes them. All specimens are
 /// tested with one load cell, whose noise is different for each. Throws InvalidInput where the drawn method would be
 /// refused.
-DrawnSpecimen draw_specimen(const Method& method, int number);
+SampledSpecimen draw_specimen(const Method& method, int number);
 
 /// Draws all specimens of a method.
-std::vector<DrawnSpecimen> draw_specimens(const Method& method);
+std::vector<SampledSpecimen> draw_specimens(const Method& method);
 
 /// How a batch is run. A batch is a test of all specimens of a method.
 struct BatchOptions : RunOptions {
