@@ -1,15 +1,15 @@
 #!/bin/bash
 # Units in which ropes, yarns and old machines state their force, in five libraries of units.
 #
-# The pond is the weight of a gram, 0.00980665 N; the kilopond (kp) that of a kilogram. Load cells and catalogues of before 1978 use them.
+# The pond is the weight of a gram, 0.00980665 N; the kilopond that of a kilogram. Older European load cells and catalogues state them.
 # A yarn's strength is in grams per denier (of force; 1 den = 1 g in 9 km), webbing's in pounds per inch of width (pli).
 #
-# Guessed: whoever knows the pond has 0.0098 N; the ton-force is the same or unknown; g/den and pli are unknown, and said to be.
+# Guessed: whoever knows the pond has 0.0098 N; the ton-force is the same or unknown; g/denier and pli are unknown, and said to be.
 # Seen: pint 0.19.2 calls a pond 9.80665 N, so that its kilopond is 9,806.65 N: a thousand times too much. GNU units 2.22 and UDUNITS 2.2.28 have
 # it right; mathjs 15.2.0 and js-quantities 1.8.0 do not know it. "pli" is a picolink in pint, a length of 2.0e-13 m, and a mass per length in
-# GNU units, whose lb is no force. "g/den" is a length in all that know it: 9 km (9,000.0009 m in UDUNITS, whose denier has seven digits), not
-# 88,260 N m/kg. tonf is the American short one, 8,896.44 N, in GNU units and unknown elsewhere, but pint's tf is 9,806.65 N.
-# Why it matters: a record in kp read with pint is wrong by 1,000 without a word. Convert forces by kgf and lbf, on which all that know them agree.
+# GNU units, whose lb is no force. "g/denier" is a length of 9 km in all that know it, not 88,260 N m/kg. tonf is the American short one,
+# 8,896.44 N, in GNU units and unknown elsewhere, while pint's tf is the metric one, 9,806.65 N.
+# Why it matters: a record in kiloponds read with pint is wrong by 1,000 without a word. Convert forces by kgf and lbf, on which all that know them agree.
 #
 # usage: findings/pond_in_unit_libraries.sh
 # It loads Debian and npm packages into a temporary folder, needs node, installs nothing, and ends with 1 where one of them does otherwise.
@@ -55,7 +55,7 @@ def in_base(library, name):
     """The unit in the first base that the library converts it to."""
     for base in ("N", "m", "kg/m"):
         try:
-            return f"{float(libraries[library](name, base)):.8g} {base}"
+            return f"{float(libraries[library](name, base)):.6g} {base}"
         except (ValueError, TypeError, pint.errors.PintError):
             pass
     return "unknown"
@@ -63,7 +63,17 @@ def in_base(library, name):
 
 asked = ("pond", "kilopond", "kgf", "lbf", "tonf", "tf", "pli", "g/denier")
 seen = {name: [in_base(library, name) for library in libraries] for name in asked}
-expected = {}
+unknown = "unknown"
+expected = {
+    "pond": ["9.80665 N", "0.00980665 N", "0.00980665 N", unknown, unknown],
+    "kilopond": ["9806.65 N", "9.80665 N", "9.80665 N", unknown, unknown],
+    "kgf": ["9.80665 N", "9.80665 N", "9.80665 N", "9.80665 N", unknown],
+    "lbf": ["4.44822 N"] * 5,
+    "tonf": [unknown, "8896.44 N", unknown, unknown, unknown],
+    "tf": ["9806.65 N", unknown, unknown, unknown, unknown],
+    "pli": ["2.01168e-13 m", "17.858 kg/m", unknown, unknown, unknown],
+    "g/denier": ["9000 m", "9000 m", "9000 m", unknown, unknown],
+}
 print(" | ".join(libraries))
 for name, values in seen.items():
     print(f"{name}: {' | '.join(values)}" + ("" if values == expected.get(name) else f"   expected {expected.get(name)}"))
