@@ -9,7 +9,8 @@
 # it right; mathjs 15.2.0 and js-quantities 1.8.0 do not know it. "pli" is a picolink in pint, a length of 2.0e-13 m, and a mass per length in
 # GNU units, whose lb is no force. "g/denier" is a length of 9 km in all that know it, not 88,260 N m/kg. tonf is the American short one,
 # 8,896.44 N, in GNU units and unknown elsewhere, while pint's tf is the metric one, 9,806.65 N.
-# Why it matters: a record in kiloponds read with pint is wrong by 1,000 without a word. Convert forces by kgf and lbf, on which all that know them agree.
+# Why it matters: a record in kiloponds read with pint is wrong by 1,000 without a word. Convert forces by kgf and lbf, on which all agree that
+# know them.
 #
 # usage: findings/pond_in_unit_libraries.sh
 # It loads Debian and npm packages into a temporary folder, needs node, installs nothing, and ends with 1 where one of them does otherwise.
@@ -17,7 +18,7 @@ set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-apt-get -qq download units=2.22-2 udunits-bin=2.2.28-5 libudunits2-0=2.2.28-5 libudunits2-data=2.2.28-5 python3-pint=0.19.2-1 2>/dev/null
+apt-get -qq download units=2.22-2 python3-pint=0.19.2-1 udunits-bin=2.2.28-5 libudunits2-0=2.2.28-5 libudunits2-data=2.2.28-5 2>/dev/null
 for package in *.deb; do dpkg -x "$package" tree; done
 npm install --silent --no-audit --no-fund --prefix . mathjs@15.2.0 js-quantities@1.8.0
 cp tree/usr/share/units/definitions.units .
