@@ -27,10 +27,17 @@ export LD_LIBRARY_PATH=tree/usr/lib/x86_64-linux-gnu
 cat > javascript.mjs <<'JS'
 import { unit } from "mathjs";
 import Qty from "js-quantities";
-const [library, name, base] = process.argv.slice(2);
-console.log(library === "mathjs" ? unit(1, name).toNumber(base) : Qty(`1 ${name}`).to(base).scalar);
+const values = {};
+for (const name of process.argv.slice(2)) {
+  for (const base of ["N", "m", "kg/m"]) {
+    try { values[`mathjs ${name} ${base}`] = unit(1, name).toNumber(base); } catch { /* unknown, or of another dimension */ }
+    try { values[`js-quantities ${name} ${base}`] = Qty(`1 ${name}`).to(base).scalar; } catch { /* likewise */ }
+  }
+}
+console.log(JSON.stringify(values));
 JS
 PYTHONPATH=tree/usr/lib/python3/dist-packages /usr/bin/python3 -W ignore - <<'PYTHON'
+import json
 import re
 import subprocess
 import pint
@@ -42,13 +49,15 @@ def said(*command):
     return subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False).stdout
 
 
+asked = ("pond", "kilopond", "kgf", "lbf", "tonf", "tf", "pli", "g/denier")
+by_javascript = json.loads(said("node", "javascript.mjs", *asked))
 libraries = {
     f"pint {pint.__version__}": lambda name, base: registry.parse_expression(name).to(base).magnitude,
     "GNU units 2.22": lambda name, base: said("tree/usr/bin/units", "-t", "-o%.10g", "-f", "definitions.units", name, base),
     "UDUNITS 2.2.28": lambda name, base: re.search(r"= ([-+.\de]+) ", said(
         "tree/usr/bin/udunits2", "-A", "-H", name, "-W", base, "tree/usr/share/xml/udunits/udunits2.xml"))[1],
-    "mathjs 15.2.0": lambda name, base: said("node", "javascript.mjs", "mathjs", name, base),
-    "js-quantities 1.8.0": lambda name, base: said("node", "javascript.mjs", "js-quantities", name, base),
+    "mathjs 15.2.0": lambda name, base: by_javascript[f"mathjs {name} {base}"],
+    "js-quantities 1.8.0": lambda name, base: by_javascript[f"js-quantities {name} {base}"],
 }
 
 
@@ -57,12 +66,11 @@ def in_base(library, name):
     for base in ("N", "m", "kg/m"):
         try:
             return f"{float(libraries[library](name, base)):.6g} {base}"
-        except (ValueError, TypeError, pint.errors.PintError):
+        except (KeyError, ValueError, TypeError, pint.errors.PintError):
             pass
     return "unknown"
 
 
-asked = ("pond", "kilopond", "kgf", "lbf", "tonf", "tf", "pli", "g/denier")
 seen = {name: [in_base(library, name) for library in libraries] for name in asked}
 unknown = "unknown"
 expected = {
