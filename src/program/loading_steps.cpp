@@ -18,7 +18,9 @@ EndedBy BenchStep::ended(const Sample& now, CrossheadCourse&) {
   return done ? EndedBy::kProgram : EndedBy::kNotYet;
 }
 
-void TieStep::keys(fields::Fields& f, double) { f.scaled_number("speed", speed, kSpeeds); }
+void TieStep::keys(fields::Fields& f, double) {
+  f.says("speed; of the tail grips", "3.15 radii/s").scaled_number("speed", speed, kSpeeds);
+}
 
 void TieStep::check(const StepPlace& place) const {
   if (place.index != 0) place.misplaced("can only be the first step");
@@ -31,7 +33,7 @@ void ReleaseStep::check(const StepPlace& place) const {
   if (place.index != 1 || !place.program[0].as<TieStep>()) place.misplaced("can only stand right after tie");
 }
 
-void MountStep::keys(fields::Fields& f, double) { f.scaled_number("speed", speed, kSpeeds); }
+void MountStep::keys(fields::Fields& f, double) { speed_key(f); }
 
 void MountStep::check(const StepPlace& place) const {
   place.needs(place.loops);
@@ -44,7 +46,7 @@ void MountStep::steer(const Sample& now, CrossheadCourse& course) { course.move(
 
 void PreloadStep::keys(fields::Fields& f, double) {
   f.required_number("load", load, {1e-6, 1e8, "N"});
-  f.scaled_number("speed", speed, kSpeeds);
+  speed_key(f);
   f.optional_number("load_rate", load_rate, kLoadRates, "none");
   f.flag("balance", balance);
 }
@@ -68,10 +70,13 @@ void BalanceStep::begin(const Sample&, CrossheadCourse& course) { course.balance
 double BalanceStep::usual_duration(const CrossheadCourse& course) const { return course.period(); }
 
 void PullStep::keys(fields::Fields& f, double way) {
-  f.scaled_number("speed", speed, kSpeeds);
+  speed_key(f);
   f.optional_number("load_rate", load_rate, kLoadRates, "none");
   f.section("until", [&](fields::Fields& u) {
-    u.optional_number("extension", until.extension, {1e-6, 100.0, "m"}, "none", way);
+    u.says(
+         "extension; `auto`: 37.8 radii, or 0.7 `knot_distance` if more; overhand `length`/10; straight `length`/25; "
+         "file 12.6 radii; capstan 1.5 radii of its bend")
+        .optional_number("extension", until.extension, {1e-6, 100.0, "m"}, "none", way);
     u.optional_number("load", until.load, {1e-6, 1e8, "N"}, "none");
     u.optional_number("time", until.time, {1e-3, 1e6, "s"}, "none");
     u.flag("break", until.broken);
@@ -112,8 +117,8 @@ double PullStep::usual_duration(const CrossheadCourse& course) const {
 void HoldStep::keys(fields::Fields& f, double) {
   f.required_number("duration", duration, {1e-3, 1e6, "s"});
   f.choice("control", hold_load, std::array{"extension", "load"});
-  f.optional_number("load", held_load, {-1e8, 1e8, "N"}, "auto");
-  if (hold_load || f.lists_all()) f.scaled_number("speed", speed, kSpeeds);
+  f.says("load; with `control: load`", "as it is").optional_number("load", held_load, {-1e8, 1e8, "N"}, "auto");
+  if (hold_load || f.lists_all()) speed_key(f);
 }
 
 void HoldStep::check(const StepPlace& place) const {
@@ -137,8 +142,8 @@ EndedBy HoldStep::ended(const Sample&, CrossheadCourse& course) {
 void CycleStep::keys(fields::Fields& f, double) {
   f.low_high("extension", extension, {-100.0, 100.0, "m"});
   f.low_high("load", load, {-1e8, 1e8, "N"});
-  f.scaled_number("speed", speed, kSpeeds);
-  f.integer("count", cycles, 0, 1000000);
+  speed_key(f);
+  f.says("count; 0: no limit").integer("count", cycles, 0, 1000000);
   f.optional_number("time", time, {1e-3, 1e6, "s"}, "none");
 }
 
@@ -186,7 +191,7 @@ double CycleStep::usual_duration(const CrossheadCourse&) const {
 }
 
 void ReturnStep::keys(fields::Fields& f, double) {
-  f.scaled_number("speed", speed, kSpeeds);
+  speed_key(f);
   f.number("extension", extension, {-100.0, 100.0, "m"});
   f.optional_number("load", load, {-1e8, 1e8, "N"}, "none");
 }
@@ -207,11 +212,12 @@ double ReturnStep::usual_duration(const CrossheadCourse& course) const {
 }
 
 void TwistStep::keys(fields::Fields& f, double) {
-  f.required_number("turns", turns, {-1e4, 1e4, "-"});
+  f.says("turns; of the upper clamp with all strands in it, right-handed about up")
+      .required_number("turns", turns, {-1e4, 1e4, "-"});
   f.number("rate", rate, {1e-6, 10.0, "1/s"});
   f.optional_number("torque", torque, {1e-12, 1e6, "N m"}, "none");
   f.choice("control", hold_load, std::array{"extension", "load"});
-  if (hold_load || f.lists_all()) f.scaled_number("speed", speed, kSpeeds);
+  if (hold_load || f.lists_all()) speed_key(f);
 }
 
 void TwistStep::check(const StepPlace& place) const {
@@ -234,7 +240,12 @@ EndedBy TwistStep::ended(const Sample& now, CrossheadCourse& course) {
 
 double TwistStep::usual_duration(const CrossheadCourse&) const { return std::abs(turns) / rate; }
 
-void FollowStep::keys(fields::Fields& f, double) { f.file("record", record); }
+void FollowStep::keys(fields::Fields& f, double) {
+  f.says(
+       "record; of the crosshead: a `curve.csv`, which [`import_instron`](results.md#raw-data) makes of raw data, or "
+       "the folder of a run")
+      .file("record", record);
+}
 
 void FollowStep::check(const StepPlace& place) const {
   if (record.empty()) throw InvalidInput::missing(place.key() + ".record", "a curve.csv, or the folder of a run");

@@ -297,10 +297,12 @@ void add_listing(CLI::App& app, const char* name, std::string (*table)(), const 
 }
 
 std::string phases_csv() {
-  std::string text = "name,prepares,forms,pulls\n";
-  for (const Phase one : all_phases())
+  std::string text = "name,prepares,forms,pulls,ends\n";
+  for (const Phase one : all_phases()) {
+    const std::optional<ProgramStep> step = step_named(phase_name(one));
     text += std::string(phase_name(one)) + (prepares(one) ? ",1" : ",0") + (forms(one) ? ",1" : ",0") +
-            (pulls(one) ? ",1\n" : ",0\n");
+            (pulls(one) ? ",1,\"" : ",0,\"") + (step ? (*step)->ends_when() : "") + "\"\n";
+  }
   return text;
 }
 
@@ -383,7 +385,7 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   add_listing(app, "--list-fields", sample_fields_csv, "say which fields a sample has, with type, unit and meaning");
   add_listing(app, "--list-method-keys", method_keys_csv, "say which keys methods may have, with label and unit");
   add_listing(app, "--list-knots", knots_csv, "say which knots there are, and their keys");
-  add_listing(app, "--list-phases", phases_csv, "say which phases a test has: which prepare it, form a knot, and pull");
+  add_listing(app, "--list-phases", phases_csv, "say which phases a test has: which prepare it, form a knot, and pull, and when they end");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty() && show->empty() && from_samples->empty() && draw->empty())
       throw CLI::RequiredError("METHOD");
