@@ -46,7 +46,7 @@ class Fields {
   }
 
   void number(const char* key, double& value, const Range& range) { visit_number(key, value, range, Unset::kKept); }
-  /// A number that may be `auto`, which stands for its default (method_defaults.hpp).
+  /// A number that may be `auto`, which stands for its default.
   void scaled_number(const char* key, double& value, const Range& range) {
     visit_number(key, value, range, Unset::kAuto);
   }
