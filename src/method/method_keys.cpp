@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <regex>
 #include <utility>
 
 #include "method_reader.hpp"
@@ -142,13 +143,9 @@ constexpr std::array kExperimental{"natural_curvature", "hardening", "noise_run"
                                    "break_at_fraction_of_peak"};
 
 /// Whether a key belongs to an entry of a list, or to a step that goes by its number.
-bool is_numbered(const std::string& key) {
-  for (std::size_t begin = 0; begin <= key.size();) {
-    const std::size_t end = std::min(key.find('.', begin), key.size());
-    if (key.find_first_not_of("0123456789", begin) >= end) return true;
-    begin = end + 1;
-  }
-  return false;
+bool is_numbered(const MethodKey& one) {
+  static const std::regex number(R"((^|\.)[0-9]+(\.|$))");
+  return std::regex_search(one.key, number);
 }
 
 }  // namespace
@@ -182,8 +179,7 @@ std::vector<MethodKey> method_keys() {
   Method any;
   any.program = all_steps();
   std::vector<MethodKey> keys = walked_keys(any);
-  keys.erase(std::remove_if(keys.begin(), keys.end(), [](const MethodKey& one) { return is_numbered(one.key); }),
-             keys.end());
+  keys.erase(std::remove_if(keys.begin(), keys.end(), is_numbered), keys.end());
   const std::string specimen = "specimen.";
   for (MethodKey& one : keys) {
     if (one.key.rfind("other_", 0) == 0) one.label += " of the other ropes";
@@ -204,17 +200,12 @@ std::string method_keys_csv() {
 }
 
 std::string knots_csv() {
-  // The mesh comes last.
-  const char *const kEdges = "edge_length", *const kRefinement = "refinement";
   std::string all = "knot,title,keys\n";
   for (const Knot* knot : knots()) {
     const KnotDescription& about = knot->about();
     all += std::string(about.name) + ",\"" + about.title + "\",";
-    for (const std::string& key : about.keys)
-      if (key != kRefinement) all += key + " ";
-    all += kEdges;
-    if (knot->has(kRefinement)) all += std::string(" ") + kRefinement;
-    all += "\n";
+    for (const std::string& key : about.keys) all += key + " ";
+    all += "edge_length\n";
   }
   return all;
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -171,30 +172,12 @@ class Reader : public Fields {
   }
 
   void vector(const char* key, Eigen::Vector3d& value, const Range& range) override {
-    const YAML::Node node = take(key);
-    if (!node.IsDefined()) return;
-    const std::string allowed = "a list [x, y, z], each " + number_text(range);
-    if (!node.IsSequence() || node.size() != 3) fail(key, node, allowed);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::optional<double> number = number_in(node[i]);
-      if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed);
-      value[static_cast<Eigen::Index>(i)] = *number;
-    }
+    if (const auto found = list<3>(key, range, "[x, y, z]")) value = {(*found)[0], (*found)[1], (*found)[2]};
   }
 
   void low_high(const char* key, std::optional<LowHigh>& value, const Range& range) override {
-    const YAML::Node node = take(key);
-    if (!node.IsDefined()) return;
-    const std::string allowed = "a list [low, high] with low below high, each " + number_text(range) + or_term(range);
-    if (!node.IsSequence() || node.size() != 2) fail(key, node, allowed);
-    double numbers[2];
-    for (std::size_t i = 0; i < 2; ++i) {
-      const std::optional<double> number = number_in(key, node[i], range);
-      if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed);
-      numbers[i] = *number;
-    }
-    if (numbers[0] >= numbers[1]) fail(key, node, allowed);
-    value = LowHigh{numbers[0], numbers[1]};
+    if (const auto found = list<2>(key, range, "[low, high] with low below high"))
+      value = LowHigh{(*found)[0], (*found)[1]};
   }
 
   void section(const char* key, const std::function<void(Fields&)>& body) override {
@@ -282,6 +265,23 @@ class Reader : public Fields {
     const auto found = std::find(names.begin(), names.end(), node.IsScalar() ? node.Scalar() : "");
     if (found == names.end()) fail_name(key, node, names);
     index = static_cast<std::size_t>(found - names.begin());
+  }
+
+  /// The numbers of a list, of which two ascend; empty: the key is left out.
+  template <std::size_t N>
+  std::optional<std::array<double, N>> list(const char* key, const Range& range, const std::string& form) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return std::nullopt;
+    std::array<double, N> out{};
+    bool fits = node.IsSequence() && node.size() == N;
+    for (std::size_t i = 0; fits && i < N; ++i) {
+      const std::optional<double> number = number_in(key, node[i], range);
+      fits = number && *number >= range.min && *number <= range.max;
+      if (fits) out[i] = *number;
+    }
+    if (!fits || (N == 2 && out[0] >= out[N - 1]))
+      fail(key, node, "a list " + form + ", each " + number_text(range) + or_term(range));
+    return out;
   }
 
   static bool is_auto(const YAML::Node& node) { return node.IsScalar() && node.Scalar() == "auto"; }

@@ -290,23 +290,14 @@ ClaimedFolder RunOptions::claim() const {
   return claimed;
 }
 
-namespace {
-
-/// The specimen that the test ties, where a cache may have it.
-std::optional<TiedSpecimen> tied_by(const Method& method, const HeadlessOptions& options) {
-  if (!options.cache) return std::nullopt;
-  return TiedSpecimen::of(method, options.writes_shapes(), options.folder);
-}
-
-}  // namespace
-
 HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options) {
   Method method = given;
   TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
   ProgramRunner program = make_program(method, bench.longest_step());
   require_readings(method, options.readings);
   require_no_record_in(options.folder, method);  // before anything is written
-  std::optional<TiedSpecimen> ties = tied_by(method, options);
+  std::optional<TiedSpecimen> ties;
+  if (options.cache) ties = TiedSpecimen::of(method, options.writes_shapes(), options.folder);
   std::vector<Record> before;
   if (std::optional<std::vector<Record>> restored = ties ? ties->restore(method, bench, program) : std::nullopt) {
     before = std::move(*restored);
@@ -315,8 +306,8 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   const ClaimedFolder claimed = options.claim();
   begin_run_folder(claimed.path(), method, words_of(options.readings));
   // The shape that the last run left in this folder is there no longer, but for its copy.
-  if (knot_of(method.specimen).has("file") && !std::filesystem::exists(method.specimen.file))
-    method.specimen.file = (std::filesystem::path(claimed.path()) / "specimen.csv").string();
+  if (knot_of(method.specimen).has("file") && !fs::exists(method.specimen.file))
+    method.specimen.file = (fs::path(claimed.path()) / "specimen.csv").string();
   const Test test{method, options, claimed.path(), bench, program, before, ties};
   for (const std::string& warning : foreseen_warnings(method)) options.tell(warning);
   if (!before.empty() && options.remark)
@@ -332,21 +323,18 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
 
 HeadlessOutcome results_from_samples(const HeadlessOptions& options) {
   const std::string& folder = options.folder;
-  if (!std::filesystem::exists(samples_file(folder)))
+  if (!fs::exists(samples_file(folder)))
     throw InvalidInput::sentence("--from-samples",
                                  "there is no samples.csv in " + shown(folder) + " from which results can be made");
   const ClaimedFolder claimed(folder);
-  const Method method = load_method((std::filesystem::path(folder) / "method.yaml").string());
+  const Method method = load_method((fs::path(folder) / "method.yaml").string());
   ResultsOptions more;
   if (options.readings == Readings::kAll) more.further = options.further;
   more.ran_here = false;
   more.without_end.reason = "the test was cut off";
   const MadeResults made = make_results(folder, method, more);
   tell_warnings(made, options);
-  HeadlessOutcome out;
-  out.folder = folder;
-  out.results = made.results;
-  return out;
+  return {folder, std::nullopt, "", false, made.results, 0.0};
 }
 
 }  // namespace knot_utm

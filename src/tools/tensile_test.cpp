@@ -213,7 +213,7 @@ int check(const Method& method, Readings readings) {
   if (method.specimens.count == 1)
     check_fits(method);
   else
-    draw_specimens(method);
+    scattered_specimens(method);
   for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
   std::fprintf(stderr, "%s: the rod: %s\n", kTool, rod_in_words(method.material).c_str());
   if (method.material.other)
