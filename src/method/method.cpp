@@ -352,8 +352,7 @@ using fields::Writer;
 
 namespace {
 
-/// Keys that another choice leaves without effect have plain values, which suit no rod, and would say what the test is
-/// not.
+/// Keys without effect hold placeholders; writing them would misstate the test.
 void leave_out_idle_keys(const Method& m, YAML::Node& root) {
   const Knot& knot = knot_of(m.specimen);
   std::vector<std::string> idle;

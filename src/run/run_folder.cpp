@@ -30,9 +30,9 @@ const std::string kResolved = "# Everything resolved: runs again to the same cur
 const std::string kOptions = "# It was run with: ";  // below that
 constexpr const char* kSpecimen = "specimen_";       // and a number, the folder of one
 
-/// What a run writes over when it begins, or leaves to who made it.
+/// Files that a run overwrites when it begins, or leaves alone because another program owns them.
 constexpr std::array<const char*, 4> kWritten{"method.yaml", "specimen.csv", "knot.yaml", "comparison.yaml"};
-/// What it takes away when it begins.
+/// Files of an earlier run that it removes when it begins.
 constexpr std::array<const char*, 13> kOld{
     "samples.csv", "shapes.bin", "curve.csv",   "curve_full.csv", "result.yaml",     "final_shape.csv", "shapes.csv",
     "test.bag",    "saved.bag",  "report.html", "report.pdf",     "statistics.yaml", "specimens.csv"};

@@ -112,6 +112,35 @@ double mass_over_that_of_the_first(const Material& material, const Centreline& d
   return (first + heavier * (all - first)) / all;
 }
 
+SpecimenFacts facts_of(const Method& method, const Centreline& drawn) {
+  const SpecimenOptions& specimen = method.specimen;
+  const KnotDescription& knot = knot_of(specimen).about();
+  SpecimenFacts out;
+  out.material = method.material;
+  out.strands = bearing_strands(specimen);
+  const double half_waves = method.machine.grips == GripKind::kClamps ? 2.0 : 1.0;
+  if (knot.straight) out.buckling_factor = std::pow(half_waves * M_PI, 2.0);
+  out.may_hold_a_knot = knot.may_hold_a_knot();
+  out.follows_type = !knot.may_hold_a_knot() || type_is_followed(specimen);
+  out.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
+  out.free_ends = drawn.free.size();
+  if (specimen.drawing)
+    for (const KnotDrawing::Reading& reading : specimen.drawing->read) out.knot_readings.push_back(reading.name);
+  for (const NodeForce& load : knot_of(specimen).supports(specimen, method.material).loads)
+    out.dead_load += load.force.norm();
+  if (specimen.to_be_tied && tied_by_preload(specimen)) out.preload = specimen.preload.value_or(Sample::kNone);
+  out.knot_distance = marks_of(specimen, method.program);
+  out.end_to_end = specimen.end_to_end;
+  for (const ProgramStep& step : method.program)
+    if (pulls(step->phase())) out.pull_speed = std::max(out.pull_speed, step->speed);
+  out.inertia = inertia_factor(method.material, method.physics, slack_of(specimen, drawn));
+  out.load_cell = method.machine.load_cell;
+  out.errors = relative_errors(specimen, method.material, method.machine, method.physics);
+  out.specification = method.specification;
+  out.foreseen = foreseen_warnings(method);
+  return out;
+}
+
 std::string in(const std::string& folder, const char* name) { return (std::filesystem::path(folder) / name).string(); }
 
 }  // namespace
@@ -127,39 +156,15 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
       curve_(in(folder, "curve.csv"), std::isfinite(method.machine.stiffness)),
       full_curve_(in(folder, "curve_full.csv"), std::isfinite(method.machine.stiffness)),
       shapes_(drawn.cuts) {
-  known_.errors = relative_errors(method.specimen, method.material, method.machine, method.physics);
-  known_.material = method.material;
-  for (const NodeForce& load : knot_of(method.specimen).supports(method.specimen, method.material).loads)
-    known_.dead_load += load.force.norm();
-  const KnotDescription& knot = knot_of(method.specimen).about();
-  known_.strands = bearing_strands(method.specimen);
-  const double half_waves = method.machine.grips == GripKind::kClamps ? 2.0 : 1.0;
-  if (knot.straight) known_.buckling_factor = std::pow(half_waves * M_PI, 2.0);
-  known_.may_hold_a_knot = knot.may_hold_a_knot();
-  known_.follows_type = !knot.may_hold_a_knot() || type_is_followed(method.specimen);
-  if (method.specimen.drawing)
-    for (const KnotDrawing::Reading& reading : method.specimen.drawing->read)
-      known_.knot_readings.push_back(reading.name);
-  known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
-  known_.knot_distance = marks_of(method.specimen, method.program);
-  known_.end_to_end = method.specimen.end_to_end;
-  if (method.specimen.to_be_tied && tied_by_preload(method.specimen))
-    known_.preload = method.specimen.preload.value_or(Sample::kNone);
-  known_.free_ends = drawn.free.size();
+  static_cast<SpecimenFacts&>(known_) = facts_of(method, drawn);
+  known_.warnings = speed_warnings(method);
+  known_.version = version();
   hung_ = hung_weight(method.specimen, method.material);
-  known_.foreseen = foreseen_warnings(method);
   weight_per_length_ =
       method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
   if (method.material.other) weight_per_length_ *= mass_over_that_of_the_first(method.material, drawn);
   if (rollers_hold(method.specimen, method.machine)) radius_on_rollers_ = method.material.radius;
   far_side_held_ = method.machine.far_side == FarSide::kHeld;
-  known_.load_cell = method.machine.load_cell;
-  known_.inertia = inertia_factor(method.material, method.physics, slack_of(method.specimen, drawn));
-  for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
-  for (const ProgramStep& step : method.program)
-    if (pulls(step->phase())) known_.pull_speed = std::max(known_.pull_speed, step->speed);
-  known_.specification = method.specification;
-  known_.version = version();
 }
 
 void RunWriter::add(const Record& record) {

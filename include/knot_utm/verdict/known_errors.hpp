@@ -12,8 +12,7 @@ namespace knot_utm {
 /// ended in time, and both grips bear the same force, apart from the rod's weight.
 std::string why_not_at_rest(const Results& results, const RunFacts& facts);
 
-/// Whether the knots slid until the end without locking. A load that rose all the same rose while they were still
-/// sliding.
+/// Whether the knots slid until the end without locking. A rising load alone is no lock: it may rise while they slide.
 bool slid_to_the_end(const Results& results);
 
 /// By how many weights of the rod the forces on two grips may differ at rest. What holds the middle of a loop's far
