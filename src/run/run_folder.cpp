@@ -93,8 +93,6 @@ void require_new_file(const char* argument, const std::string& file, const std::
   if (head != begins) refuse(" is a file of another kind, which --overwrite does not replace: give another name");
 }
 
-void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); }
-
 std::string method_file_text(const Method& method) {
   Method own = method;
   if (knot_of(own.specimen).has("file")) own.specimen.file = "specimen.csv";
@@ -211,19 +209,19 @@ void write_whole(const std::string& file, const std::string& text) {
   if (error) throw CannotWrite(file, error.value());
 }
 
-std::string read_whole(const std::string& file) {
+std::string read_input(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream all;
   if (in.peek() != std::ifstream::traits_type::eof()) all << in.rdbuf();
-  if (!in) throw std::runtime_error(InvalidInput::cannot_read(file).what());
+  if (!in) throw InvalidInput::cannot_read(file);
   return all.str();
 }
 
-std::string read_input(const std::string& file) {
+std::string read_whole(const std::string& file) {
   try {
-    return read_whole(file);
-  } catch (const std::runtime_error&) {
-    throw InvalidInput::cannot_read(file);
+    return read_input(file);
+  } catch (const InvalidInput& invalid) {
+    throw std::runtime_error(invalid.what());
   }
 }
 
@@ -241,7 +239,7 @@ ClaimedFolder ClaimedFolder::first_free(const std::string& folder) {
 }
 
 bool ClaimedFolder::claim(const std::string& folder) {
-  make_run_folder(folder);
+  make_folder(folder, "--out");
   path_ = folder;
   folder_.reset(opendir(folder.c_str()));
   if (!folder_) throw InvalidInput::cannot_write("--out", folder, errno);
@@ -292,12 +290,6 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::string from_here(const fs::path& file) {
-  std::error_code error;
-  const fs::path here = fs::current_path(error), near = file.lexically_proximate(here);
-  return error || near.empty() || *near.begin() == ".." ? file.string() : near.string();
-}
-
 }  // namespace
 
 std::string command_line(int argc, const char* const* argv) { return command_line({argv, argv + argc}); }
@@ -311,7 +303,9 @@ std::string command_line(const std::vector<std::string>& words) {
 std::string program_beside(const std::string& name) {
   std::error_code error;
   const fs::path running = fs::read_symlink("/proc/self/exe", error);
-  return error ? name : from_here(running.parent_path() / name);
+  if (error) return name;
+  const fs::path file = running.parent_path() / name, near = file.lexically_proximate(fs::current_path(error));
+  return error || near.empty() || *near.begin() == ".." ? file.string() : near.string();
 }
 
 }  // namespace knot_utm

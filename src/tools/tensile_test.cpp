@@ -54,7 +54,7 @@ int draw_knot(const std::string& knot, const char* option, const std::string& fo
   const KnotSheet sheet = knot_sheet(knot, option);
   const std::string file = (std::filesystem::path(folder) / (sheet.name + ".png")).string();
   require_new_file(option, file, {knot}, overwrite, "\x89PNG");
-  if (!folder.empty()) make_run_folder(folder);
+  if (!folder.empty()) make_folder(folder, "--out");
   const std::string shape = file + ".json";
   write_whole(shape, sheet.shape);
   const bool drawn = run_python("knot_utm.knot_picture", {shape, file}) == 0;
