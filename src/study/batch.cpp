@@ -3,7 +3,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
@@ -185,12 +184,10 @@ class SideBySide {
 
 /// The numbers of a result that are of the specimen, and not of the computer, which differ from run to run.
 std::vector<const ResultKey*> keys_of_table() {
-  constexpr std::array of_the_computer{"wall_time", "real_time_factor", "peak_memory", "seed"};
+  const std::set<std::string> of_the_computer{"wall_time", "real_time_factor", "peak_memory", "seed"};
   std::vector<const ResultKey*> out;
   for (const ResultKey& key : result_keys())
-    if (key.is_number() &&
-        std::find(of_the_computer.begin(), of_the_computer.end(), std::string(key.name)) == of_the_computer.end())
-      out.push_back(&key);
+    if (key.is_number() && of_the_computer.count(key.name) == 0) out.push_back(&key);
   return out;
 }
 

@@ -558,6 +558,12 @@ const std::vector<ResultKey>& result_keys() {
   return keys;
 }
 
+const ResultKey* result_key(const std::string& name) {
+  const auto found =
+      std::find_if(result_keys().begin(), result_keys().end(), [&](const ResultKey& one) { return one.name == name; });
+  return found == result_keys().end() ? nullptr : &*found;
+}
+
 std::string result_keys_csv() {
   std::string all = "key,unit,kind,group,table,meaning\n";
   for (const ResultKey& key : result_keys())
@@ -571,9 +577,8 @@ std::string result_yaml(const Results& results, const RunFacts& facts) {
   source.verdict = verdict(facts.specification, lines_of(source, true));
   YamlLines lines = lines_of(source, false);
   lines.explain_nulls([&](const std::string& name) {
-    const std::vector<ResultKey>& keys = result_keys();
-    const auto key = std::find_if(keys.begin(), keys.end(), [&](const ResultKey& one) { return one.name == name; });
-    return key == keys.end() ? "" : key->why_null(source);
+    const ResultKey* key = result_key(name);
+    return key ? key->why_null(source) : "";
   });
   return lines.all();
 }

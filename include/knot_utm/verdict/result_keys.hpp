@@ -93,6 +93,7 @@ constexpr char kCertificate[] = "certificate";  ///< among the checks of the cer
 /// labels and units of the report (`tensile_test --list-results`) are made from this table, and by `scripts/tables` the
 /// list in doc/results.md.
 const std::vector<ResultKey>& result_keys();
+const ResultKey* result_key(const std::string& name);  ///< null: no key has this name
 
 /// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning.
 std::string result_keys_csv();
