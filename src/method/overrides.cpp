@@ -24,7 +24,6 @@ std::vector<std::string> split(const std::string& path) {
 /// No key of a method has more parts.
 constexpr std::size_t kLongestPath = 8;
 
-/// One of them.
 struct Override {
   std::string key;
   std::vector<std::string> path;
@@ -43,10 +42,9 @@ Override parse_override(const std::string& text, const std::string& option) {
   set.key = text.substr(0, equals);
   set.path = split(set.key);
   set.text = text.substr(equals + 1);
-  if (set.path.size() > kLongestPath) {
-    const std::string most = std::to_string(kLongestPath) + " parts";
-    throw InvalidInput::sentence(option, option + " " + shown(set.key) + ": no key of a method has more than " + most);
-  }
+  if (set.path.size() > kLongestPath)
+    throw InvalidInput::sentence(option, option + " " + shown(set.key) + ": no key of a method has more than " +
+                                             std::to_string(kLongestPath) + " parts");
   try {
     set.value();
   } catch (const YAML::Exception& yaml) {
