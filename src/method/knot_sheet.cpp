@@ -21,6 +21,8 @@
 #include "knot_utm/topology/crossings.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
 #include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
+#include "knot_utm/words/yaml_lines.hpp"
 
 namespace knot_utm {
 namespace {
@@ -141,12 +143,6 @@ constexpr const char* kAnyTest =
     "material: nylon\n"
     "program: [hold: {duration: 1}]\n";
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
-  return out + '"';
-}
-
 /// A loop is shown on its rollers.
 const char* grips_for(const std::string& knot) {
   const auto is_it = [&](const Knot* one) { return one->about().loop && knot == one->about().name; };
@@ -241,10 +237,10 @@ std::string facts_text(const Method& method, const Supports& supports, const Kno
   return out;
 }
 
+std::string array_of(const std::vector<std::string>& items) { return "[" + listed(items, ", ") + "]"; }
+
 std::string json_of(const Vec3& vector) {
-  std::ostringstream out;
-  out << '[' << vector.x() << ", " << vector.y() << ", " << vector.z() << ']';
-  return out.str();
+  return array_of({format_number(vector.x()), format_number(vector.y()), format_number(vector.z())});
 }
 
 /// All lengths in radii of the rod.
@@ -252,26 +248,20 @@ std::string shape_json(const std::string& title, const Method& method, const Cen
                        const Supports& supports) {
   const double h = thickest(method.material);
   const std::vector<std::array<std::string, 2>> ends = names_of_ends(method);
-  std::ostringstream out;
-  out << "{\"title\": " << quoted(title) << ", \"ropes\": [";
-  const std::vector<Piece> ropes = pieces_between(shown.points.cols(), shown.cuts);
-  for (std::size_t k = 0; k < ropes.size(); ++k) {
-    out << (k > 0 ? ", " : "") << "{\"ends\": [" << quoted(ends[k][0]) << ", " << quoted(ends[k][1])
-        << "], \"points\": [";
-    for (Eigen::Index i = ropes[k].begin; i < ropes[k].end; ++i)
-      out << (i > ropes[k].begin ? ", " : "") << json_of(shown.points.col(i) / h);
-    out << "]}";
+  std::vector<std::string> ropes, posts;
+  for (const Piece& piece : pieces_between(shown.points.cols(), shown.cuts)) {
+    const std::array<std::string, 2>& names = ends[ropes.size()];
+    std::vector<std::string> points;
+    for (Eigen::Index i = piece.begin; i < piece.end; ++i) points.push_back(json_of(Vec3(shown.points.col(i) / h)));
+    ropes.push_back("{\"ends\": " + array_of({quoted(names[0]), quoted(names[1])}) +
+                    ", \"points\": " + array_of(points) + "}");
   }
-  out << "], \"posts\": [";
-  const char* comma = "";
-  for (const std::vector<Roller>* posts : {&supports.posts, &supports.pins})
-    for (const Roller& post : *posts) {
-      out << comma << "{\"centre\": " << json_of(post.centre / h) << ", \"axis\": " << json_of(post.axis)
-          << ", \"radius\": " << post.radius / h << ", \"ring\": " << post.ring / h << '}';
-      comma = ", ";
-    }
-  out << "]}\n";
-  return out.str();
+  for (const std::vector<Roller>* of : {&supports.posts, &supports.pins})
+    for (const Roller& post : *of)
+      posts.push_back("{\"centre\": " + json_of(Vec3(post.centre / h)) + ", \"axis\": " + json_of(post.axis) +
+                      ", \"radius\": " + format_number(post.radius / h) +
+                      ", \"ring\": " + format_number(post.ring / h) + "}");
+  return "{\"title\": " + quoted(title) + ", \"ropes\": " + array_of(ropes) + ", \"posts\": " + array_of(posts) + "}\n";
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace {
 
 using fields::Fields;
 using fields::LowHigh;
-using fields::plain_number;
 using fields::Range;
+using fields::range_without_unit;
 using fields::Unset;
 
 /// The name of a key in words: "contact stiffness" of "material.contact_stiffness".
@@ -32,13 +32,6 @@ std::string listed_code(std::vector<std::string> names) {
   return listed(names, ", ");
 }
 
-std::string span(double min, double max) { return plain_number(min) + " to " + plain_number(max); }
-
-std::string range_of(const Range& range) {
-  if (range.only_ends) return plain_number(range.min) + ", " + plain_number(range.max);
-  return std::isinf(range.max) ? "at least " + plain_number(range.min) : span(range.min, range.max);
-}
-
 /// Keeps the keys.
 class KeyWalk : public Fields {
  public:
@@ -54,7 +47,7 @@ class KeyWalk : public Fields {
   }
   void optional_number(const char* key, std::optional<double>& value, const Range& range, const char* word,
                        std::optional<double> = {}) override {
-    add_number(key, range.unit, value, code(word), range_of(range));
+    add_number(key, range.unit, value, code(word), range_without_unit(range));
   }
   void text(const char* key, std::string&, std::size_t = kAnyLength) override { add(key, "–", "text"); }
   void file(const char* key, std::string&) override { add(key, "–", "file"); }
@@ -75,11 +68,11 @@ class KeyWalk : public Fields {
  private:
   void visit_number(const char* key, double& value, const Range& range, Unset unset) override {
     const std::string known = unset == Unset::kAuto ? code("auto") : code(format_yaml_number(value));
-    add_number(key, range.unit, value, unset == Unset::kRefused ? "required" : known, range_of(range));
+    add_number(key, range.unit, value, unset == Unset::kRefused ? "required" : known, range_without_unit(range));
   }
   void visit_number_or_word(const char* key, std::optional<double>& value, const Range& range, std::size_t& index,
                             const std::vector<std::string>& words) override {
-    add_number(key, range.unit, value, code(words[index]), range_of(range) + ", " + listed_code(words));
+    add_number(key, range.unit, value, code(words[index]), range_without_unit(range) + ", " + listed_code(words));
   }
   void visit_whole_number(const char* key, double& value, double min, double max) override {
     add_number(key, "-", value, code(format_number(value)),
@@ -92,7 +85,7 @@ class KeyWalk : public Fields {
   using Numbers = std::vector<std::optional<double>>;
   void add_list(const std::string& key, const Numbers& values, const Range& range, const std::string& otherwise,
                 const std::string& form) {
-    add_number(key, range.unit, std::nullopt, otherwise, form + range_of(range));
+    add_number(key, range.unit, std::nullopt, otherwise, form + range_without_unit(range));
     for (std::size_t i = 0; i < values.size(); ++i)
       add_number(key + "." + std::to_string(i), range.unit, values[i], "", "");
   }

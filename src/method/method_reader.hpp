@@ -93,18 +93,20 @@ inline std::string plain_number(double value) {
   return text.substr(0, exponent) + "e" + std::to_string(std::stoi(text.substr(exponent + 1)));
 }
 
-inline std::string with_unit(const std::string& text, const Range& range) {
-  return std::string(range.unit) == "-" ? text : text + " " + range.unit;
-}
-
 inline std::string whole_text(double value) { return std::to_string(static_cast<long long>(value)); }
+
+/// "0.0001 to 100000".
+inline std::string range_without_unit(const Range& range) {
+  const std::string min = plain_number(range.min), max = plain_number(range.max);
+  if (range.only_ends) return min + ", " + max;
+  if (std::isinf(range.max)) return "at least " + min;
+  return range.min == range.max ? min : min + " to " + max;
+}
 
 /// "0.0001 to 100000 N".
 inline std::string range_text(const Range& range) {
-  if (range.min == range.max) return with_unit(plain_number(range.min), range);
-  if (range.only_ends) return plain_number(range.min) + ", " + plain_number(range.max);
-  if (std::isinf(range.max)) return "at least " + with_unit(plain_number(range.min), range);
-  return with_unit(plain_number(range.min) + " to " + plain_number(range.max), range);
+  const bool has_unit = std::string(range.unit) != "-" && !range.only_ends;
+  return range_without_unit(range) + (has_unit ? std::string(" ") + range.unit : "");
 }
 
 /// "a number from 0.0001 to 100000 (in N)".

@@ -282,7 +282,7 @@ std::string point_latest_to(const std::string& folder) {
 
 namespace {
 
-std::string quoted(const std::string& word) {
+std::string for_shell(const std::string& word) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
   std::string out = "'";
@@ -296,7 +296,7 @@ std::string command_line(int argc, const char* const* argv) { return command_lin
 
 std::string command_line(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + for_shell(word);
   return line;
 }
 

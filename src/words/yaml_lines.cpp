@@ -7,7 +7,6 @@
 #include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
-namespace {
 
 std::string quoted(const std::string& value) {
   std::string result = "\"";
@@ -17,8 +16,6 @@ std::string quoted(const std::string& value) {
   }
   return result + '"';
 }
-
-}  // namespace
 
 void YamlLines::number(const char* key, const std::optional<double>& value) {
   const bool known = value && !std::isnan(*value);

@@ -9,6 +9,9 @@
 
 namespace knot_utm {
 
+/// A text in quotes, for YAML and JSON; characters that are no text are blanks.
+std::string quoted(const std::string& text);
+
 /// A YAML map, written as one "key: value" line after the other. Values that are missing or NaN are null.
 class YamlLines {
  public:
