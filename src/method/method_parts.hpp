@@ -10,9 +10,7 @@
 
 namespace knot_utm {
 
-/// Writes overrides, each "dotted.key=YAML", into the map of a method. `option`: what messages call them. A key inside
-/// a material or load cell that is given by name changes a copy of it. Overrides whose keys have fewer parts are
-/// applied first; others keep the order given.
+/// Writes overrides into the map of a method, as load_method says.
 void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const std::string& option,
                      const ConfigLibrary& library);
 

@@ -95,16 +95,12 @@ struct Method {
 /// followed are absolute paths. Records are not read, nor is a specification compared with the results that
 /// there are: load_test (run/load_test.hpp) does that.
 ///
-/// Each override has the form "dotted.key=YAML", as `--set` takes it. An entry of a list is named by its index from 0
-/// or, in the program, by the name of the step ("program.pull.speed"). A key inside a material or load cell that is
-/// given by name changes a copy of it. Overrides whose keys have fewer parts are applied first; others keep the order
-/// given.
+/// Each override has the form "dotted.key=YAML", as `--set` takes it; `option`: what messages call it. An entry of a
+/// list is named by its index from 0 or, in the program, by the name of the step ("program.pull.speed"). A key inside a
+/// material or load cell that is given by name changes a copy of it. Overrides whose keys have fewer parts are applied
+/// first; others keep the order given.
 ///
-/// `option`: what messages call an override.
-///
-/// Throws InvalidInput with one line that names file, key, value and what is allowed. Reasons are a file that is
-/// missing, longer than 64 KiB or not YAML, an unknown or repeated key, a value of the wrong type or out of range, and
-/// values that do not go together.
+/// Throws InvalidInput with one line that names file, key, value and what is allowed.
 Method load_method(const std::string& file, const std::vector<std::string>& overrides = {},
                    const std::string& option = "--set");
 
@@ -116,8 +112,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
 /// needed than `specimen.file` and records that are followed.
 std::string method_yaml(const Method& method);
 
-/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it ("program.pull.speed").
-/// Empty where no number stands at the key.
+/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it; empty: none.
 std::optional<double> number_at(const Method& method, const std::string& key);
 
 /// Checks values that must go together, as `load_method` does. Throws InvalidInput.

@@ -17,17 +17,14 @@ struct ScatteredSpecimen {
   Method method;                                          ///< method of this specimen alone
 };
 
-/// Throws InvalidInput where the specimen cannot be made, or the machine cannot hold it. The test itself would say so,
-/// too, but only once it begins.
+/// Throws InvalidInput, as a test would once it begins, where the specimen cannot be made or the machine cannot hold
+/// it.
 void check_fits(const Method& method);
 
-/// Draws the values of one specimen of a method, as `Method::specimens` says. They depend only on the seed, the number
-/// of the specimen (from 1) and the key, so neither a larger count nor a further key changes them. All specimens are
-/// tested with one load cell, whose noise is different for each. Throws InvalidInput where its method would be
-/// refused.
+/// Draws the values of one specimen of a method, as `Method::specimens` says, or of all. They depend only on the seed,
+/// the number of the specimen (from 1) and the key, so neither a larger count nor a further key changes them. All are
+/// tested with one load cell, whose noise is different for each. Throws InvalidInput where its method would be refused.
 ScatteredSpecimen scattered_specimen(const Method& method, int number);
-
-/// Draws all specimens of a method.
 std::vector<ScatteredSpecimen> scattered_specimens(const Method& method);
 
 /// How a batch is run. A batch is a test of all specimens of a method.
