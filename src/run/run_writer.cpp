@@ -201,47 +201,37 @@ void RunWriter::add_to_files(const Record& record) {
   }
 }
 
-RunFacts RunWriter::facts() const {
-  RunFacts facts = known_;
-  facts.peak_memory = peak_memory();
-  facts.weight = weight_per_length_ * length_;
-  if (radius_on_rollers_ && turn_.largest() > kLargestLoopTurn * *radius_on_rollers_)
-    facts.warnings.push_back(
-        "the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
-        " radii of the rod, which carries its knots along" + (facts.weight > 0.0 ? ": physics.gravity turns it" : "") +
-        (far_side_held_
-             ? ", though machine.far_side holds it: fixed rollers with machine.roller_friction would keep it in place"
-             : "; machine.far_side: held or machine.roller_friction keeps it in place"));
-  return facts;
+std::vector<std::string> RunWriter::warnings_of_turn(double weight) const {
+  if (!radius_on_rollers_ || !(turn_.largest() > kLargestLoopTurn * *radius_on_rollers_)) return {};
+  return {"the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
+          " radii of the rod, which carries its knots along" + (weight > 0.0 ? ": physics.gravity turns it" : "") +
+          (far_side_held_
+               ? ", though machine.far_side holds it: fixed rollers with machine.roller_friction would keep it in place"
+               : "; machine.far_side: held or machine.roller_friction keeps it in place")};
 }
 
 MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, const ResultsOptions& options) {
   if (further_.close) further_.close();
-  MadeResults made;
-  made.results = analyse(samples_, readings_, end.ended_by, radius_on_rollers_.has_value(), hung_, known_.knot_distance,
-                         program_steps_);
-  made.facts = facts();
-  made.facts.reason = end.reason;
-  made.facts.wall_time = wall_time_;
-  if (!options.ran_here) made.facts.peak_memory = 0;
-  std::vector<std::string>& warnings = made.facts.warnings;
-  warnings.insert(warnings.end(), options.warnings.begin(), options.warnings.end());
-  made.rows = curve_.rows();
-  made.full_rows = full_curve_.rows();
-  write_ends(made.results, made.facts, final_shape);
-  return made;
-}
+  const Results results = analyse(samples_, readings_, end.ended_by, radius_on_rollers_.has_value(), hung_,
+                                  known_.knot_distance, program_steps_);
+  RunFacts facts = known_;
+  facts.reason = end.reason;
+  facts.wall_time = wall_time_;
+  facts.peak_memory = options.ran_here ? peak_memory() : 0;
+  facts.weight = weight_per_length_ * length_;
+  facts.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
+  if (facts.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
+    facts.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
+  for (const std::vector<std::string>& more : {warnings_of_turn(facts.weight), options.warnings})
+    facts.warnings.insert(facts.warnings.end(), more.begin(), more.end());
 
-void RunWriter::write_ends(const Results& results, RunFacts facts, const Points& final_shape) {
   if (final_shape.cols() > 0) write_centreline(in(folder_, "final_shape.csv"), final_shape, cuts_);
   if (!shapes_.empty()) {
     if (samples_.back().status == BenchStatus::kBroken) shapes_.add_parted(samples_.back().time, final_shape);
     write_whole(in(folder_, "shapes.csv"), shapes_.csv());
   }
-  facts.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
-  if (facts.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
-    facts.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
   write_whole(in(folder_, "result.yaml"), result_yaml(results, facts));
+  return {results, facts, curve_.rows(), full_curve_.rows()};
 }
 
 MadeResults make_results(const std::string& folder, const Method& method, const ResultsOptions& options) {

@@ -93,8 +93,7 @@ class RunWriter {
  private:
   RunWriter(const std::string& folder, const Method& method, const Centreline& drawn);
   void add_to_files(const Record& record);
-  RunFacts facts() const;
-  void write_ends(const Results& results, RunFacts facts, const Points& final_shape);
+  std::vector<std::string> warnings_of_turn(double weight) const;  // one, where the loop turned far
 
   std::string folder_;
   FurtherWriter further_;
