@@ -55,6 +55,14 @@ bool holds_another_document(const std::string& text) {
   return false;
 }
 
+bool comes_with_the_package(const fs::path& folder) {
+  const std::vector<std::string> shipped = shipped_folders();
+  return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& one) {
+    std::error_code error;
+    return fs::equivalent(folder, one, error);
+  });
+}
+
 }  // namespace
 
 std::string yaml_fault(const YAML::Exception& fault) {
@@ -100,18 +108,6 @@ std::vector<fs::path> yaml_files(const fs::path& folder) {
 }
 
 YAML::Node read_yaml(const fs::path& file) { return parse_yaml(read_text(file), file.string()); }
-
-namespace {
-
-bool comes_with_the_package(const fs::path& folder) {
-  const std::vector<std::string> shipped = shipped_folders();
-  return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& one) {
-    std::error_code error;
-    return fs::equivalent(folder, one, error);
-  });
-}
-
-}  // namespace
 
 ConfigLibrary::ConfigLibrary(const fs::path& method_folder) {
   std::vector<fs::path> folders{method_folder, method_folder / "config", method_folder / ".." / "config",

@@ -140,58 +140,6 @@ void check_keys_of_knot(const SpecimenOptions& specimen) {
   }
 }
 
-}  // namespace
-
-void check_other_material(const Method& m) {
-  const bool two = m.material.other != nullptr, mean = m.physics.pair_rule == PairRule::kMean;
-  has_effect(two, "physics.friction.pair", m.physics.pair_friction.value_or(-1.0), -1.0, "with other_material");
-  has_effect(two, "physics.friction.pair", std::string(mean ? "mean" : "smaller"), std::string("smaller"),
-             "with other_material");
-  if (!two) return;
-  const Material &own = m.material, &other = *m.material.other;
-  has_effect(m.specimen.drawing && m.specimen.drawing->strands.size() > 1, "other_material", other.name, std::string(),
-             "for a knot of two ropes or more, such as sheet_bend");
-  const auto same = [](const std::string& key, const std::string& of_other, const std::string& of_own) {
-    if (of_other != of_own) throw InvalidInput("other_material." + key, of_other, "that of material, " + of_own);
-  };
-  same("stretching_law", StretchingRegistry::entry(other.stretching.law).name,
-       StretchingRegistry::entry(own.stretching.law).name);
-  same("bending_law", BendingRegistry::entry(other.bending.law).name, BendingRegistry::entry(own.bending.law).name);
-  same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
-  const auto section_of = [](const Material& of) { return fields::kSections[static_cast<std::size_t>(of.section)]; };
-  same("section", section_of(other), section_of(own));
-  check_rolling(m, other, "other_material.");
-  check_section(m, other, "other_material.");
-  check_laws(other, "other_material.");
-}
-
-void check_effects(const Method& m) {
-  const SpecimenOptions& s = m.specimen;
-  check_keys_of_knot(s);
-  const double automatic = default_preload(m.material);
-  has_effect(preload_acts(s), "specimen.preload", s.preload.value_or(automatic), automatic,
-             "on a knot whose file says by which ends it is tied (tie) or what hangs on it (weights)");
-
-  const MachineOptions& machine = m.machine;
-  const MachineOptions bare;
-  const bool loop = knot_of(s).about().loop, rollers = machine.grips == GripKind::kRollers;
-  has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: " + loops());
-  const Supports supports = knot_of(s).supports(s, m.material);
-  has_effect(rollers || !supports.posts.empty() || !supports.pins.empty(), "machine.roller_friction",
-             machine.roller_friction, bare.roller_friction,
-             "with grips: rollers or knot: " + knots_with("post_diameter"));
-  const bool held = machine.far_side == FarSide::kHeld;
-  has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
-             "for knot: " + loops() + ", with grips: rollers");
-
-  check_rolling(m, m.material, "material.");
-  check_section(m, m.material, "material.");
-  check_law(FrictionRegistry(), m.physics.friction, "physics.friction.", "law");
-  check_laws(m.material, "material.");
-}
-
-namespace {
-
 using Source = std::function<GivenBy(const std::string& key)>;
 
 /// `section`: where the keys of the law stand, with a dot; `chosen_by`: the key that chooses it.
@@ -242,6 +190,54 @@ void drop_rolling(const std::string& section, const Source& by, Material& materi
 }
 
 }  // namespace
+
+void check_other_material(const Method& m) {
+  const bool two = m.material.other != nullptr, mean = m.physics.pair_rule == PairRule::kMean;
+  has_effect(two, "physics.friction.pair", m.physics.pair_friction.value_or(-1.0), -1.0, "with other_material");
+  has_effect(two, "physics.friction.pair", std::string(mean ? "mean" : "smaller"), std::string("smaller"),
+             "with other_material");
+  if (!two) return;
+  const Material &own = m.material, &other = *m.material.other;
+  has_effect(m.specimen.drawing && m.specimen.drawing->strands.size() > 1, "other_material", other.name, std::string(),
+             "for a knot of two ropes or more, such as sheet_bend");
+  const auto same = [](const std::string& key, const std::string& of_other, const std::string& of_own) {
+    if (of_other != of_own) throw InvalidInput("other_material." + key, of_other, "that of material, " + of_own);
+  };
+  same("stretching_law", StretchingRegistry::entry(other.stretching.law).name,
+       StretchingRegistry::entry(own.stretching.law).name);
+  same("bending_law", BendingRegistry::entry(other.bending.law).name, BendingRegistry::entry(own.bending.law).name);
+  same("friction_couple", format_number(default_friction_couple(other)), format_number(default_friction_couple(own)));
+  const auto section_of = [](const Material& of) { return fields::kSections[static_cast<std::size_t>(of.section)]; };
+  same("section", section_of(other), section_of(own));
+  check_rolling(m, other, "other_material.");
+  check_section(m, other, "other_material.");
+  check_laws(other, "other_material.");
+}
+
+void check_effects(const Method& m) {
+  const SpecimenOptions& s = m.specimen;
+  check_keys_of_knot(s);
+  const double automatic = default_preload(m.material);
+  has_effect(preload_acts(s), "specimen.preload", s.preload.value_or(automatic), automatic,
+             "on a knot whose file says by which ends it is tied (tie) or what hangs on it (weights)");
+
+  const MachineOptions& machine = m.machine;
+  const MachineOptions bare;
+  const bool loop = knot_of(s).about().loop, rollers = machine.grips == GripKind::kRollers;
+  has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: " + loops());
+  const Supports supports = knot_of(s).supports(s, m.material);
+  has_effect(rollers || !supports.posts.empty() || !supports.pins.empty(), "machine.roller_friction",
+             machine.roller_friction, bare.roller_friction,
+             "with grips: rollers or knot: " + knots_with("post_diameter"));
+  const bool held = machine.far_side == FarSide::kHeld;
+  has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
+             "for knot: " + loops() + ", with grips: rollers");
+
+  check_rolling(m, m.material, "material.");
+  check_section(m, m.material, "material.");
+  check_law(FrictionRegistry(), m.physics.friction, "physics.friction.", "law");
+  check_laws(m.material, "material.");
+}
 
 void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>& overrides, Method& method) {
   const Source by = [&](const std::string& key) { return given_by(key, given, overrides); };

@@ -293,6 +293,17 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   return method;
 }
 
+/// Keys without effect hold placeholders; writing them would misstate the test.
+void leave_out_idle_keys(const Method& m, YAML::Node& root) {
+  const Knot& knot = knot_of(m.specimen);
+  std::vector<std::string> idle;
+  for (const auto& item : root["specimen"])
+    if (!knot.has(item.first.Scalar())) idle.push_back(item.first.Scalar());
+  for (const std::string& key : idle) root["specimen"].remove(key);
+  if (!knot.about().loop) root["machine"].remove("roller_diameter");
+  if (!rollers_hold(m.specimen, m.machine)) root["machine"].remove("far_side");
+}
+
 }  // namespace
 
 Method load_method(const std::string& file, const std::vector<std::string>& overrides, const std::string& option) {
@@ -349,21 +360,6 @@ Method parse_method(const std::string& text, const std::string& file, const std:
 }
 
 using fields::Writer;
-
-namespace {
-
-/// Keys without effect hold placeholders; writing them would misstate the test.
-void leave_out_idle_keys(const Method& m, YAML::Node& root) {
-  const Knot& knot = knot_of(m.specimen);
-  std::vector<std::string> idle;
-  for (const auto& item : root["specimen"])
-    if (!knot.has(item.first.Scalar())) idle.push_back(item.first.Scalar());
-  for (const std::string& key : idle) root["specimen"].remove(key);
-  if (!knot.about().loop) root["machine"].remove("roller_diameter");
-  if (!rollers_hold(m.specimen, m.machine)) root["machine"].remove("far_side");
-}
-
-}  // namespace
 
 std::string method_yaml(const Method& method) {
   Method m = method;

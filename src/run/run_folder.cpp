@@ -57,6 +57,14 @@ bool is_own_knot(const Method& method) {
   return method.specimen.drawing && fs::path(method.specimen.drawing->name).is_absolute();
 }
 
+std::string for_shell(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
+
 }  // namespace
 
 std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
@@ -279,18 +287,6 @@ std::string point_latest_to(const std::string& folder) {
   }
   return fs::path(folder).is_absolute() ? link.string() : link.lexically_proximate(fs::current_path(error)).string();
 }
-
-namespace {
-
-std::string for_shell(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
-
-}  // namespace
 
 std::string command_line(int argc, const char* const* argv) { return command_line({argv, argv + argc}); }
 

@@ -43,53 +43,6 @@ double at(const Eigen::VectorXd& values, Eigen::Index i) {
   return i >= 0 && i < values.size() ? values[i] : Sample::kNone;
 }
 
-}  // namespace
-
-void ShapeSeries::add(const Record& record) {
-  const bool whole = record.answer.status != BenchStatus::kBroken;
-  if (!whole || !record.readings || record.shape.cols() == 0) return;
-  if (records_ % stride_ == 0 && kept_.size() == kMost) {
-    for (std::size_t i = 1; 2 * i < kMost; ++i) kept_[i] = std::move(kept_[2 * i]);
-    kept_.resize((kMost + 1) / 2);
-    stride_ *= 2;
-  }
-  Shape shape{record.answer.time, record.shape, record.tension, *record.readings};
-  at_the_end_.clear();
-  (records_ % stride_ == 0 ? kept_ : at_the_end_).push_back(std::move(shape));
-  ++records_;
-}
-
-void ShapeSeries::add_parted(double time, const Points& shape) { at_the_end_.push_back({time, shape, {}, {}}); }
-
-std::string ShapeSeries::csv() const {
-  const bool several = !cuts_.empty();
-  std::string text = kNames + std::string(several ? ",rope\n" : "\n") + kUnits + (several ? ",-\n" : "\n");
-  for (const std::vector<Shape>* shapes : {&kept_, &at_the_end_})
-    for (const Shape& shape : *shapes) write(shape, text);
-  return text;
-}
-
-void ShapeSeries::write(const Shape& shape, std::string& text) const {
-  std::string time;
-  put(time, shape.time);
-  int rope = 0;
-  for (const Piece& piece : pieces_between(shape.points.cols(), cuts_)) {
-    const std::string end = cuts_.empty() ? "\n" : ',' + std::to_string(++rope) + '\n';
-    for (Eigen::Index i = piece.begin; i < piece.end; ++i) {
-      const bool first = i == piece.begin, last = i + 1 == piece.end;
-      text.append(time, 1);
-      text += ',' + std::to_string(i);
-      for (Eigen::Index k = 0; k < 3; ++k) put(text, shape.points(k, i));
-      put(text, last ? Sample::kNone : at(shape.tension, i));
-      put(text, first || last ? Sample::kNone : at(shape.readings.twist_rate, i - 1));
-      put(text, at(shape.readings.contact_load, i));
-      text += end;
-    }
-  }
-}
-
-namespace {
-
 /// A loop that turned further around its rollers is told. The limit is half of the default roller's diameter, by choice
 /// [h].
 constexpr double kLargestLoopTurn = 6.0;
@@ -144,6 +97,49 @@ SpecimenFacts facts_of(const Method& method, const Centreline& drawn) {
 std::string in(const std::string& folder, const char* name) { return (std::filesystem::path(folder) / name).string(); }
 
 }  // namespace
+
+void ShapeSeries::add(const Record& record) {
+  const bool whole = record.answer.status != BenchStatus::kBroken;
+  if (!whole || !record.readings || record.shape.cols() == 0) return;
+  if (records_ % stride_ == 0 && kept_.size() == kMost) {
+    for (std::size_t i = 1; 2 * i < kMost; ++i) kept_[i] = std::move(kept_[2 * i]);
+    kept_.resize((kMost + 1) / 2);
+    stride_ *= 2;
+  }
+  Shape shape{record.answer.time, record.shape, record.tension, *record.readings};
+  at_the_end_.clear();
+  (records_ % stride_ == 0 ? kept_ : at_the_end_).push_back(std::move(shape));
+  ++records_;
+}
+
+void ShapeSeries::add_parted(double time, const Points& shape) { at_the_end_.push_back({time, shape, {}, {}}); }
+
+std::string ShapeSeries::csv() const {
+  const bool several = !cuts_.empty();
+  std::string text = kNames + std::string(several ? ",rope\n" : "\n") + kUnits + (several ? ",-\n" : "\n");
+  for (const std::vector<Shape>* shapes : {&kept_, &at_the_end_})
+    for (const Shape& shape : *shapes) write(shape, text);
+  return text;
+}
+
+void ShapeSeries::write(const Shape& shape, std::string& text) const {
+  std::string time;
+  put(time, shape.time);
+  int rope = 0;
+  for (const Piece& piece : pieces_between(shape.points.cols(), cuts_)) {
+    const std::string end = cuts_.empty() ? "\n" : ',' + std::to_string(++rope) + '\n';
+    for (Eigen::Index i = piece.begin; i < piece.end; ++i) {
+      const bool first = i == piece.begin, last = i + 1 == piece.end;
+      text.append(time, 1);
+      text += ',' + std::to_string(i);
+      for (Eigen::Index k = 0; k < 3; ++k) put(text, shape.points(k, i));
+      put(text, last ? Sample::kNone : at(shape.tension, i));
+      put(text, first || last ? Sample::kNone : at(shape.readings.twist_rate, i - 1));
+      put(text, at(shape.readings.contact_load, i));
+      text += end;
+    }
+  }
+}
 
 RunWriter::RunWriter(const std::string& folder, const Method& method, const MakeFurther& further)
     : RunWriter(folder, method, specimen_centreline(method.specimen, method.material, method.machine, method.physics)) {

@@ -43,48 +43,6 @@ std::uint32_t noise_run(unsigned seed, int number) {
   return static_cast<std::uint32_t>(sequence_of(seed, static_cast<std::uint64_t>(number), kNoise)() >> 33) + 1;
 }
 
-}  // namespace
-
-void check_fits(const Method& method) {
-  const TestingMachine machine(method.specimen, method.material, method.machine, method.physics);
-  make_program(method, machine.longest_step());
-}
-
-ScatteredSpecimen scattered_specimen(const Method& method, int number) {
-  const SpecimensOptions& specimens = method.specimens;
-  Method one = method;
-  one.specimens = {};
-  one.specimens.scatter.clear();
-  ScatteredSpecimen specimen;
-  specimen.number = number;
-  std::vector<std::string> overrides;
-  for (const Scatter& scatter : specimens.scatter) {
-    const double nominal = number_at(method, scatter.key).value();
-    const double value =
-        drawn(nominal, scatter, sequence_of(specimens.seed, static_cast<std::uint64_t>(number), scatter.key));
-    specimen.scattered.emplace_back(scatter.key, value);
-    overrides.push_back(scatter.key + "=" + format_yaml_number(value));
-  }
-  overrides.push_back(kNoise + ("=" + std::to_string(noise_run(specimens.seed, number))));
-  try {
-    specimen.method = parse_method(method_yaml(one), method.name + ".yaml", overrides);
-    check_fits(specimen.method);
-  } catch (const InvalidInput& invalid) {
-    throw InvalidInput::sentence("specimens", "specimen " + std::to_string(number) + " of " +
-                                                  std::to_string(specimens.count) +
-                                                  " cannot be made: " + invalid.what());
-  }
-  return specimen;
-}
-
-std::vector<ScatteredSpecimen> scattered_specimens(const Method& method) {
-  std::vector<ScatteredSpecimen> out;
-  for (int number = 1; number <= method.specimens.count; ++number) out.push_back(scattered_specimen(method, number));
-  return out;
-}
-
-namespace {
-
 namespace fs = std::filesystem;
 using Specimens = std::vector<ScatteredSpecimen>;
 
@@ -288,6 +246,44 @@ bool is_complete(const std::string& folder, const Specimens& specimens) {
 }
 
 }  // namespace
+
+void check_fits(const Method& method) {
+  const TestingMachine machine(method.specimen, method.material, method.machine, method.physics);
+  make_program(method, machine.longest_step());
+}
+
+ScatteredSpecimen scattered_specimen(const Method& method, int number) {
+  const SpecimensOptions& specimens = method.specimens;
+  Method one = method;
+  one.specimens = {};
+  one.specimens.scatter.clear();
+  ScatteredSpecimen specimen;
+  specimen.number = number;
+  std::vector<std::string> overrides;
+  for (const Scatter& scatter : specimens.scatter) {
+    const double nominal = number_at(method, scatter.key).value();
+    const double value =
+        drawn(nominal, scatter, sequence_of(specimens.seed, static_cast<std::uint64_t>(number), scatter.key));
+    specimen.scattered.emplace_back(scatter.key, value);
+    overrides.push_back(scatter.key + "=" + format_yaml_number(value));
+  }
+  overrides.push_back(kNoise + ("=" + std::to_string(noise_run(specimens.seed, number))));
+  try {
+    specimen.method = parse_method(method_yaml(one), method.name + ".yaml", overrides);
+    check_fits(specimen.method);
+  } catch (const InvalidInput& invalid) {
+    throw InvalidInput::sentence("specimens", "specimen " + std::to_string(number) + " of " +
+                                                  std::to_string(specimens.count) +
+                                                  " cannot be made: " + invalid.what());
+  }
+  return specimen;
+}
+
+std::vector<ScatteredSpecimen> scattered_specimens(const Method& method) {
+  std::vector<ScatteredSpecimen> out;
+  for (int number = 1; number <= method.specimens.count; ++number) out.push_back(scattered_specimen(method, number));
+  return out;
+}
 
 BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   const Specimens specimens = scattered_specimens(method);

@@ -19,6 +19,17 @@ std::string chars(double value, Format... format) {
 
 std::string with_digits(double value, int digits) { return chars(value, std::chars_format::general, digits); }
 
+/// The nearest number of so many digits that is not below the limit; of the negative limit, not above the limit.
+std::string towards(double limit, int digits, int sign) {
+  const std::string exact = format_number(limit), rounded = with_digits(limit, digits);
+  if (!std::isfinite(limit) || limit == 0.0 || exact.size() <= rounded.size()) return exact;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(limit))) - (digits - 1));
+  std::string text = rounded;
+  for (double count = std::round(limit / unit); sign * (*parse_number(text) - limit) < 0.0; count += sign)
+    text = with_digits(count * unit, digits);
+  return text;
+}
+
 }  // namespace
 
 std::string format_number(double value) {
@@ -59,21 +70,6 @@ std::optional<double> parse_number(std::string_view text) {
   if (end.ec != std::errc() || end.ptr != text.data() + text.size()) return std::nullopt;
   return value;
 }
-
-namespace {
-
-/// The nearest number of so many digits that is not below the limit; of the negative limit, not above the limit.
-std::string towards(double limit, int digits, int sign) {
-  const std::string exact = format_number(limit), rounded = with_digits(limit, digits);
-  if (!std::isfinite(limit) || limit == 0.0 || exact.size() <= rounded.size()) return exact;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(limit))) - (digits - 1));
-  std::string text = rounded;
-  for (double count = std::round(limit / unit); sign * (*parse_number(text) - limit) < 0.0; count += sign)
-    text = with_digits(count * unit, digits);
-  return text;
-}
-
-}  // namespace
 
 std::string least_text(double limit, int digits) { return towards(limit, digits, 1); }
 std::string most_text(double limit, int digits) { return towards(limit, digits, -1); }
