@@ -57,15 +57,6 @@ double slowest_pull(const Program& program, double scale) {
   return out;
 }
 
-/// The tension that one strand bears at most; of a material that says nothing about it, that at which it is twice as
-/// long.
-double strength(const Material& material) { return material.breaking_force.value_or(material.stretching_stiffness); }
-
-/// That of the weaker rope: it bears at least half of the load, and parts before the stronger one shows its strength.
-double weaker_strength(const Material& material) {
-  return material.other ? std::min(strength(material), strength(*material.other)) : strength(material);
-}
-
 /// The next larger of 1, 2, 5, 10, 20 ..., as cells are sold.
 double next_cell(double load) {
   const double decade = std::pow(10.0, std::floor(std::log10(load)));
@@ -74,9 +65,16 @@ double next_cell(double load) {
   return 10.0 * decade;
 }
 
+/// The tension that a strand bears at most; of a material that says nothing about it, that at which it is twice as
+/// long. The weaker of two ropes bears at least half of the load, and parts before the stronger one shows its strength.
+double strength(const Material& material) {
+  const double own = material.breaking_force.value_or(material.stretching_stiffness);
+  return material.other ? std::min(own, strength(*material.other)) : own;
+}
+
 double capacity(const Material& material, const Method* known) {
   const double asked = known ? std::max(known->ends.load.value_or(0.0), largest(known->program, "N")) : 0.0;
-  const double load = std::max(kMarginOfCell * weaker_strength(material), asked);
+  const double load = std::max(kMarginOfCell * strength(material), asked);
   return std::min(next_cell(std::max(load, kLeastCapacity)), kLargestCapacity);
 }
 
@@ -283,7 +281,6 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   method.program = read_program(top.take("program"), file, method.material, auto_values, automatic);
   if (known) set_creep(known->physics.friction.law, auto_values.slip_tolerance, method.physics.friction);
   fields::behind_program(top, method);
-  top.section("report", [&](Fields& f) { fields::report(f, method.report); });
   method.specification = read_specification(top.take("specification"), file);
   bool usual_scatter = true;
   method.specimens = read_specimens(top.take("specimens"), file, usual_scatter);
@@ -374,7 +371,6 @@ std::string method_yaml(const Method& method) {
     root["program"].push_back(entry_map);
   }
   fields::behind_program(top, m);
-  top.section("report", [&](Fields& f) { fields::report(f, m.report); });
   for (Requirement& required : m.specification) {
     Writer limits;
     fields::requirement(limits, required);

@@ -206,7 +206,20 @@ inline void physics(Fields& f, PhysicsOptions& o) {
   f.says("residual", "by `accuracy`").optional_number("residual", o.residual, Range{1e-12, 0.1, "of k_b/h2"}, "auto");
 }
 
-/// The keys that stand before the program, and those of the physics of the test behind it.
+/// The texts in the head of a report, and its units.
+inline void report(Fields& f, ReportOptions& o) {
+  f.says("specimen id; in the head").text("specimen_id", o.specimen_id, 80);
+  f.says("standard; in the head").text("standard", o.standard, 200);
+  f.says("conditioning; before the test").text("conditioning", o.conditioning, 200);
+  f.says("terminations; ends in the grips").text("terminations", o.terminations, 200);
+  f.says("notes; below the head").text("notes", o.notes, 4000);
+  f.section("units", [&o](Fields& units) {
+    units.choice("force", o.force, std::array{"N", "kN", "lbf"});
+    units.choice("length", o.length, std::array{"mm", "in", "m"});
+  });
+}
+
+/// The keys that stand before the program, and those behind it.
 inline void before_program(Fields& top, Method& m) {
   top.section("specimen", [&](Fields& f) { specimen(f, m.specimen); });
   top.section("material", [&](Fields& f) { material(f, m.material); });
@@ -224,19 +237,7 @@ inline void before_program(Fields& top, Method& m) {
 inline void behind_program(Fields& top, Method& m) {
   top.section("ends", [&](Fields& f) { ends(f, m.ends); });
   top.section("physics", [&](Fields& f) { physics(f, m.physics); });
-}
-
-/// The texts in the head of a report, and its units.
-inline void report(Fields& f, ReportOptions& o) {
-  f.text("specimen_id", o.specimen_id, 80);
-  f.text("standard", o.standard, 200);
-  f.text("conditioning", o.conditioning, 200);
-  f.text("terminations", o.terminations, 200);
-  f.text("notes", o.notes, 4000);
-  f.section("units", [&o](Fields& units) {
-    units.choice("force", o.force, std::array{"N", "kN", "lbf"});
-    units.choice("length", o.length, std::array{"mm", "in", "m"});
-  });
+  top.section("report", [&](Fields& f) { report(f, m.report); });
 }
 
 /// The limits of one number of result.yaml, in the unit of that file.

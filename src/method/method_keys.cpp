@@ -49,7 +49,9 @@ class KeyWalk : public Fields {
                        std::optional<double> = {}) override {
     add_number(key, range.unit, value, code(word), range_without_unit(range));
   }
-  void text(const char* key, std::string&, std::size_t = kAnyLength) override { add(key, "–", "text"); }
+  void text(const char* key, std::string&, std::size_t most = kAnyLength) override {
+    add(key, "–", most == kAnyLength ? "text" : "text, at most " + std::to_string(most) + " characters");
+  }
   void file(const char* key, std::string&) override { add(key, "–", "file"); }
   void flag(const char* key, bool& value) override { add(key, code(value ? "true" : "false"), "`true`, `false`"); }
   void vector(const char* key, Eigen::Vector3d& value, const Range& range) override {
@@ -135,12 +137,6 @@ std::vector<MethodKey> walked_keys(const Method& method) {
 constexpr std::array kExperimental{"natural_curvature", "hardening", "noise_run", "load_rate",
                                    "break_at_fraction_of_peak"};
 
-/// Whether a key belongs to an entry of a list, or to a step that goes by its number.
-bool is_numbered(const MethodKey& one) {
-  static const std::regex number(R"((^|\.)[0-9]+(\.|$))");
-  return std::regex_search(one.key, number);
-}
-
 }  // namespace
 
 bool is_experimental(const std::string& key) {
@@ -172,7 +168,9 @@ std::vector<MethodKey> method_keys() {
   Method any;
   any.program = all_steps();
   std::vector<MethodKey> keys = walked_keys(any);
-  keys.erase(std::remove_if(keys.begin(), keys.end(), is_numbered), keys.end());
+  const std::regex number(R"((^|\.)[0-9]+(\.|$))");  // of an entry of a list, or a step
+  const auto numbered = [&](const MethodKey& one) { return std::regex_search(one.key, number); };
+  keys.erase(std::remove_if(keys.begin(), keys.end(), numbered), keys.end());
   const std::string specimen = "specimen.";
   for (MethodKey& one : keys) {
     if (one.key.rfind("other_", 0) == 0) one.label += " of the other ropes";

@@ -38,8 +38,8 @@ struct MethodKey : KeyUnit {
   std::string with;       ///< the knots or laws that alone have it; empty: all
 };
 
-/// Every key of specimen, material, machine, program, ends and physics that some method may have: those of all knots,
-/// laws and steps, from their rows in method_fields.hpp.
+/// Every key of specimen, material, machine, program, ends, physics and report that some method may have: those of all
+/// knots, laws and steps, from their rows in method_fields.hpp.
 std::vector<MethodKey> method_keys();
 
 /// The same as CSV, with whether a key is experimental. The report reads it from `tensile_test --list-method-keys`, and
