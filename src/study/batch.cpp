@@ -44,7 +44,7 @@ std::uint32_t noise_run(unsigned seed, int number) {
 }
 
 namespace fs = std::filesystem;
-using Specimens = std::vector<ScatteredSpecimen>;
+using Specimens = std::vector<SampledSpecimen>;
 
 std::string file_in(const std::string& folder, const char* name) { return (fs::path(folder) / name).string(); }
 
@@ -97,7 +97,7 @@ class SideBySide {
     for (std::size_t i = next_++; i < specimens_.size() && !stops(); i = next_++) test(specimens_[i]);
   }
 
-  void test(const ScatteredSpecimen& specimen) {
+  void test(const SampledSpecimen& specimen) {
     const std::string folder = specimen_folder(folder_, specimen.number);
     std::string fault;
     bool ended = true;
@@ -185,7 +185,7 @@ Row row_of(const std::string& folder, const std::vector<const ResultKey*>& keys)
 std::string specimens_csv(const Specimens& specimens, const std::vector<Row>& rows,
                           const std::vector<const ResultKey*>& keys) {
   std::string names = "specimen", units = "-", all;
-  for (const auto& [key, value] : specimens.front().scattered) {
+  for (const auto& [key, value] : specimens.front().drawn) {
     names += "," + key;
     units += "," + unit_of_key(specimens.front().method, key);
   }
@@ -197,7 +197,7 @@ std::string specimens_csv(const Specimens& specimens, const std::vector<Row>& ro
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     all += std::to_string(specimens[i].number);
-    for (const auto& [key, value] : specimens[i].scattered) all += "," + format_number(value);
+    for (const auto& [key, value] : specimens[i].drawn) all += "," + format_number(value);
     all += (rows[i].rejected.empty() ? ",false," : ",true,") + rows[i].ended_by + "," + rows[i].motion_pattern;
     for (const std::optional<double>& number : rows[i].numbers) all += "," + (number ? format_number(*number) : "nan");
     all += "\n";
@@ -240,7 +240,7 @@ std::string statistics_yaml(const std::vector<Row>& rows, const std::vector<Reje
 
 bool is_complete(const std::string& folder, const Specimens& specimens) {
   return fs::exists(file_in(folder, "statistics.yaml")) &&
-         std::all_of(specimens.begin(), specimens.end(), [&](const ScatteredSpecimen& specimen) {
+         std::all_of(specimens.begin(), specimens.end(), [&](const SampledSpecimen& specimen) {
            return has_complete_result(specimen_folder(folder, specimen.number));
          });
 }
@@ -252,19 +252,19 @@ void check_fits(const Method& method) {
   make_program(method, machine.longest_step());
 }
 
-ScatteredSpecimen scattered_specimen(const Method& method, int number) {
+SampledSpecimen draw_specimen(const Method& method, int number) {
   const SpecimensOptions& specimens = method.specimens;
   Method one = method;
   one.specimens = {};
   one.specimens.scatter.clear();
-  ScatteredSpecimen specimen;
+  SampledSpecimen specimen;
   specimen.number = number;
   std::vector<std::string> overrides;
   for (const Scatter& scatter : specimens.scatter) {
     const double nominal = number_at(method, scatter.key).value();
     const double value =
         drawn(nominal, scatter, sequence_of(specimens.seed, static_cast<std::uint64_t>(number), scatter.key));
-    specimen.scattered.emplace_back(scatter.key, value);
+    specimen.drawn.emplace_back(scatter.key, value);
     overrides.push_back(scatter.key + "=" + format_yaml_number(value));
   }
   overrides.push_back(kNoise + ("=" + std::to_string(noise_run(specimens.seed, number))));
@@ -279,14 +279,14 @@ ScatteredSpecimen scattered_specimen(const Method& method, int number) {
   return specimen;
 }
 
-std::vector<ScatteredSpecimen> scattered_specimens(const Method& method) {
-  std::vector<ScatteredSpecimen> out;
-  for (int number = 1; number <= method.specimens.count; ++number) out.push_back(scattered_specimen(method, number));
+std::vector<SampledSpecimen> draw_specimens(const Method& method) {
+  std::vector<SampledSpecimen> out;
+  for (int number = 1; number <= method.specimens.count; ++number) out.push_back(draw_specimen(method, number));
   return out;
 }
 
 BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
-  const Specimens specimens = scattered_specimens(method);
+  const Specimens specimens = draw_specimens(method);
   if (options.resume && is_complete(options.folder, specimens))
     throw InvalidInput::sentence("--resume",
                                  "cannot resume " + shown(options.folder) + ": all of its specimens have been tested");
@@ -307,7 +307,7 @@ BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   if (out.interrupted) return out;
   const std::vector<const ResultKey*> keys = keys_of_table();
   std::vector<Row> rows;
-  for (const ScatteredSpecimen& specimen : specimens) {
+  for (const SampledSpecimen& specimen : specimens) {
     rows.push_back(row_of(specimen_folder(out.folder, specimen.number), keys));
     if (!rows.back().rejected.empty()) out.rejected.push_back({specimen.number, rows.back().rejected});
   }

@@ -214,7 +214,7 @@ int check(const Method& method, Readings readings) {
   if (method.specimens.count == 1)
     check_fits(method);
   else
-    scattered_specimens(method);
+    draw_specimens(method);
   for (const std::string& warning : foreseen_warnings(method)) tell(warning);
   tell("the rod: " + rod_in_words(method.material));
   if (method.material.other) tell("the other ropes: " + rod_in_words(*method.material.other));

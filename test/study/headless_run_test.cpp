@@ -115,8 +115,7 @@ TEST_F(Batch, LeavesTheSameBytesHoweverManyAreTestedSideBySide) {
 TEST_F(Batch, StatisticsAreThoseOfTheSpecimens) {
   run_batch(method, options);
   std::vector<double> stiffness;
-  for (const ScatteredSpecimen& specimen : scattered_specimens(method))
-    stiffness.push_back(specimen.scattered[0].second);
+  for (const SampledSpecimen& specimen : draw_specimens(method)) stiffness.push_back(specimen.drawn[0].second);
   const Statistics drawn = statistics_of(stiffness);
   const YAML::Node chord = statistics()["chord_stiffness"];
   EXPECT_EQ(chord["n"].as<int>(), 5);
@@ -196,16 +195,16 @@ Method straight(const std::string& specimens) {
 }
 
 std::string refused(const std::string& method, const std::vector<std::string>& overrides) {
-  return complaint_of([&] { scattered_specimens(load_method(kConfig + method, overrides)); });
+  return complaint_of([&] { draw_specimens(load_method(kConfig + method, overrides)); });
 }
 
 TEST(Specimens, OneIsDrawnAsAmongAllOthers) {
   const Method method = straight("{count: 3, scatter: {specimen.length: {normal: 0.02}}}");
-  const std::vector<ScatteredSpecimen> all = scattered_specimens(method);
+  const std::vector<SampledSpecimen> all = draw_specimens(method);
   for (const int number : {3, 1}) {
-    const ScatteredSpecimen one = scattered_specimen(method, number);
+    const SampledSpecimen one = draw_specimen(method, number);
     EXPECT_EQ(one.number, number);
-    EXPECT_EQ(one.scattered, all[static_cast<std::size_t>(number - 1)].scattered);
+    EXPECT_EQ(one.drawn, all[static_cast<std::size_t>(number - 1)].drawn);
     EXPECT_EQ(method_yaml(one.method), method_yaml(all[static_cast<std::size_t>(number - 1)].method));
   }
 }
@@ -219,11 +218,11 @@ TEST(Specimens, AreDrawnWithTheSpreadThatTheMethodSays) {
       "{count: 400, scatter: {specimen.length: {normal: 0.02}, material.radius: {uniform: 0.1}, "
       "material.density: {log_normal: 0.2}}}");
   std::vector<double> lengths, radii, densities;
-  for (const ScatteredSpecimen& specimen : scattered_specimens(method)) {
+  for (const SampledSpecimen& specimen : draw_specimens(method)) {
     lengths.push_back(specimen.method.specimen.length);
     radii.push_back(specimen.method.material.radius);
     densities.push_back(std::log(specimen.method.material.density / method.material.density));
-    EXPECT_EQ(specimen.scattered[0].second, lengths.back());
+    EXPECT_EQ(specimen.drawn[0].second, lengths.back());
     EXPECT_EQ(specimen.method.specimens.count, 1);
   }
   const double of_sd = 3.0 / std::sqrt(2.0 * kCount), of_mean = 3.0 / std::sqrt(1.0 * kCount);
@@ -240,9 +239,8 @@ TEST(Specimens, AreDrawnWithTheSpreadThatTheMethodSays) {
 
 /// No number of specimens averages the cell's systematic error out, as in a laboratory.
 TEST(Specimens, AreReadByOneCellWithNoiseOfItsOwnForEach) {
-  const auto drawn = scattered_specimens(straight("{count: 2}")),
-             others = scattered_specimens(straight("{count: 2, seed: 2}"));
-  const auto cell = [](const ScatteredSpecimen& specimen) { return specimen.method.machine.load_cell; };
+  const auto drawn = draw_specimens(straight("{count: 2}")), others = draw_specimens(straight("{count: 2, seed: 2}"));
+  const auto cell = [](const SampledSpecimen& specimen) { return specimen.method.machine.load_cell; };
   EXPECT_EQ(cell(drawn[0]).seed, cell(drawn[1]).seed);
   EXPECT_NE(cell(drawn[0]).noise_run, cell(drawn[1]).noise_run);
   EXPECT_NE(cell(drawn[0]).noise_run, cell(others[0]).noise_run);
@@ -252,11 +250,11 @@ TEST(Specimens, AreReadByOneCellWithNoiseOfItsOwnForEach) {
 TEST(Specimens, AreThoseOfTheMethodThatIsWritten) {
   const Method method = load_method(kConfig + "tighten.yaml", {"specimens.count=2"});
   const Method again = parse_method(method_yaml(method), kConfig + "tighten.yaml");
-  const auto drawn = scattered_specimens(method), redrawn = scattered_specimens(again);
+  const auto drawn = draw_specimens(method), redrawn = draw_specimens(again);
   ASSERT_EQ(drawn.size(), redrawn.size());
-  ASSERT_GT(drawn[0].scattered.size(), 2u);
+  ASSERT_GT(drawn[0].drawn.size(), 2u);
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    EXPECT_EQ(drawn[i].scattered, redrawn[i].scattered);
+    EXPECT_EQ(drawn[i].drawn, redrawn[i].drawn);
     EXPECT_EQ(method_yaml(drawn[i].method), method_yaml(redrawn[i].method));
   }
 }

@@ -11,10 +11,10 @@
 namespace knot_utm {
 
 /// One of the specimens that a method describes, with its own values of the keys that scatter.
-struct ScatteredSpecimen {
-  int number = 0;                                         ///< from 1
-  std::vector<std::pair<std::string, double>> scattered;  ///< those keys, each with its value in its unit
-  Method method;                                          ///< method of this specimen alone
+struct SampledSpecimen {
+  int number = 0;                                     ///< from 1
+  std::vector<std::pair<std::string, double>> drawn;  ///< those keys, each with its value in its unit
+  Method method;                                      ///< method of this specimen alone
 };
 
 /// Throws InvalidInput, as a test would once it begins, where the specimen cannot be made or the machine cannot hold
@@ -24,8 +24,8 @@ void check_fits(const Method& method);
 /// Draws the values of one specimen of a method, as `Method::specimens` says, or of all. They depend only on the seed,
 /// the number of the specimen (from 1) and the key, so neither a larger count nor a further key changes them. All are
 /// tested with one load cell, whose noise is different for each. Throws InvalidInput where its method would be refused.
-ScatteredSpecimen scattered_specimen(const Method& method, int number);
-std::vector<ScatteredSpecimen> scattered_specimens(const Method& method);
+SampledSpecimen draw_specimen(const Method& method, int number);
+std::vector<SampledSpecimen> draw_specimens(const Method& method);
 
 /// How a batch is run. A batch is a test of all specimens of a method.
 struct BatchOptions : RunOptions {
