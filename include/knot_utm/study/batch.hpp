@@ -10,21 +10,24 @@
 
 namespace knot_utm {
 
-/// One of the specimens that a method describes, with its own values of the keys that scatter.
+/// One of the specimens that a method describes, with its drawn values.
 struct SampledSpecimen {
   int number = 0;                                     ///< from 1
-  std::vector<std::pair<std::string, double>> drawn;  ///< those keys, each with its value in its unit
+  std::vector<std::pair<std::string, double>> drawn;  ///< keys that scatter, each with its value in its unit
   Method method;                                      ///< method of this specimen alone
 };
 
-/// Throws InvalidInput, as a test would once it begins, where the specimen cannot be made or the machine cannot hold
-/// it.
+/// Throws InvalidInput where the specimen cannot be made, or the machine cannot hold it. The test itself would say so,
+/// too, but only once it begins.
 void check_fits(const Method& method);
 
-/// Draws the values of one specimen of a method, as `Method::specimens` says, or of all. They depend only on the seed,
-/// the number of the specimen (from 1) and the key, so neither a larger count nor a further key changes them. All are
-/// tested with one load cell, whose noise is different for each. Throws InvalidInput where its method would be refused.
+/// Draws the values of one specimen of a method, as `Method::specimens` says. They depend only on the seed, the number
+/// of the specimen (from 1) and the key, so neither a larger count nor a further key changes them. All specimens are
+/// tested with one load cell, whose noise is different for each. Throws InvalidInput where the drawn method would be
+/// refused.
 SampledSpecimen draw_specimen(const Method& method, int number);
+
+/// Draws all specimens of a method.
 std::vector<SampledSpecimen> draw_specimens(const Method& method);
 
 /// How a batch is run. A batch is a test of all specimens of a method.
@@ -49,12 +52,12 @@ struct BatchOutcome {
 };
 
 /// Tests all specimens of a method, or those that an interrupted batch has not tested to their end. For each it writes
-/// the files of a single test into a folder of its own. Then it writes specimens.csv, a row for each specimen with
-/// its scattered values and the numbers of its result.yaml, and statistics.yaml, the statistics of each number over the
-/// specimens that were not rejected: a test is rejected if the simulation gave up, if the knot came undone before it
-/// was pulled, or if an operator stopped it. These have the same bytes however many specimens were tested at the same
-/// time. Throws InvalidInput, before anything is written, where a specimen would be refused. Throws std::runtime_error
-/// where a file cannot be written; the batch can then be resumed.
+/// the files of a single test into a folder of its own. Then it writes specimens.csv, a row for each specimen with what
+/// was drawn and the numbers of its result.yaml, and statistics.yaml, the statistics of each number over the specimens
+/// that were not rejected: a test is rejected if the simulation gave up, if the knot came undone before it was pulled,
+/// or if an operator stopped it. These have the same bytes however many specimens were tested at the same time. Throws
+/// InvalidInput, before anything is written, where a specimen would be refused. Throws std::runtime_error where a file
+/// cannot be written; the batch can then be resumed.
 BatchOutcome run_batch(const Method& method, const BatchOptions& options);
 
 }  // namespace knot_utm
