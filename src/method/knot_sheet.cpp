@@ -27,17 +27,6 @@
 namespace knot_utm {
 namespace {
 
-/// What can be read from a knot's shape before anything pulls it.
-struct KnotFacts {
-  int strands = 0;              ///< ropes
-  int crossings = 0;            ///< as seen from the front: x to the right, the load axis z up
-  std::string type;             ///< which knot it is, in words and invariants
-  double least_distance = 0.0;  ///< of two strands' centrelines; infinite where there are none [m]
-  Vec3 nearest;                 ///< half-way between these two places [m]
-  double sharpest_bend = 0.0;   ///< the least radius of the circle through the midpoints of two edges [m]
-  Vec3 sharpest;                ///< the node between them [m]
-};
-
 /// Crossings of strands; those with a cut, or with the line that would close the rod, are none.
 int visible_crossings(const Centreline& knot) {
   Mat3 rotation;  // from the front
@@ -107,31 +96,25 @@ std::string type_of(const Centreline& knot, double radius) {
                            : "not defined, as the rope has a free end";
 }
 
-void find_sharpest_bend(const Centreline& knot, KnotFacts& out) {
+/// The least radius of the circle through the midpoints of two edges, infinite in a straight rope, and the node between
+/// them [m].
+struct Bend {
+  double radius = std::numeric_limits<double>::infinity();
+  Vec3 at = Vec3::Zero();
+};
+
+Bend sharpest_bend(const Centreline& knot) {
   constexpr double kStraight = 1e-9;  // what rounding turns a straight rope by [rad]
-  out.sharpest_bend = std::numeric_limits<double>::infinity();
+  Bend out;
   for (const Piece& rope : pieces_between(knot.points.cols(), knot.cuts))
     for (Eigen::Index i = rope.begin + 1; i + 1 < rope.end; ++i) {
       const Vec3 before = knot.points.col(i) - knot.points.col(i - 1),
                  after = knot.points.col(i + 1) - knot.points.col(i);
       const double angle = turning_angle(before.normalized(), after.normalized());
-      const double radius = angle > kStraight ? 0.5 * (before.norm() + after.norm()) / angle : out.sharpest_bend;
-      if (radius >= out.sharpest_bend) continue;
-      out.sharpest_bend = radius;
-      out.sharpest = knot.points.col(i);
+      if (!(angle > kStraight)) continue;
+      const double radius = 0.5 * (before.norm() + after.norm()) / angle;
+      if (radius < out.radius) out = {radius, knot.points.col(i)};
     }
-}
-
-/// `radius`: of the rod [m].
-KnotFacts facts_of(const Centreline& knot, double radius) {
-  KnotFacts out;
-  out.strands = static_cast<int>(knot.cuts.size()) + 1;
-  out.crossings = visible_crossings(knot);
-  out.type = type_of(knot, radius);
-  const NearestPlaces nearest = nearest_places(knot.points, 1.5 * M_PI * radius, knot.cuts);
-  out.least_distance = nearest.distance;
-  out.nearest = nearest.middle;
-  find_sharpest_bend(knot, out);
   return out;
 }
 
@@ -215,26 +198,27 @@ std::string length_at(double length, const Vec3& place, const Vec3& origin, doub
   return text.data();
 }
 
-std::string facts_text(const Method& method, const Supports& supports, const KnotFacts& facts) {
+/// What can be read from a knot's shape before anything pulls it, as seen from the front: x to the right, z up.
+std::string facts_text(const Method& method, const Supports& supports, const Centreline& shown) {
   const KnotDrawing* drawing = method.specimen.drawing.get();
   const double h = thickest(method.material);
   Vec3 origin = Vec3::Zero();
   if (drawing) origin.z() = height_of_origin(*drawing, {h, method.specimen.end_to_end, 0.0, 0.0});
+  const NearestPlaces nearest = nearest_places(shown.points, 1.5 * M_PI * h, shown.cuts);
+  const Bend bend = sharpest_bend(shown);
   std::string out = "title: " + title_of(method) + "\n";
   if (drawing && !drawing->use.empty()) out += "use: " + drawing->use + "\n";
-  out += "strands: " + std::to_string(facts.strands) + "\n";
+  out += "strands: " + std::to_string(shown.cuts.size() + 1) + "\n";
   out += "held: " + held(method, supports) + "\n";
   out += "pulled: " + pulled(method) + "\n";
   if (drawing && !drawing->weights.empty()) out += "weights: " + with_parts(drawing->weights) + "\n";
-  out += "crossings: " + std::to_string(facts.crossings) + ", from the front\n";
-  out += "type: " + facts.type + "\n";
-  const bool near = facts.least_distance < kFarOff * h;
+  out += "crossings: " + std::to_string(visible_crossings(shown)) + ", from the front\n";
+  out += "type: " + type_of(shown, h) + "\n";
+  const bool near = nearest.distance < kFarOff * h;
   out += "least distance of strands: " +
-         (near ? length_at(facts.least_distance, facts.nearest, origin, h) : std::string("above 4 radii")) + "\n";
-  const bool bent = std::isfinite(facts.sharpest_bend);
-  out += "sharpest bend: " + (bent ? length_at(facts.sharpest_bend, facts.sharpest, origin, h) : std::string("none")) +
-         "\n";
-  return out;
+         (near ? length_at(nearest.distance, nearest.middle, origin, h) : "above 4 radii") + "\n";
+  const bool bent = std::isfinite(bend.radius);
+  return out + "sharpest bend: " + (bent ? length_at(bend.radius, bend.at, origin, h) : "none") + "\n";
 }
 
 std::string array_of(const std::vector<std::string>& items) { return "[" + listed(items, ", ") + "]"; }
@@ -274,7 +258,7 @@ KnotSheet knot_sheet(const std::string& knot, const std::string& option) {
   const KnotDrawing* drawing = method.specimen.drawing.get();
   KnotSheet out;
   out.name = drawing ? std::filesystem::path(drawing->name).stem().string() : knot_of(method.specimen).about().name;
-  out.facts = facts_text(method, supports, facts_of(shown, thickest(method.material)));
+  out.facts = facts_text(method, supports, shown);
   out.shape = shape_json(title_of(method), method, shown, supports);
   return out;
 }
