@@ -125,7 +125,8 @@ class Reader : public Fields {
   /// `path`: dotted path of the map, empty for the top of a file. `of`: what the file describes, for messages.
   Reader(const YAML::Node& map, std::string file, std::string path, std::string of = "a method")
       : map_(map), file_(std::move(file)), path_(std::move(path)), of_(std::move(of)) {
-    if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap()) fail_here(map_, "a map of keys and values");
+    if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap())
+      throw InvalidInput(file_, path_.empty() ? "the file" : path_, as_given(map_), "a map of keys and values");
   }
 
   /// From now on numbers in newtons may be given in these terms.
@@ -225,13 +226,6 @@ class Reader : public Fields {
     throw InvalidInput(file_, path_of(key), as_given(value), allowed);
   }
 
-  /// The same for a name that is not among the known ones.
-  [[noreturn]] void fail_name(const std::string& key, const YAML::Node& value,
-                              const std::vector<std::string>& names) const {
-    if (!value.IsScalar()) fail(key, value, listed(names));
-    throw InvalidInput::unknown_name(path_of(key), value.Scalar(), listed(names), names).in_file(file_);
-  }
-
  private:
   void visit_number(const char* key, double& value, const Range& range, Unset unset) override {
     const YAML::Node node = take(key);
@@ -264,8 +258,10 @@ class Reader : public Fields {
   void visit_name(const char* key, std::size_t& index, const std::vector<std::string>& names) override {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
-    const auto found = std::find(names.begin(), names.end(), node.IsScalar() ? node.Scalar() : "");
-    if (found == names.end()) fail_name(key, node, names);
+    if (!node.IsScalar()) fail(key, node, listed(names));
+    const auto found = std::find(names.begin(), names.end(), node.Scalar());
+    if (found == names.end())
+      throw InvalidInput::unknown_name(path_of(key), node.Scalar(), listed(names), names).in_file(file_);
     index = static_cast<std::size_t>(found - names.begin());
   }
 
@@ -293,10 +289,6 @@ class Reader : public Fields {
   }
 
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-
-  [[noreturn]] void fail_here(const YAML::Node& value, const std::string& allowed) const {
-    throw InvalidInput(file_, path_.empty() ? "the file" : path_, as_given(value), allowed);
-  }
 
   static std::optional<double> number_in(const YAML::Node& node) {
     return node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
