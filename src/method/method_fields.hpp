@@ -167,7 +167,7 @@ inline void machine(Fields& f, MachineOptions& o) {
 inline void ends(Fields& f, EndOptions& o) {
   f.says("load", "the cell's capacity").optional_number("load", o.load, Range{1e-6, 1e8, "N"}, "auto");
   f.optional_number("time", o.time, Range{1e-3, 1e8, "s"}, "none");
-  f.says("break at no more than; what is left of the load, once it was 2 % of the cell's capacity")
+  f.says("break at no more than; the load has fallen to this, after 2 % of the cell's capacity")
       .optional_number("break_at_fraction_of_peak", o.break_at_fraction_of_peak, Range{0.0, 0.99, "of the peak"},
                        "none");
 }

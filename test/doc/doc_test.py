@@ -124,6 +124,17 @@ class Ros(unittest.TestCase):
                     comment = ""
 
 
+class Contributing(unittest.TestCase):
+    def test_diffs_fit_the_files_that_they_change(self):
+        blocks = re.findall(r"\n\n(.*?)\n\n *```diff\n(.*?)```", text("CONTRIBUTING.md"), re.DOTALL)
+        self.assertGreater(len(blocks), 7)
+        for before, diff in blocks:
+            file = re.findall(r"`((?:src|include)/\S+)`", before)[-1]
+            for line in diff.splitlines():
+                if not line.startswith("+") and "…" not in line:
+                    self.assertIn(" ".join(line[1:].split()), " ".join(text(file).split()), file)
+
+
 class Readme(unittest.TestCase):
     def test_leads_to_every_page(self):
         for document in documents()[1:]:
