@@ -11,13 +11,14 @@
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #include "knot_utm/words/yaml_lines.hpp"
+#include "pull_integrals.hpp"
 
 namespace knot_utm {
 
 namespace {
 
-constexpr double kMoved = 0.01;   // of all growth: the pull has begun
-constexpr double kStill = 0.001;  // of all growth: at the same place
+constexpr double kMoved = 0.01;   // of the largest growth: extension at which the pull has begun
+constexpr double kStill = 0.001;  // of the largest growth: extensions that differ by less are the same
 
 std::vector<CurveRow> pulled(const std::vector<CurveRow>& rows) {
   std::vector<CurveRow> out;
@@ -25,10 +26,9 @@ std::vector<CurveRow> pulled(const std::vector<CurveRow>& rows) {
   return out;
 }
 
-/// Load at an extension, straight from point to point.
+/// Load at an extension, linear from point to point.
 std::optional<double> load_at(const Pull& pull, double extension) {
-  const auto less = [](const PullPoint& point, double s) { return point.extension < s; };
-  const auto next = std::lower_bound(pull.begin(), pull.end(), extension, less);
+  const auto next = first_from(pull.begin(), pull.end(), extension);
   if (next == pull.end()) return std::nullopt;
   if (next->extension == extension) return next->force;
   if (next == pull.begin()) return std::nullopt;
@@ -59,7 +59,7 @@ RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other) {
   RawZero zero{};
   for (std::size_t i = 0; i < all.size() && all[i].extension <= start + kMoved * growth; ++i)
     if (all[i].extension <= start) zero.first = i;
-  // The mean is one of differences, so that equal readings have themselves as their mean, to the last digit.
+  // The mean is taken of differences, so that the mean of equal readings has exactly their value.
   const CurveRow& last = all[zero.first];
   double extension = 0.0, load = 0.0;
   zero.readings = 0;
@@ -115,7 +115,7 @@ class Walk {
   std::size_t next_ = 1;
 };
 
-/// Where either curve may have a corner, in order.
+/// Extensions at which either curve may have a corner, in order.
 std::vector<double> corners(const Pull& a, const Pull& b, const Range& common) {
   std::vector<double> out = {common.low, common.high};
   for (const Pull* pull : {&a, &b})
@@ -128,7 +128,7 @@ std::vector<double> corners(const Pull& a, const Pull& b, const Range& common) {
 struct Reading {
   const char* name;
   std::optional<double> CurveReadings::*value;
-  bool judged = true;  ///< held against the tolerance: not what curves without e cannot tell, nor what may be zero
+  bool judged = true;  ///< compared with the tolerance: not readings that need e, nor those that may be zero
 };
 
 constexpr std::array<Reading, 11> kReadings{{{"peak_force", &CurveReadings::peak_force},
@@ -158,7 +158,7 @@ std::string zero_text(const std::optional<RawZero>& zero) {
          "}";
 }
 
-/// With three digits, unless these are those of the limit.
+/// With three digits, unless these would not show that the limit is exceeded.
 std::string beside_limit(double value, double limit) {
   const std::string text = short_number(value);
   return parse_number(text) && std::abs(*parse_number(text)) > limit ? text : format_number(value);
@@ -203,7 +203,7 @@ Comparison compare(const Pull& first, const Pull& second) {
   if (!knows(a) || !knows(b))
     for (Pull* pull : {&a, &b})
       for (PullPoint& point : *pull) point.borne = Sample::kNone;
-  // A curve does not say what holds a loop; one between held nodes would have no plateau by either rule.
+  // A curve does not say what holds a loop. Between held nodes it would have no plateau in any case.
   constexpr bool kOnRollers = true;
   return {curve_readings(a, kOnRollers), curve_readings(b, kOnRollers), curve_difference(a, b), std::nullopt};
 }
@@ -252,7 +252,7 @@ std::vector<std::string> beyond_tolerance(const Comparison& comparison, double t
 
 namespace {
 
-/// A curve without any times is one, too.
+/// A curve may lack times altogether.
 void require_finite(const CurveOfFile& curve) {
   const bool timed = has_its_zero(curve.rows) || (!curve.rows.empty() && std::isfinite(curve.rows.front().time));
   for (std::size_t i = 0; i < curve.rows.size(); ++i) {
@@ -301,7 +301,7 @@ class Side {
                                      : "nothing is pulled: no reading has a larger extension than the first one")
           .in_file(curve_.file);
   }
-  /// A pull has only readings beyond all extensions before.
+  /// Notes how many readings are left out, because a pull consists of readings beyond all earlier extensions.
   void note_left_out() const {
     constexpr double kBehind = 0.01;  // of the way
     const Pull pull = pull_of(rows());

@@ -14,20 +14,16 @@ namespace knot_utm {
 namespace {
 
 constexpr double kPlateauBegin = 0.3, kPlateauEnd = 0.8;  // of the way to the lock
-constexpr double kLockedLoad = 2.0;                       // times the plateau's mean
+constexpr double kLockedLoad = 2.0;                       // load of a lock over the mean of its plateau
 constexpr double kEarliestLock = 0.15;                    // of the pull
-constexpr std::ptrdiff_t kFewestReadings = 3;             // within a plateau
-constexpr double kRises = 1.0 / 3.0, kFalls = 0.5;        // growth and fall of a plateau over its mean
+constexpr std::ptrdiff_t kFewestReadings = 3;             // of the load within a plateau
+constexpr double kRises = 1.0 / 3.0, kFalls = 0.5;        // change over the mean from which a force is not level
 constexpr double kOffSliding = 0.5;                       // of de/ds from rigid sliding on rollers
 constexpr double kSudden = 0.05;                          // of the way to the lock
-constexpr double kTakenIn = 0.125, kFallen = 0.1;         // of the first excess length; of F
-constexpr double kLetOut = 0.05, kLetGo = 0.5;            // of the first e; of F
-constexpr int kFewestForDrops = 20;                       // readings on the way to the lock
-
-double force_over(const Pull& pull, const Range& range) {
-  const Integrals part = integrate(pull, range);
-  return part.force / part.width;
-}
+// A jump takes in rod over the first excess length and lets F fall; without excess lengths, the knots come nearer by a
+// part of the first e, and this part of F is left.
+constexpr double kTakenIn = 0.125, kFallen = 0.1, kLetOut = 0.05, kLetGo = 0.5;
+constexpr int kFewestForDrops = 20;  // readings on the way to the lock
 
 /// Least-squares slopes over three parts of equal length.
 std::array<double, 3> slopes_of_thirds(const Pull& pull, const Range& range) {
@@ -39,11 +35,10 @@ std::array<double, 3> slopes_of_thirds(const Pull& pull, const Range& range) {
   return slope;
 }
 
-/// Smallest and largest F, F being straight from point to point.
+/// Smallest and largest F, which is linear from point to point.
 std::pair<double, double> extremes(const Pull& pull, const Range& range) {
   const auto force_at = [&](double s) {
-    const auto after = std::lower_bound(pull.begin() + 1, pull.end() - 1, s,
-                                        [](const PullPoint& p, double extension) { return p.extension < extension; });
+    const auto after = first_from(pull.begin() + 1, pull.end() - 1, s);
     const PullPoint &a = *(after - 1), &b = *after;
     return a.force + (s - a.extension) / (b.extension - a.extension) * (b.force - a.force);
   };
@@ -68,8 +63,8 @@ std::size_t last_within(const Pull& pull, std::size_t i, double way, double end)
 
 double sudden(const Pull& pull, double end) { return kSudden * (end - pull.front().extension); }
 
-/// The largest fall of F between two points of a range that are no further apart than `way`. A record may have a
-/// million readings: `low` holds the points ahead that may have the least F, in their order and with F rising.
+/// The largest fall of F between two points of a range that are no further apart than `way`. As a record may have a
+/// million readings, `low` holds only the points ahead that can still become the lowest one, in order, with rising F.
 std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double way) {
   std::optional<Drop> out;
   std::deque<std::size_t> low;
@@ -94,8 +89,8 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
   return out;
 }
 
-/// At every point the least that each knot holds of the rod from there over `way`: a tail that whips past has a knot
-/// take in rod for a moment, a knot that opens keeps it.
+/// The least excess length of each knot from each point on over `way`. A knot that opens keeps the rod that it takes
+/// in; one that a tail whips past gives it back.
 HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double way, std::size_t begin) {
   HiddenRod out = hidden;
   for (std::size_t i = begin; i < out.size(); ++i)
@@ -104,30 +99,30 @@ HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double way, std::si
   return out;
 }
 
-/// The length of rod that a knot took in from one point to another, over what it held at `first`: the largest of all
-/// knots. NaN where it is not known.
+/// Growth of the excess length from one point to another, over that at `first`: the largest of all knots. NaN: not
+/// known.
 double taken_in(const PerKnot& first, const PerKnot& from, const PerKnot& to) {
   double most = Sample::kNone;
   for (std::size_t k = 0; k < first.size(); ++k) most = std::fmax(most, (to.at(k) - from.at(k)) / first.at(k));
   return most;
 }
 
-/// By which the knots came nearer to each other beyond what `sliding`, de/ds, can do, over the first e; 0 where F did
-/// not fall by half.
+/// Approach of the knots beyond that of rigid sliding (`sliding`, de/ds), over the first e; 0 if F did not fall by
+/// half.
 double let_out(const Pull& pull, const PullPoint& from, const PullPoint& to, double sliding) {
   if (to.force > kLetGo * from.force) return 0.0;
   return (from.knot_distance - to.knot_distance + sliding * (to.extension - from.extension)) /
          pull.front().knot_distance;
 }
 
-/// How much a knot opened from one point to another, by the share of rod that it has `taken` in, over the least that is
-/// a jump. NaN: nothing tells.
+/// How much a knot opened from one point to another, over the least opening of a jump: by the share of rod that it has
+/// `taken` in or, where that is not known, by the approach of the knots. NaN: neither is known.
 double opened(const Pull& pull, const PullPoint& from, const PullPoint& to, double taken, double sliding) {
   const double known = taken / kTakenIn;
   return std::isfinite(known) ? known : let_out(pull, from, to, sliding) / kLetOut;
 }
 
-/// For every point from `begin` on where F is smallest within `way` behind it.
+/// For every point from `begin` on: the point with the smallest F within `way` after it.
 std::vector<std::size_t> lowest_behind(const Pull& pull, double way, std::size_t begin) {
   std::vector<std::size_t> out(pull.size());
   for (std::size_t i = begin; i < pull.size(); ++i) {
@@ -138,8 +133,7 @@ std::vector<std::size_t> lowest_behind(const Pull& pull, double way, std::size_t
   return out;
 }
 
-/// Whether a knot holds so much more rod at one point from `begin` on than at another that it may have jumped; true
-/// where that is not known.
+/// Whether the excess length of a knot varies so much from `begin` on that it may have jumped; true if it is not known.
 bool may_have_jumped(const HiddenRod& hidden, std::size_t begin) {
   if (hidden.empty()) return true;
   for (std::size_t k = 0; k < hidden.front().size(); ++k) {
@@ -157,7 +151,7 @@ std::string text(const char* format, double a, double b = 0.0) {
   return line.data();
 }
 
-/// Why F is no sliding force, by the motion of the knots, if there are two; empty: it may be one.
+/// Why the motion of two knots says that F is no sliding force; empty: it may be one.
 std::string why_not_sliding(double slope, bool on_rollers) {
   if (!std::isfinite(slope)) return {};
   if (!on_rollers)
@@ -178,7 +172,7 @@ std::optional<double> lock_by_load(const Pull& pull) {
   const WayToPeak way(pull);
   const double length = way.end() - way.start();
   const double earliest = way.start() + kEarliestLock * (pull.back().extension - way.start());
-  // Steps go back by a share each, unless F grows in about proportion to s: then there is no lock to be found.
+  // Each step goes back by a share of the way, unless F is about proportional to s and has no lock.
   constexpr int kMostSteps = 1000;
   double lock = way.end();
   for (int step = 0; step < kMostSteps && lock > earliest; ++step) {
@@ -224,7 +218,7 @@ std::optional<Plateau> plateau(const Pull& pull, double end) {
   out.force_slope = slope_over(pull, range);
   std::tie(out.low, out.high) = extremes(pull, range);
   const double middle = 0.5 * (range.low + range.high);
-  out.rise = 2.0 * (force_over(pull, {middle, range.high}) - force_over(pull, {range.low, middle}));
+  out.rise = 2.0 * (mean_over(pull, {middle, range.high}) - mean_over(pull, {range.low, middle}));
   return out;
 }
 
@@ -290,25 +284,22 @@ std::optional<LockedPart> locked_part(const Pull& pull, double from) {
 
 namespace {
 
-/// Where F falls at once by more than a level may change the mean is one of before and behind; empty: it does not.
+/// Why a sudden fall divides the plateau into two levels; empty: there is none so large.
 std::string why_interrupted(const Pull& pull, double end, double mean) {
   const std::optional<Drop> fall = largest_drop(pull, plateau_range(pull, end), sudden(pull, end));
   if (!fall || fall->force(pull) < kFalls * mean) return {};
   return text("the load is not level: it falls at once by %.0f %% of its mean", 100.0 * fall->force(pull) / mean);
 }
 
-/// Between readings that are far apart F may do anything.
+/// Why there are too few readings for a mean; empty: there are enough.
 std::string why_too_few(const Pull& pull, double end) {
-  const Range range = plateau_range(pull, end);
-  const std::ptrdiff_t within = std::count_if(pull.begin(), pull.end(), [&](const PullPoint& point) {
-    return point.extension >= range.low && point.extension <= range.high;
-  });
+  const std::ptrdiff_t within = count_within(pull, plateau_range(pull, end));
   if (within >= kFewestReadings) return {};
   return text("the load was read %.0f times from 0.3 to 0.8 of the way, where a mean takes at least %.0f",
               static_cast<double>(within), static_cast<double>(kFewestReadings));
 }
 
-/// Says why the force that the rod bears has no plateau; empty where it has one.
+/// Why the force that the rod bears has no plateau; empty: it has one.
 std::string why_no_plateau(const Pull& borne, bool on_rollers, const CurveReadings& found) {
   if (!(peak_force(borne) > 0.0)) return "the specimen was never in tension";
   const std::optional<Plateau> level = plateau(borne, found.slides_to);
@@ -322,13 +313,12 @@ std::string why_no_plateau(const Pull& borne, bool on_rollers, const CurveReadin
   return why_not_level(*level);
 }
 
-/// Says why the knots do not lock; empty where they lock, which is where the force rises for good.
+/// Why the knots do not lock; empty: they lock where the force rises for good.
 std::string why_no_lock(const Pull& borne, const CurveReadings& found) {
   if (found.jumped) return "a knot jumped open";
   if (!found.no_plateau.empty()) return "there is no plateau";
   if (!found.rises_at) return "the load does not stay above twice the mean of its plateau";
-  const auto after = std::lower_bound(borne.begin() + 1, borne.end() - 1, *found.rises_at,
-                                      [](const PullPoint& p, double s) { return p.extension < s; });
+  const auto after = first_from(borne.begin() + 1, borne.end() - 1, *found.rises_at);
   const double way = *found.rises_at - borne.front().extension;
   const double apart = (after->extension - (after - 1)->extension) / way;
   if (apart <= kSudden) return {};

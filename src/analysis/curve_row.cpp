@@ -18,7 +18,7 @@ PullPoint point_of(const CurveRow& row, ExtensionOf extension) {
   return point;
 }
 
-/// From where the pull began. What the rod bears there does not depend on a balance.
+/// The point from which the pull began. The force that the rod bears there does not depend on a balance.
 PullPoint origin_of(const CurveRow& before, const CurveRow& first, ExtensionOf extension) {
   PullPoint origin = point_of(before, extension);
   if (balanced_between(before, first)) origin.extension = origin.force = 0.0;

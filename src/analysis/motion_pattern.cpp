@@ -11,13 +11,13 @@ namespace knot_utm {
 namespace {
 
 constexpr double kWindow = 0.03;            // of the first knot distance
-constexpr double kTurnover = 0.5;           // of rigid sliding: de/ds between sliding and stretching
+constexpr double kTurnover = 0.5;           // de/ds between sliding and stretching, over that of rigid sliding
 constexpr double kLeastSliding = 0.15;      // of all extension
-constexpr double kMuchSliding = 1.0 / 3.0;  // of all extension: whatever the load then does
-constexpr double kLoadLevel = 2.0;          // times the mean load of the way on which the knots slid
-constexpr double kGone = 0.05;              // of the largest load
-constexpr double kVanished = 0.25;          // of the tied excess length
-constexpr double kOpened = 0.05;            // of e, as where a knot jumps open while it is pulled
+constexpr double kMuchSliding = 1.0 / 3.0;  // of all extension: knots that slid so far slide, whatever the load does
+constexpr double kLoadLevel = 2.0;          // highest load while knots slide, over its mean there
+constexpr double kGone = 0.05;              // load over the largest one below which a knot is lost
+constexpr double kVanished = 0.25;          // excess length over the tied one below which a knot is lost
+constexpr double kOpened = 0.05;            // approach over e from which a knot opened as the loop was mounted
 
 /// Least-squares line y(s) through the samples from `begin` to `end`, each weighted by the extension it stands for.
 struct Line {
@@ -63,7 +63,7 @@ Line fit(const Pull& pull, std::size_t begin, std::size_t end, Value value) {
 
 double unit(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 0.0; }
 
-/// Whether no rope with a free end touches a rope any more.
+/// Whether no rope with a free end touches another rope any more.
 bool came_apart(const Sample& sample) {
   const PerKnot& tails = sample.tail_length;
   return tails.size() > 0 && std::none_of(tails.begin(), tails.end(), [](double tail) { return std::isfinite(tail); });
@@ -85,7 +85,7 @@ void MotionPatternTracker::add(const Sample& sample) {
   else if (!type_lost_)
     type_lost_ = sample.time;
   crossed_ |= sample.knot_type == KnotType::kCrossed;
-  // After a break the load says nothing about the knot; the sample that reports it is the last that counts.
+  // The sample that reports a break is the last one that counts.
   if (broken_) return;
   if (sample.status == BenchStatus::kBroken) broken_ = true;
   if (sample.status == BenchStatus::kFailed) return;
@@ -98,7 +98,7 @@ void MotionPatternTracker::add(const Sample& sample) {
     mounted_ = std::max(mounted_, sample.force_upper);
 }
 
-/// The end of tying sets the mark of the excess length; a release that lets the knot open does not move it.
+/// The excess length counts at the end of tying; a release may let the knot open.
 void MotionPatternTracker::add_tied(const Sample& sample) {
   tied_distance_ = sample.knot_distance;
   for (std::size_t k = 0; k < sample.excess_length.size(); ++k) {
@@ -131,11 +131,11 @@ void MotionPatternTracker::add_pulled(const Sample& sample) {
   follow_jumps();
 }
 
-/// Looks for a jump among the last points. It is one for good once the rod that the knot took in has stayed for as long
-/// as a jump asks for.
+/// Looks for a jump among the last points. It counts once the pull has gone on so far behind it that the knot has kept
+/// the rod which it took in.
 void MotionPatternTracker::follow_jumps() {
-  constexpr double kWhole = 3.0;   // before, in and behind a jump
-  constexpr double kOften = 0.25;  // of the way, so that short time steps cost no more than long ones
+  constexpr double kWhole = 3.0;   // length that is searched, over that of a jump: before, in and behind it
+  constexpr double kOften = 0.25;  // extension between two searches, over that of a jump: saves time in short steps
   const double way = jump_way(pull_), here = pull_.back().extension;
   if (jumped_ || !(way > 0.0) || here - jump_looked_for_ < kOften * way) return;
   jump_looked_for_ = here;
@@ -144,7 +144,7 @@ void MotionPatternTracker::follow_jumps() {
   jumped_ = found && here - pull_[found->to].extension > way;
 }
 
-/// de/ds over the last window, and how far and where the knots last slid.
+/// Follows de/ds over the last window, and how far and where the knots slid.
 void MotionPatternTracker::follow_slope(double extension, double before) {
   if (!(window_ > 0.0) || extension - pull_.front().extension < window_) return;
   while (window_begin_ + 3 < pull_.size() && extension - pull_[window_begin_ + 1].extension >= window_) ++window_begin_;
@@ -184,7 +184,7 @@ bool MotionPatternTracker::untangles() const {
   return knot_lost() || jumped_ || (opened_when_mounted() && !slides_under_more());
 }
 
-/// Whether knots that moved as the loop was mounted slide, and bear more than they did then.
+/// Whether knots that moved as the loop was mounted slide in the pull, and bear more than during mounting.
 bool MotionPatternTracker::slides_under_more() const { return std::isfinite(slope_) && peak_ > mounted_ && slid(); }
 
 bool MotionPatternTracker::slid() const {
@@ -198,10 +198,9 @@ bool MotionPatternTracker::slid() const {
   return came_nearer(start) || (came_nearer(first) && last.force < kLoadLevel * mean_between(first, last));
 }
 
-/// The first at or behind s = `extension`; the last one at the latest.
+/// The first point from s = `extension` on, or the last point.
 const PullPoint& MotionPatternTracker::point_at(double extension) const {
-  return *std::lower_bound(pull_.begin(), pull_.end() - 1, extension,
-                           [](const PullPoint& p, double s) { return p.extension < s; });
+  return *first_from(pull_.begin(), pull_.end() - 1, extension);
 }
 
 /// The mean load between two points of the pull [N].
@@ -231,9 +230,7 @@ double MotionPatternTracker::confidence() const {
   const Range whole = {pull_.front().extension, pull_.back().extension};
   const Range part = sliding ? plateau_range(pull_, lock_extension().value_or(whole.high)) : whole;
   const auto place = [&](double s) {
-    const auto found_at = std::lower_bound(
-        pull_.begin(), pull_.end(), s, [](const PullPoint& p, double extension) { return p.extension < extension; });
-    return static_cast<std::size_t>(found_at - pull_.begin());
+    return static_cast<std::size_t>(first_from(pull_.begin(), pull_.end(), s) - pull_.begin());
   };
   const std::size_t first = place(part.low);
   const std::size_t last = std::min(place(part.high) + 1, pull_.size());

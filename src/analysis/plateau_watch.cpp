@@ -14,16 +14,16 @@ namespace {
 
 // doc/developers/measured.md says where these come from.
 constexpr int kBatches = 5;
-constexpr std::ptrdiff_t kFewestInPart = 2;  // in a part of the plateau, in the mean
-constexpr double kLeastSlid = 8.0;           // along the plateau [h] ...
-constexpr double kLeastShare = 0.5;          // ... and of it
+constexpr std::ptrdiff_t kFewestInPart = 2;  // readings in a part of the plateau, on average
+constexpr double kLeastSlid = 8.0;           // least way along the plateau [h] ...
+constexpr double kLeastShare = 0.5;          // ... and least share of it
 constexpr double kOfError = 0.5;             // of the relative error of a plateau force
 constexpr double kMostDoubt = 0.02;          // of the mean force
 constexpr double kOften = 0.25;              // extension between two looks [h]
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The plateau of a pull whose knots slide until they meet, as if it were pulled to its end.
+/// The whole plateau of a pull whose knots slide until they meet.
 Range whole_plateau(const Pull& pull) { return plateau_between(pull.front().extension, meeting_extension(pull)); }
 
 /// The part of it that was pulled.
@@ -32,17 +32,9 @@ Range plateau_read(const Pull& pull) { return plateau_range(pull, meeting_extens
 std::vector<double> means_of_parts(const Pull& pull, const Range& read) {
   std::vector<double> means;
   const double width = (read.high - read.low) / kBatches;
-  for (int k = 0; k < kBatches; ++k) {
-    const Integrals part = integrate(pull, {read.low + k * width, read.low + (k + 1) * width});
-    means.push_back(part.force / part.width);
-  }
+  for (int k = 0; k < kBatches; ++k)
+    means.push_back(mean_over(pull, {read.low + k * width, read.low + (k + 1) * width}));
   return means;
-}
-
-std::ptrdiff_t readings_within(const Pull& pull, const Range& range) {
-  return std::count_if(pull.begin(), pull.end(), [&](const PullPoint& point) {
-    return point.extension >= range.low && point.extension <= range.high;
-  });
 }
 
 /// Whether a test that ends here has the plateau of knots that slide and have not begun to lock.
@@ -56,7 +48,7 @@ bool has_plateau(const Results& results) {
 double doubt_about_plateau(const Pull& pull) {
   if (pull.empty()) return kInfinity;
   const Range read = plateau_read(pull), whole = whole_plateau(pull);
-  if (!(read.high > read.low) || readings_within(pull, read) < kBatches * kFewestInPart) return kInfinity;
+  if (!(read.high > read.low) || count_within(pull, read) < kBatches * kFewestInPart) return kInfinity;
   const double left = whole.high - read.high;
   const Statistics parts = statistics_of(means_of_parts(pull, read));
   const double of_mean = parts.high ? 0.5 * (*parts.high - *parts.low) : 0.0, share = left / (whole.high - whole.low);
@@ -67,8 +59,6 @@ double doubt_about_plateau(const Pull& pull) {
 
 PlateauWatch::PlateauWatch(double radius, std::optional<double> error)
     : radius_(radius), tolerance_(std::min(kMostDoubt, kOfError * error.value_or(1.0))) {}
-
-void PlateauWatch::add(const Sample& step) { samples_.push_back(step); }
 
 bool PlateauWatch::settled_by(const Sample& reading) {
   readings_.push_back(reading);
@@ -89,7 +79,8 @@ double PlateauWatch::least_extension(const Pull& pull) const {
   return whole.low + std::min(length, std::max(kLeastSlid * radius_, kLeastShare * length));
 }
 
-/// Where the knots have slid far enough; a little further on where they have; never once the whole plateau was read.
+/// The extension at which the knots have slid far enough; a little further on if they have; infinite once the whole
+/// plateau was read.
 double PlateauWatch::next_look_after(const Pull& pull) const {
   const double here = pull.back().extension, least = least_extension(pull);
   return here < least ? least : here < whole_plateau(pull).high ? here + kOften * radius_ : kInfinity;

@@ -5,9 +5,8 @@ namespace {
 
 /// The first point from s on; at least the second, so that there is one before it.
 std::size_t next_point(const Pull& pull, std::size_t end, double s) {
-  const auto less = [](const PullPoint& point, double extension) { return point.extension < extension; };
-  return static_cast<std::size_t>(
-      std::lower_bound(pull.begin() + 1, pull.begin() + static_cast<std::ptrdiff_t>(end), s, less) - pull.begin());
+  return static_cast<std::size_t>(first_from(pull.begin() + 1, pull.begin() + static_cast<std::ptrdiff_t>(end), s) -
+                                  pull.begin());
 }
 
 }  // namespace

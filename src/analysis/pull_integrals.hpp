@@ -37,6 +37,24 @@ struct Integrals {
 };
 Integrals integrate(const Pull& pull, const Range& range);
 
+/// Mean of F over a range that the pull covers.
+inline double mean_over(const Pull& pull, const Range& range) {
+  const Integrals part = integrate(pull, range);
+  return part.force / part.width;
+}
+
+/// The first point with an extension of s or more; `end`: none.
+inline Pull::const_iterator first_from(Pull::const_iterator begin, Pull::const_iterator end, double s) {
+  return std::lower_bound(begin, end, s, [](const PullPoint& point, double at) { return point.extension < at; });
+}
+
+/// Number of points in a range.
+inline std::ptrdiff_t count_within(const Pull& pull, const Range& range) {
+  return std::count_if(pull.begin(), pull.end(), [&](const PullPoint& point) {
+    return point.extension >= range.low && point.extension <= range.high;
+  });
+}
+
 /// Least-squares slope of F over a range of s. F is interpolated linearly between the points.
 double slope_over(const Pull& pull, const Range& range);
 

@@ -11,8 +11,8 @@ namespace knot_utm {
 namespace {
 
 constexpr double kChordBegin = 0.1, kChordEnd = 0.5;  // of the peak
-constexpr double kSteady = 0.02;                      // by which the last two quarters of a pull that slides may differ
-constexpr double kTangentWindow = 0.1;                // of the way to the peak
+constexpr double kSteady = 0.02;        // largest relative difference of the last two quarters of a steady force
+constexpr double kTangentWindow = 0.1;  // of the way to the peak
 
 }  // namespace
 
@@ -77,13 +77,13 @@ double range_of(const Path& path, std::size_t begin, std::size_t end, double Pat
   return high - low;
 }
 
-/// Beginning and end of the path among them.
+/// Turning points of the crosshead, with the beginning and the end of the path.
 std::vector<std::size_t> turning_points(const Path& path) {
   std::vector<std::size_t> turns;
   double before = 0.0;  // the last way of the crosshead
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double way = path[i].crosshead - path[i - 1].crosshead;
-    if (way == 0.0) continue;  // it may stand where it turns
+    if (way == 0.0) continue;  // the crosshead may stand still before it turns
     if (turns.empty()) turns.push_back(0);
     if (way * before < 0.0) turns.push_back(i - 1);
     before = way > 0.0 ? 1.0 : -1.0;
@@ -105,12 +105,12 @@ double enclosed(const Path& path, std::size_t begin, std::size_t end) {
   return area;
 }
 
-/// From the first sample of a step of the program to the one behind its last.
+/// Samples of a step of the program: the first one, and the one after the last.
 struct Stretch {
   std::size_t begin, end;
 };
 
-/// In order, those of this phase that have a sample before them; each to where the rod parts: its recoil says nothing.
+/// The steps with this phase that have a sample before them, in order, up to a break.
 std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase, const std::vector<int>& steps) {
   std::vector<Stretch> out;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -123,8 +123,8 @@ std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase, 
   return out;
 }
 
-/// The relaxation in the last hold at a place that is out, with a load on the grip. Where a load is held the crosshead
-/// moves, and a drawn shape that settles bears no load.
+/// The relaxation in the last hold in which the crosshead stood still further out than at the start, under load. It
+/// moves where a load is held; and a sketched shape that settles bears no load.
 std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples, const std::vector<int>& steps) {
   std::optional<Relaxation> last;
   for (const Stretch& hold : stretches(samples, Phase::kHold, steps)) {
@@ -137,7 +137,7 @@ std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples, co
   return last;
 }
 
-/// The cycles of the last step that cycles. Their places count from the sample before the step.
+/// The cycles of the last step that cycles. Their indices count from the sample before that step.
 struct LastCycles {
   std::size_t origin = 0;
   std::vector<Cycle> closed;
@@ -171,7 +171,7 @@ std::vector<Cycle> closed_cycles(const Path& path) {
   const std::vector<std::size_t> turns = turning_points(path);
   for (std::size_t i = 0; i + 2 < turns.size(); ++i) {
     const std::size_t begin = turns[i], end = turns[i + 2];
-    if (path[turns[i + 1]].extension < path[begin].extension) continue;  // back and out
+    if (path[turns[i + 1]].extension < path[begin].extension) continue;  // begins inwards
     const bool whole = i > 0 && i + 3 < turns.size();
     if (whole || comes_back(path, begin, end, &PathPoint::extension) || comes_back(path, begin, end, &PathPoint::force))
       cycles.push_back({begin, end, enclosed(path, begin, end)});

@@ -42,7 +42,7 @@ PullPoint pull_point(const Sample& sample) {
   return {sample.time, sample.extension, sample.knot_distance, sample.force_upper, sample.normal_force};
 }
 
-/// With the state that it began from in front of it, and behind it where the rod parted as a load was held further out.
+/// Adds the origin in front and, if the rod parted further out in a hold, the point of the break behind.
 Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std::optional<Sample>& at_break) {
   Pull whole = pull;
   if (origin && origin->extension < pull.front().extension) whole.insert(whole.begin(), pull_point(*origin));
@@ -62,7 +62,7 @@ void read_pull(const Pull& pull, Results& results) {
   results.tangent_stiffness = tangent_stiffness(pull);
 }
 
-/// To where the rod parts.
+/// Rows of curve.csv, up to the break.
 std::vector<CurveRow> rows_of(const std::vector<Sample>& readings) {
   std::vector<CurveRow> rows;
   for (const Sample& reading : readings) {
@@ -72,11 +72,11 @@ std::vector<CurveRow> rows_of(const std::vector<Sample>& readings) {
   return rows;
 }
 
-/// The pull with true forces in place of loads: rows pair with readings.
+/// The pull with true forces in place of loads. `rows`: of `readings`.
 Pull true_pull_of(std::vector<CurveRow> rows, const std::vector<Sample>& readings) {
   const auto first = std::find_if(readings.begin(), readings.end(), [](const Sample& r) { return pulls(r.phase); });
   const double offset = first == readings.end() ? 0.0 : first->balance_offset;
-  // Balanced, as loads are, so that the origin is zero where a balance made it so.
+  // Balanced like loads, so that pull_of() sets the origin to zero where a balance did.
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].load = readings[i].force_upper - offset;
   Pull pull = pull_of(rows);
   for (PullPoint& point : pull) {
@@ -86,8 +86,8 @@ Pull true_pull_of(std::vector<CurveRow> rows, const std::vector<Sample>& reading
   return pull;
 }
 
-/// What the motion of the knots tells of their sliding force. What is pulled without a knot, or with one that opened
-/// before, has none of the knot that was tied, and a level force is a sliding force only where knots slide.
+/// What the motion of the knots says about their sliding force. There is none if the knot came undone or opened before
+/// the pull, and a level force is a sliding force only if the knots slide.
 KnotsOfPull knots_of(const Results& results) {
   KnotsOfPull knots;
   knots.ended_in_plateau = results.ended_by == EndedBy::kPlateau;
@@ -114,18 +114,18 @@ KnotsOfPull knots_of(const Results& results) {
   return knots;
 }
 
-// A tail that brushes along a roller bears less [of the true force].
+// A roller touches a knot from this force on; a tail that brushes along it causes less [of the true force].
 constexpr double kTouch = 0.05;
 
-/// Where a force on the knots is first more than `least` [m].
+/// Keeps the first extension at which a force on the knots exceeds `least` [m].
 void keep_first(const Sample& sample, double force, double least, std::optional<double>& first) {
   if (!first && force > least) first = sample.extension;
 }
 
-/// Less than this fraction of the largest force of a compression is what its rest left [-].
+/// Forces up to this fraction of the largest one of a compression are residuals of a state of rest [-].
 constexpr double kTensile = 1e-3;
 
-/// What loads and the motion of the knots tell together.
+/// Readings of the curve, given the motion of the knots.
 void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>& at_break, bool on_rollers,
                 Results& results) {
   const std::vector<CurveRow> rows = rows_of(readings);
@@ -171,35 +171,35 @@ EnergyParts energy_between(const Sample& from, const Sample& to) {
 
 namespace {
 
-constexpr double kBears = 0.5;   // fraction of the median force of a pull: what bears less is next to no load ...
-constexpr double kLeast = 1e-4;  // ... and of the largest one, where most of a pull has none
+// Next to no load: below this fraction of the median force of a pull, or, if most of a pull has none, of the largest.
+constexpr double kBears = 0.5, kLeast = 1e-4;
 
-/// One way through all samples, in order.
-class Course {
+/// One pass over all samples in order, which collects what several readings need.
+class SamplePass {
  public:
-  Course(const std::vector<Sample>& samples, bool on_rollers, double hung, double marks, Results& results)
-      : samples_(samples), results_(results), motion_(on_rollers, hung, marks) {
+  SamplePass(const std::vector<Sample>& samples, bool on_rollers, double hung, double marks, Results& results)
+      : motion(on_rollers, hung, marks), samples_(samples), results_(results) {
     for (const Sample& sample : samples) add(sample);
   }
 
-  MotionPatternTracker& motion() { return motion_; }
-  const MotionPatternTracker& motion() const { return motion_; }
-  const std::optional<Sample>& at_break() const { return at_break_; }
-  const Sample* before_pull() const { return before_pull_; }
-  const Sample* pull_begin() const { return pull_begin_; }
-  /// Once tied and released; where nothing is tied: when the pull begins.
-  const Sample* tied() const { return tied_ ? tied_ : pull_begin_; }
+  MotionPatternTracker motion;
+  std::optional<Sample> at_break;       ///< the first one of a parted rod
+  const Sample* before_pull = nullptr;  ///< the last one before the pull
+  const Sample* pull_begin = nullptr;   ///< the first one of the pull
+
+  /// The sample once the knot is tied and released; the first one of the pull if nothing is tied.
+  const Sample* tied() const { return tied_ ? tied_ : pull_begin; }
 
   void read_balances() const {
-    if (pull_begin_) {
-      // The recoil of parted ends is no part of the test: the grips' work belongs to the energy up to the break.
-      const Sample& end = at_break_ ? *at_break_ : samples_.back();
-      results_.energy = energy_between(before_pull_ ? *before_pull_ : *pull_begin_, end);
+    if (pull_begin) {
+      // The recoil of parted ends is no part of the test, so the balance ends at the break.
+      const Sample& end = at_break ? *at_break : samples_.back();
+      results_.energy = energy_between(before_pull ? *before_pull : *pull_begin, end);
       results_.kinetic_energy = end.kinetic_energy;
     }
     if (energy_scale_ > 0.0) results_.energy_balance_error = energy_error_ / energy_scale_;
-    if (motion_.pull().empty()) return;
-    const double peak = std::max(peak_force(motion_.pull()), at_break_ ? at_break_->force_upper : 0.0);
+    if (motion.pull().empty()) return;
+    const double peak = std::max(peak_force(motion.pull()), at_break ? at_break->force_upper : 0.0);
     if (!(peak > 0.0)) return;
     results_.force_balance_error = imbalance_ / peak;
     results_.moment_arm = largest_moment_arm();
@@ -219,14 +219,14 @@ class Course {
   }
 
   void add(const Sample& sample) {
-    const bool recoils = at_break_.has_value();  // says nothing about the test
+    const bool recoils = at_break.has_value();  // samples after a break say nothing about the test
     if (sample.status == BenchStatus::kBroken && !recoils) {
       if (loaded_ || loads(sample)) results_.break_extension = sample.extension;
-      at_break_ = sample;
+      at_break = sample;
     }
     loaded_ |= loads(sample);
     before_ = &sample;
-    motion_.add(sample);
+    motion.add(sample);
     if (!recoils) results_.max_penetration = std::max(results_.max_penetration, sample.max_penetration);
     if (sample.status == BenchStatus::kNotEquilibrated) results_.not_equilibrated = sample.message;
     add_energies(sample);
@@ -239,11 +239,11 @@ class Course {
     if (forms(sample.phase)) tied_ = &sample;
     if (pulls(sample.phase))
       add_pull(sample, recoils);
-    else if (!pull_begin_)
-      before_pull_ = &sample;
+    else if (!pull_begin)
+      before_pull = &sample;
   }
 
-  /// Of a rod that has buckled the bends store nearly all.
+  /// In a rod that has buckled, bending stores nearly all energy; it does not count.
   void add_thrust(const Sample& sample) {
     if (-sample.force_upper <= results_.largest_thrust || sample.bending_energy > sample.stretching_energy) return;
     results_.largest_thrust = -sample.force_upper;
@@ -264,7 +264,7 @@ class Course {
   }
 
   void add_pull(const Sample& sample, bool recoils) {
-    if (!pull_begin_) pull_begin_ = &sample;
+    if (!pull_begin) pull_begin = &sample;
     if (recoils) return;
     keep_first(sample, sample.knots_force, 0.0, results_.first_contact_extension);
     keep_first(sample, sample.knot_on_roller, kTouch * std::abs(sample.force_upper), results_.roller_touched_at);
@@ -274,7 +274,6 @@ class Course {
 
   const std::vector<Sample>& samples_;
   Results& results_;
-  MotionPatternTracker motion_;
   double imbalance_ = 0.0;
   struct Load {
     double force, moment;  // [N], sum of all moments [N m]
@@ -282,10 +281,7 @@ class Course {
   std::vector<Load> loads_;  // of the pull
   double energy_error_ = 0.0, energy_scale_ = 0.0;
   bool loaded_ = false;  // something has put a load on the specimen
-  std::optional<Sample> at_break_;
   const Sample* before_ = nullptr;
-  const Sample* before_pull_ = nullptr;
-  const Sample* pull_begin_ = nullptr;
   const Sample* tied_ = nullptr;
 };
 
@@ -322,16 +318,16 @@ void read_end(const Sample& last, Results& results) {
   results.final_excess_length = last.excess_length;
 }
 
-void read_gauge_length(const Course& course, Results& results) {
-  if (!course.pull_begin()) return;
-  const double length = (course.before_pull() ? course.before_pull() : course.pull_begin())->end_to_end;
+void read_gauge_length(const SamplePass& pass, Results& results) {
+  if (!pass.pull_begin) return;
+  const double length = (pass.before_pull ? pass.before_pull : pass.pull_begin)->end_to_end;
   if (!(length > 0.0)) return;
   results.gauge_length = length;
-  if (course.at_break()) results.elongation_at_break = (course.at_break()->end_to_end - length) / length;
+  if (pass.at_break) results.elongation_at_break = (pass.at_break->end_to_end - length) / length;
 }
 
-void read_tied(const Course& course, Results& results) {
-  const Sample *tied = course.tied(), *pull_begin = course.pull_begin();
+void read_tied(const SamplePass& pass, Results& results) {
+  const Sample *tied = pass.tied(), *pull_begin = pass.pull_begin;
   if (pull_begin) {
     results.balance_offset = pull_begin->balance_offset;
     results.knot_distance = known(pull_begin->knot_distance);
@@ -341,11 +337,11 @@ void read_tied(const Course& course, Results& results) {
   results.tied_knot_distance = known(tied->knot_distance);
 }
 
-constexpr double kRanOut = 0.1;  // of its first length, that is left of a tail which runs out of its knot
+constexpr double kRanOut = 0.1;  // length of a tail that has run out of its knot, over its first length
 
-/// From the first sample of the pull to the last one in which the rope of a free end touched one. What a rope touches
-/// that came out of its knot says nothing of the tail: one that touches none once the load has been largest, or whose
-/// tail had run out.
+/// Slip of each tail from the first sample of the pull to the last one that counts. A rope that has come out of its
+/// knot may touch others again, which says nothing about its tail: samples no longer count once it touches none after
+/// the largest load, or once its tail had run out and is long again.
 void read_tails(const std::vector<Sample>& samples, const Sample* pull_begin, Results& results) {
   if (pull_begin == nullptr) return;
   const PerKnot& begin = pull_begin->tail_length;
@@ -367,7 +363,8 @@ void read_tails(const std::vector<Sample>& samples, const Sample* pull_begin, Re
   }
 }
 
-/// Answers alone have them. What is not there as the pull begins, begins as it first is.
+/// Only answers to commands have these readings. One that is unknown as the pull begins starts with its first known
+/// value.
 void read_knot(const std::vector<Sample>& samples, const Sample* pull_begin, Results& results) {
   if (pull_begin == nullptr) return;
   PerKnot &begin = results.knot_reading_begin, &end = results.knot_reading_end;
@@ -381,16 +378,16 @@ void read_knot(const std::vector<Sample>& samples, const Sample* pull_begin, Res
   }
 }
 
-void read_whole_pull(const Course& course, Results& results) {
-  const Pull& pull = course.motion().pull();
+void read_whole_pull(const SamplePass& pass, Results& results) {
+  const Pull& pull = pass.motion.pull();
   if (pull.empty()) return;
-  std::optional<Sample> origin, at_break = course.at_break();
-  if (course.before_pull()) origin = origin_at(*course.pull_begin(), *course.before_pull());
-  if (at_break && at_break->balance_offset != course.pull_begin()->balance_offset) at_break.reset();  // another s
+  std::optional<Sample> origin, at_break = pass.at_break;
+  if (pass.before_pull) origin = origin_at(*pass.pull_begin, *pass.before_pull);
+  if (at_break && at_break->balance_offset != pass.pull_begin->balance_offset) at_break.reset();  // another s
   read_pull(with_ends(pull, origin, at_break), results);
 }
 
-/// Leaves out what only the rest of a pull would tell that ended within its plateau. The largest true force stays: it
+/// Drops readings that need the whole pull, of one that ended within its plateau. The largest true force stays, as it
 /// says that something was pulled.
 void forget_rest_of_pull(Results& results) {
   CurveReadings& curve = results.curve;
@@ -407,19 +404,19 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   Results results;
   results.ended_by = ended_by;
   if (samples.empty()) return results;
-  Course course(samples, on_rollers, hung, marks, results);
+  SamplePass pass(samples, on_rollers, hung, marks, results);
   read_end(samples.back(), results);
-  read_motion(samples, readings, on_rollers, course.motion(), results);
-  read_tied(course, results);
-  read_tails(samples, course.pull_begin(), results);
-  read_knot(samples, course.pull_begin(), results);
+  read_motion(samples, readings, on_rollers, pass.motion, results);
+  read_tied(pass, results);
+  read_tails(samples, pass.pull_begin, results);
+  read_knot(samples, pass.pull_begin, results);
   read_snap(samples, results);
-  read_curve(readings, course.at_break(), on_rollers, results);
-  course.read_balances();
+  read_curve(readings, pass.at_break, on_rollers, results);
+  pass.read_balances();
   results.at_start = forces_at_start(samples);
-  read_gauge_length(course, results);
+  read_gauge_length(pass, results);
   read_holds_and_cycles(samples, steps, results);
-  read_whole_pull(course, results);
+  read_whole_pull(pass, results);
   if (ended_by == EndedBy::kPlateau) forget_rest_of_pull(results);
   return results;
 }

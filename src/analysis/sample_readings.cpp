@@ -14,7 +14,7 @@ double drag_loss(const Sample& sample) { return sample.dissipation - sample.fric
 double motion(const Sample& sample) { return sample.kinetic_energy; }
 double numerical_loss(const Sample& sample) { return sample.numerical_dissipation; }
 
-/// The samples of what pulls up to `furthest` and until `end`, with the one that it begins from.
+/// Samples that pull, up to the extension `furthest` and the time `end`, after the sample before the first one.
 std::vector<const Sample*> pull_to(const std::vector<Sample>& samples, double furthest, double end) {
   std::vector<const Sample*> out;
   const Sample* before = nullptr;
@@ -30,7 +30,7 @@ std::vector<const Sample*> pull_to(const std::vector<Sample>& samples, double fu
   return out;
 }
 
-/// Mean over time of |F|, as it is at the end of each step.
+/// Mean of |F| over time; each step counts with F at its end.
 double mean_force(const std::vector<const Sample*>& pull) {
   double sum = 0.0;
   for (std::size_t i = 1; i < pull.size(); ++i)
@@ -38,7 +38,7 @@ double mean_force(const std::vector<const Sample*>& pull) {
   return sum / (pull.back()->time - pull.front()->time);
 }
 
-/// |change of `energy`| on a way, over that way: half of the way has less [N].
+/// Median of |change of `energy`|/|change of s|, weighted by the change of s [N].
 double median_force(const std::vector<const Sample*>& pull, double (*energy)(const Sample&)) {
   struct Piece {
     double force, way;
@@ -60,16 +60,16 @@ double median_force(const std::vector<const Sample*>& pull, double (*energy)(con
   return 0.0;
 }
 
-constexpr double kLeft = 0.9;      // of the force before
-constexpr double kGivenUp = 0.02;  // of the stored energy
-constexpr double kPutIn = 0.5;     // work of the grips, of what is given up
+constexpr double kLeft = 0.9;      // force after a snap over that before, at most
+constexpr double kGivenUp = 0.02;  // energy given up over the stored one, at least
+constexpr double kPutIn = 0.5;     // work of the grips over the energy given up, at most
 
 struct Moment {
   double extension, force, stored, work;
 };
 
-/// Those of pulls that reach a new largest extension, up to a break, apart for each motion outwards: where the
-/// crosshead went back or stood in between, a load that is lower fell there.
+/// Time steps of pulls that reach a new largest extension, up to a break, one list for each motion outwards: if the
+/// crosshead went back or stood in between, the load may have fallen then.
 std::vector<std::vector<Moment>> pulled(const std::vector<Sample>& samples) {
   std::vector<std::vector<Moment>> out;
   double furthest = -std::numeric_limits<double>::infinity();
@@ -98,7 +98,7 @@ void keep_larger_snap(const std::vector<Moment>& pull, std::optional<Snap>& out)
   for (std::size_t i = 0; i < pull.size(); ++i) {
     const Moment& before = pull[i];
     if (!(before.force > 0.0)) continue;
-    // No more can be given up than what is above the energy at the start.
+    // A snap gives up at most the energy above that at the start.
     const double most = kPutIn * (before.stored - pull.front().stored);
     for (std::size_t j = i + 1; j < pull.size() && pull[j].work - before.work <= most; ++j) {
       const double drop = before.force - pull[j].force;
@@ -107,8 +107,8 @@ void keep_larger_snap(const std::vector<Moment>& pull, std::optional<Snap>& out)
   }
 }
 
-// The start is this fraction of the whole extension, by choice: a wave that the pull begins with has crossed the
-// specimen by then.
+// The start of a pull as a fraction of its extension, by choice: the wave from its first jerk has crossed the specimen
+// by then.
 constexpr double kStart = 0.01;
 
 }  // namespace
@@ -146,7 +146,7 @@ std::optional<GripForces> forces_at_start(const std::vector<Sample>& samples) {
   for (auto sample = first; sample != samples.end(); ++sample)
     if (pulls(sample->phase)) end = std::max(end, sample->extension);
   const double near = first->extension + kStart * (end - first->extension);
-  // A balance in between has another extension before the pull than in it.
+  // If it was balanced in between, the extension before the pull has another zero.
   const Sample& before = first == samples.begin() ? *first : *(first - 1);
   GripForces most{before.force_upper, before.force_lower};
   for (auto sample = first; sample != samples.end() && sample->extension <= near; ++sample) {

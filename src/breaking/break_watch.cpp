@@ -28,8 +28,8 @@ Vec3 turn(const Points& position, Eigen::Index node) {
   return sine > 0.0 ? Vec3(axis * (turning_angle(e, f) / sine)) : Vec3(Vec3::Zero());
 }
 
-/// Calls add(i, w_i) for the nodes within a radius to either side of one. What they have lies evenly along their
-/// Voronoi lengths.
+/// Calls add(i, w_i) for the nodes within a radius to either side of one. The quantity of a node is spread evenly over
+/// its Voronoi length.
 template <class Add>
 void along_a_diameter(const RodProperties& rod, Eigen::Index node, const Add& add) {
   if (!turns(rod, node)) return;
@@ -37,7 +37,7 @@ void along_a_diameter(const RodProperties& rod, Eigen::Index node, const Add& ad
   const auto half = [&](Eigen::Index i) { return 0.5 * rod.voronoi_length[i]; };
   add(node, std::min(1.0, h / half(node)));
   for (const int step : {-1, 1}) {
-    double begin = half(node);  // of the next node's length, from here
+    double begin = half(node);  // distance at which the next node's length begins
     for (Eigen::Index i = node + step; begin < h && turns(rod, i); i += step) {
       const double length = rod.voronoi_length[i];
       add(i, std::min(1.0, (h - begin) / length));
@@ -61,14 +61,14 @@ double pressed(const RodProperties& rod, const Pressing& pressing, Eigen::Index 
   return 0.25 * (sum[3] + sum.head<3>().norm());
 }
 
-/// How a rod lies in its contacts.
+/// A rod, its shape and what its contacts press with.
 struct Loading {
   const RodProperties& rod;
   const Points& position;
   const Pressing& pressing;
 };
 
-/// Edges of whole ropes of one material.
+/// The edges of all ropes of one material.
 struct EdgesOfRopes {
   Eigen::Index begin, end;
 };
@@ -142,13 +142,13 @@ bool lies_in_knot(const RodProperties& rod, const Points& position, int edge) {
 
 namespace {
 
-constexpr double kOvershoot = 1.001;  // fraction of the strength that a step may reach, unless it is a short one
-constexpr double kAbsurd = 2.0;       // and that no step may reach
-constexpr double kPressed = 0.01;     // of the tension that parts the rod: a smaller push is none
+constexpr double kOvershoot = 1.001;  // fraction of the strength that a step may reach, unless it is the shortest one
+constexpr double kAbsurd = 2.0;       // fraction that no step may reach
+constexpr double kPressed = 0.01;     // share of the parting tension up to which a push on the grips does not count
 
 const char* name_of(BreakLimit limit) { return limit == BreakLimit::kForce ? "tension" : "strain"; }
 
-/// Ropes that follow each other count from 1, as their knot's file lists them.
+/// Ropes are numbered from 1, in the order of the knot's file.
 std::string which_rope(const std::vector<int>& cuts, int edge) {
   if (cuts.empty()) return "";
   const auto before = std::count_if(cuts.begin(), cuts.end(), [&](int cut) { return cut < edge; });
@@ -158,7 +158,7 @@ std::string which_rope(const std::vector<int>& cuts, int edge) {
 }  // namespace
 
 std::string BreakWatch::refuse(const Exposure& to, double dt) const {
-  // A rod that begins beyond its strength, as a shape that was drawn with too sharp a bend, parts at once.
+  // A rod that begins beyond its strength, as a shape that was sketched with too sharp a bend, parts at once.
   if (before_ >= 1.0 || to.fraction <= (dt > shortest_ ? kOvershoot : kAbsurd)) return {};
   std::ostringstream text;
   text << "the " << name_of(to.limit) << " would jump from " << before_ << " to " << to.fraction
@@ -188,7 +188,7 @@ RodBreak::RodBreak(const Material& material, const TimeStep& stepper, double sho
     : strengths_(material, stepper.rod()), watch_(shortest, exposure(stepper, stepper.state().position)) {}
 
 Exposure RodBreak::exposure(const TimeStep& stepper, const Points& position) const {
-  // What presses is that of the step that is judged.
+  // The readings of pressing are those of the step that is judged.
   return strengths_.most_exposed(stepper.rod(), position,
                                  strengths_.crush() ? stepper.readings().pressing() : Pressing());
 }

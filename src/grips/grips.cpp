@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
 #include "knot_utm/specimen/material.hpp"
@@ -14,11 +15,11 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kSlack = 0.6;        // by which the rollers stand closer than taut, until mounting [h]
-constexpr double kClearance = 0.5;    // by which pins are narrower, so that the loop goes over them [h]
-constexpr double kGap = 0.2;          // between them and the loop then, at least [h]
+constexpr double kSlack = 0.6;        // the rollers stand closer than taut by this until mounting [h]
+constexpr double kClearance = 0.5;    // by which pins are narrower, so that the loop fits over them [h]
+constexpr double kGap = 0.2;          // least gap between pins and loop [h]
 constexpr double kAlongAxis = 0.999;  // cosine of the angle by which a strand leaves a clamp that turns, 2.6 degrees
-constexpr double kHeld = 100.0;       // stiffness of what holds the far side, or guides what slips [k_b/h^3]
+constexpr double kHeld = 100.0;       // stiffness that holds the far side, or guides ends that slip [k_b/h^3]
 
 }  // namespace
 
@@ -58,8 +59,9 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
   supports_ = knot.supports(specimen, material);
   for (const HungWeight& weight : centreline.weights)
     weights_.push_back({weight.node, -weight.fraction * tying_load(specimen, material) * Vec3::UnitZ()});
-  if (supports_.posts.empty() || !centreline.below.empty()) hold(lower_nodes_, knot.held_below(centreline, clamped));
-  if (supports_.pins.empty()) hold(upper_nodes_, knot.held_above(centreline, clamped));
+  if (supports_.posts.empty() || !centreline.held_lower.empty())
+    hold(lower_nodes_, knot.held_lower(centreline, clamped));
+  if (supports_.pins.empty()) hold(upper_nodes_, knot.held_upper(centreline, clamped));
   const auto half_edge = [&](int edge) {
     const bool there = edge >= 0 && edge + 1 < centreline.points.cols() &&
                        std::find(centreline.cuts.begin(), centreline.cuts.end(), edge) == centreline.cuts.end();
@@ -160,8 +162,8 @@ void Grips::hold_far_side(const Points& position, double displacement) {
   holds_far_side_ = true;
 }
 
-/// To pins in the loop as it was drawn, by a fraction of what they widen: its near side is where it will be, its half
-/// circles are narrower and further out by as much as keeps its length.
+/// Narrows rollers to pins. In a sketched loop the near side stays where it will be on the rollers, and the half
+/// circles are narrower, and further out so that the length of the loop is the same.
 void Grips::narrow(double left, std::vector<Roller>& rollers) const {
   if (!pins_.empty()) {
     for (std::size_t i = 0; i < pins_.size(); ++i) widen(pins_[i], left, rollers[i]);
@@ -184,7 +186,7 @@ bool Grips::put_on(const Points& loop, double displacement, double radius) {
   return put_on_pins(loop, displacement, radius);
 }
 
-/// Whether the loop then lies around both pins.
+/// Moves the rollers nearer to each other. Returns whether the loop then lies around both pins.
 bool Grips::comes_near(const Points& loop, double displacement, double radius) {
   const double step = 0.5 * kGap * radius, most = 0.25 * end_to_end(displacement);
   Boundary pins;
@@ -201,7 +203,7 @@ bool Grips::comes_near(const Points& loop, double displacement, double radius) {
   return !touches(0) && !touches(1);
 }
 
-/// The upper roller comes so near that the loop, which is as long around the pins, is not longer around the rollers.
+/// The upper roller comes so near that the loop is as long around the rollers as it is around the pins.
 bool Grips::put_on_pins(const Points& loop, double displacement, double radius) {
   const double widest = rollers_[0].radius - narrower_ - clearance_;
   std::vector<Pin> pins = pins_in(loop, widest, (1.0 + kGap) * radius);
@@ -290,12 +292,12 @@ void Grips::state(Archive& archive) {
 
 namespace {
 
-constexpr int kPlaces = 100;               // in the length of the loop, at which a pin is tried
+constexpr int kPlaces = 100;               // number of heights in the loop at which a pin is tried
 constexpr double kNarrowestPin = 0.05;     // of the widest
-constexpr double kNearestToMiddle = 0.25;  // further in are the knots [length of the loop]
-constexpr double kNarrower = 0.8;          // each next radius that is tried
+constexpr double kNearestToMiddle = 0.25;  // pins are no nearer to the middle, where the knots are [length of the loop]
+constexpr double kNarrower = 0.8;          // ratio of a radius that is tried to the one before
 
-/// The loop as it is seen along the pins.
+/// The loop seen along the axes of the pins.
 class Outline {
  public:
   explicit Outline(const Points& loop)
@@ -311,7 +313,7 @@ class Outline {
     return std::sqrt(((loop_.row(0).array() - x).square() + (loop_.row(2).array() - z).square()).minCoeff());
   }
 
-  /// Whether the loop goes round a place: how often it passes above it from one side to the other.
+  /// Whether the loop encloses a place: it passes above it more often to one side than to the other.
   bool goes_round(double x, double z) const {
     int turns = 0;
     for (Eigen::Index i = 0; i < loop_.cols(); ++i) {
@@ -328,7 +330,7 @@ class Outline {
   Vec3 low_, high_;
 };
 
-/// The pin of the given radius that stands furthest out in the upper half (sense 1) or in the lower one (-1).
+/// The outermost pin with this radius in the upper half (sense 1) or the lower half (-1) of the loop.
 std::optional<Pin> furthest_out(const Outline& loop, double sense, double radius, double clearance) {
   const double step = loop.height() / kPlaces;
   for (double out = 0.5 * loop.height(); out > kNearestToMiddle * loop.height(); out -= step) {
@@ -371,7 +373,7 @@ namespace {
 
 constexpr int kPiecesOfRing = 24;
 
-/// Of what a cylinder or a ring is drawn, without where it is fixed.
+/// The cylinders that make up a post or a ring in a picture.
 std::vector<GripBody> bodies_of(const Roller& post) {
   GripBody one;
   one.cylinder_radius = post.radius;
@@ -412,7 +414,7 @@ std::vector<GripBody> grip_bodies(const SpecimenOptions& specimen, const Machine
       const bool goes_up = posts == &supports.pins;
       const bool beside_grip = held_below && !goes_up;  // the lower grip is where the rope is held
       Vec3 grip = posts->front().centre;
-      if (beside_grip) grip << thickest(material) * drawing->held_below().head<2>(), 0.0;
+      if (beside_grip) grip << thickest(material) * drawing->point_in_lower_grip().head<2>(), 0.0;
       bool is_grip = &one == &posts->front() && !beside_grip;
       for (GripBody& body : bodies_of(one)) {
         body.goes_up = goes_up;

@@ -38,8 +38,6 @@ LoadCell::LoadCell(const LoadCellOptions& options)
   check("noise", options.noise, options.noise >= 0.0, "0 N or more");
 }
 
-void LoadCell::balance(double true_force) { balanced_ = true_force; }
-
 double LoadCell::read(double true_force) {
   double reading = gain_ * balanced(true_force);
   if (options_.noise > 0.0) reading += options_.noise * standard_normal(random_);

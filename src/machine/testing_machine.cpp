@@ -10,8 +10,10 @@
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/command.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/settings/accuracy.hpp"
 #include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/sim/step_control.hpp"
@@ -26,22 +28,19 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
+constexpr double kShortestStep = 0.01;  // a run gives up below this step, if it is shorter than usual [bending time]
 
-// A shape that is pulled as it was drawn settles first, under a drag that fades as that of the tying rig does.
-constexpr double kAimedMotion = 0.6;    // of the fastest node, in a step [h]
-constexpr double kAimedSlip = 0.4;      // of strands on each other, in a step [h]
+constexpr double kAimedMotion = 0.6;  // of the fastest node, in a step [h]
+constexpr double kAimedSlip = 0.4;    // of strands on each other, in a step [h]
+
+// A shape that is pulled as it was sketched settles first, under a drag that fades as that of the tying rig does.
 constexpr double kSettlingTime = 1.0;   // [s]
-constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
+constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of that time [h]
 
-constexpr double kNearBreak = 1e-3;    // steps are no shorter for a break that is near [longest step]
-constexpr double kLeastPassed = 1e-2;  // by which the grip may pass the balance of forces [k_b/h^2]
+constexpr double kNearBreak = 1e-3;    // least step towards a break that is near [longest step]
+constexpr double kLeastPassed = 1e-2;  // force by which the grip may pass the balance of forces [k_b/h^2]
 
-}  // namespace
-
-namespace {
-
-/// `grip`: how far the upper grip has moved [m].
+/// `grip`: displacement of the upper grip [m].
 BreakPlace place_of_break(const TimeStep& stepper, const Grips& grips, double grip, int edge) {
   const Points& position = stepper.state().position;
   if (lies_in_knot(stepper.rod(), position, edge)) return BreakPlace::kKnot;
@@ -54,7 +53,7 @@ BreakPlace place_of_break(const TimeStep& stepper, const Grips& grips, double gr
 struct TestingMachine::Impl {
   SpecimenOptions specimen;
   Centreline centreline;
-  Material material;  // its density is that of the mass that is accelerated
+  Material scaled;  // the material with the density of the mass that is accelerated (with_scaled_inertia)
   MachineOptions machine;
   PhysicsOptions physics;
   Grips grips;
@@ -62,42 +61,43 @@ struct TestingMachine::Impl {
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
-  std::optional<RodBreak> breaks;             // of a rod that can part
-  std::unique_ptr<Tying> tying;               // where it can be tied
-  std::optional<KnotWatch> watch;             // where it is knotted
-  std::optional<FreeEnds> free_ends;          // where its file says which they are
-  std::optional<KnotReadings> knot_readings;  // where its file asks for some
+  std::optional<RodBreak> breaks;             // if the rod can part
+  std::unique_ptr<Tying> tying;               // if the specimen is a loop or is to be tied
+  std::optional<KnotWatch> watch;             // if the type of the knot is followed
+  std::optional<FreeEnds> free_ends;          // if the knot's file leaves ends free
+  std::optional<KnotReadings> knot_readings;  // if the knot's file asks for some
   Boundary boundary;
 
   double time = 0.0;
   double displacement = 0.0;  // of the crosshead [m]
-  double grip = 0.0;          // of the upper grip, the same on a rigid frame [m]
+  double grip = 0.0;          // displacement of the upper grip; the same on a rigid frame [m]
   double turn = 0.0;          // of the upper clamp [rad]
-  double grip_tried = 0.0;    // in the step that is being made
-  double borne_before = 0.0;  // by the upper grip as that step begins, on a frame that gives [N]
+  struct {
+    double travel = 0.0, grip = 0.0;  // displacements of crosshead and upper grip at its end [m]
+    double drag = 0.0;                // of the rod's motion [N s/m^2]
+    double borne_before = 0.0;        // force on the upper grip at its beginning, on a compliant frame [N]
+  } tried;                            // the time step that is being made
   double extension_zero = 0.0, raw_extension_zero = 0.0;
   int parted_edge = -1;  // -1: none
   BreakPlace break_place = BreakPlace::kNone;
-  double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]
-  double drag_tried = 0.0;    // of its motion [N s/m^2]
   int step_index = -1;
   Phase phase = Phase::kIdle;
-  Vec3 gravity;         // on the mass that is accelerated [m/s^2]
-  bool pulled = false;  // a step of the program has pulled it
+  Vec3 gravity;         // that gives the accelerated mass its true weight [m/s^2]
+  bool pulled = false;  // the program has had a step that moves the crosshead, other than mounting
   StepWork work;        // of all accepted steps
   std::vector<Sample> substeps;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
 
-  Impl(const SpecimenOptions& specimen_, const Material& material_, const MachineOptions& machine_,
+  Impl(const SpecimenOptions& specimen_, const Material& material, const MachineOptions& machine_,
        const PhysicsOptions& physics_)
       : specimen(specimen_),
-        centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
-        material(as_it_moves(material_, physics_, slack_of(specimen_, centreline))),
+        centreline(specimen_centreline(specimen_, material, machine_, physics_)),
+        scaled(with_scaled_inertia(material, physics_, slack_of(specimen_, centreline))),
         machine(machine_),
         physics(physics_),
-        grips(specimen_, machine_, centreline, material),
-        frame(machine_.stiffness, material, bearing_strands(specimen_), grips.length_moved(material_.radius)),
+        grips(specimen_, machine_, centreline, scaled),
+        frame(machine_.stiffness, scaled, bearing_strands(specimen_), grips.length_moved(material.radius)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);
@@ -106,37 +106,38 @@ struct TestingMachine::Impl {
     RodState state;
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
-    RodProperties rod = material.other ? make_rod(material, *material.other, rest, centreline.cuts)
-                                       : make_rod(material, rest, centreline.cuts);
-    if (bends_on_frames(material)) remember_bends(rod, &state);
+    RodProperties rod =
+        scaled.other ? make_rod(scaled, *scaled.other, rest, centreline.cuts) : make_rod(scaled, rest, centreline.cuts);
+    if (bends_on_frames(scaled)) remember_bends(rod, &state);
     give_rest_shape(specimen, rod, &state);
     if (solves_for_twist(state)) initialise_frames(&state);
-    StepSettings settings = step_settings(specimen, material, machine, physics);
-    // A weight is that of the rod's own mass.
-    gravity = settings.gravity = physics.gravity / inertia_factor(material_, physics, slack_of(specimen, centreline));
+    StepSettings settings = step_settings(specimen, scaled, machine, physics);
+    // The weight is that of the rod's own mass, not of the accelerated one.
+    gravity = settings.gravity = physics.gravity / inertia_factor(material, physics, slack_of(specimen, centreline));
     stepper = TimeStep::make(rod, state, settings);
-    double bending_time = specimen_scales(material).own_time;
-    if (material.other) bending_time = std::min(bending_time, specimen_scales(*material.other).own_time);
+    double bending_time = specimen_scales(scaled).own_time;
+    if (scaled.other) bending_time = std::min(bending_time, specimen_scales(*scaled.other).own_time);
     StepControl::Options options;
-    options.longest = options.first = tolerances(physics, specimen, material).longest_step;
-    // A drawn shape springs apart at once.
+    options.longest = options.first = tolerances(physics, specimen, scaled).longest_step;
+    // A sketched shape springs apart at once, so that the first step has to be short.
     if (!knot_of(specimen).about().straight) options.first = std::min(bending_time, options.longest);
-    options.motion = kAimedMotion * thinnest(material);
-    options.slip = kAimedSlip * thinnest(material);
+    options.motion = kAimedMotion * thinnest(scaled);
+    options.slip = kAimedSlip * thinnest(scaled);
     options.shortest = std::min(options.shortest, kShortestStep * bending_time);
     control = StepControl(options);
-    tying = make_tying(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
-    if (!centreline.free.empty()) free_ends.emplace(centreline, stepper->rod());
-    if (!centreline.read.empty()) knot_readings.emplace(centreline, stepper->rod());
+    tying = make_tying(specimen, scaled, centreline, settings.friction.creep_speed(), *stepper, grips);
+    if (!centreline.free_ends.empty()) free_ends.emplace(centreline, stepper->rod());
+    if (!centreline.readings.empty()) knot_readings.emplace(centreline, stepper->rod());
     if (type_is_followed(specimen))
-      watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), material.core_radius(), centreline.points,
+      watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), scaled.core_radius(), centreline.points,
                     centreline.windings());
-    if (can_part(material)) breaks.emplace(material, *stepper, kNearBreak * options.longest);
+    if (can_part(scaled)) breaks.emplace(scaled, *stepper, kNearBreak * options.longest);
     if (breaks || !frame.rigid()) stepper->refuse_by([this](const Points& end, double dt) { return refuse(end, dt); });
     extension_zero = grips.end_to_end(grip);
   }
 
-  /// What is tied gets its weight when it is let go: all at once, it would swing, and its knots could jump open.
+  /// A specimen that is to be tied gets its weight gradually as it is released: otherwise it would swing, and its knots
+  /// could jump open.
   double weight_borne(double at_time) const {
     return specimen.to_be_tied && tying ? tying->weight_borne(at_time) : 1.0;
   }
@@ -146,9 +147,9 @@ struct TestingMachine::Impl {
     grips.hang(weight_borne(at_time), boundary);
   }
 
-  /// `auto`: where frames are held at two places or friction rolls strands, of a rod that does not stay straight; or
-  /// where its bends are remembered, or it is twisted at rest. A rod whose ends are free to turn has no twist where
-  /// friction acts on its centreline.
+  /// `auto`: yes if the rod is curved at rest or remembers its bends; also if it does not stay straight and either
+  /// frames are held at both ends, or friction acts at the surface and rolls strands, or sections are soft. A rod whose
+  /// ends can turn freely has no twist where friction acts on its centreline.
   bool solves_for_twist(const RodState& state) const {
     switch (physics.twist) {
       case TwistMode::kOn:
@@ -159,11 +160,11 @@ struct TestingMachine::Impl {
         break;
     }
     return state.curved_at_rest() ||
-           ((grips.hold_frames() || material.is_soft() || friction_rolls(material, machine, physics)) &&
+           ((grips.hold_frames() || scaled.is_soft() || friction_rolls(scaled, machine, physics)) &&
             !knot_of(specimen).about().straight);
   }
 
-  /// When and where the crosshead and the upper clamp were.
+  /// Time and places of crosshead and upper clamp at the beginning of a command.
   struct Start {
     double time, displacement, turn;
   };
@@ -173,13 +174,13 @@ struct TestingMachine::Impl {
     const double fraction = whole > 0.0 ? std::min(1.0, (to - start.time) / whole) : 1.0;
     const double travel = mounts() ? displacement + tying->mounting_velocity(command.speed) * (to - from)
                                    : start.displacement + fraction * (command.displacement - start.displacement);
-    travel_tried = travel;
-    // This depends on the last accepted state only, so that a step that is tried again begins from the same.
-    if (!frame.rigid()) borne_before = grips.force_upper(*stepper);
+    tried.travel = travel;
+    // This depends on the last accepted state only: a step that is tried again begins with the same force.
+    if (!frame.rigid()) tried.borne_before = grips.force_upper(*stepper);
     boundary.extra_drag = drag_of_settling(to) + (tying ? tying->extra_drag(to) : 0.0);
-    drag_tried = drag() + boundary.extra_drag;
-    grip_tried = frame.grip_after(grip, travel, borne_before, held_length(from, to), to - from, drag_tried);
-    grips.set(grip_tried, tying ? tying->left_to_put_on(to) : 0.0, boundary);
+    tried.drag = drag() + boundary.extra_drag;
+    tried.grip = frame.grip_after(grip, travel, tried.borne_before, held_length(from, to), to - from, tried.drag);
+    grips.set(tried.grip, tying ? tying->left_to_put_on(to) : 0.0, boundary);
     grips.turn_clamp(start.turn + fraction * (command.turn - start.turn), boundary);
     apply_weight(to);
     boundary.grips.clear();
@@ -187,28 +188,28 @@ struct TestingMachine::Impl {
     return boundary;
   }
 
-  /// The length of the strands that bear on the upper grip, as mounted [m].
+  /// Length of the strands between the upper grip and what holds them below, as mounted [m].
   double held_length(double from, double to) const {
     return tying ? tying->held_length(from, to) : grips.end_to_end(0.0);
   }
 
-  /// A drawn shape's stored energy is an artefact of the drawing, and would throw it about. A straight rod has none;
-  /// what the rig ties settles there.
+  /// The stored energy of a sketched shape is an artefact of the sketch, and would throw it about. A straight rod has
+  /// none, and a specimen that is to be tied settles in the rig.
   double drag_of_settling(double at_time) const {
     if (knot_of(specimen).about().straight || specimen.to_be_tied || at_time >= kSettlingTime) return 0.0;
     const double left = 1.0 - at_time / kSettlingTime;
-    return settling_drag(material, kSettlingWave * material.radius, kSettlingTime) * left * left;
+    return settling_drag(scaled, kSettlingWave * scaled.radius, kSettlingTime) * left * left;
   }
 
-  /// `auto`: what brings it to rest. In the forces of a loop, of a straight rod and of one on posts it stays far below
-  /// a thousandth. A loose knot between clamps pulls with no more than the drag on its length: there is none from the
-  /// first pull on.
+  /// `auto`: the drag that brings the specimen to rest. Its share in the forces of a loop, of a straight rod or of a
+  /// rod on posts is far below a thousandth. The force of a loose knot between clamps may be as small as the drag on
+  /// its length, so such a knot has no drag from the first pull on.
   double drag() const {
     const KnotDescription& knot = knot_of(specimen).about();
-    const bool drawn_knot = knot.may_hold_a_knot() && !knot.loop;
+    const bool sketched_knot = knot.may_hold_a_knot() && !knot.loop;
     const auto to_rest = [&](const RodMaterial& rope) { return drag_to_rest(rope, knot.loop); };
-    const double usual = material.other ? std::max(to_rest(material), to_rest(*material.other)) : to_rest(material);
-    return physics.drag.value_or(pulled && drawn_knot ? 0.0 : usual);
+    const double usual = scaled.other ? std::max(to_rest(scaled), to_rest(*scaled.other)) : to_rest(scaled);
+    return physics.drag.value_or(pulled && sketched_knot ? 0.0 : usual);
   }
 
   void enter_step(const Command& command) {
@@ -219,27 +220,28 @@ struct TestingMachine::Impl {
     if (tying) tying->enter(command, place());
   }
 
-  /// The crosshead takes up the slack by itself.
+  /// Whether the crosshead takes up the slack of a loop by itself.
   bool mounts() const { return tying && phase == Phase::kMount; }
 
   Tying::Place place() const { return {time, displacement, grip}; }
 
   bool parted() const { return parted_edge >= 0; }
-  /// A step that could not be made leaves contacts that no accepted step has.
+  /// A step that could not be made leaves contacts behind that belong to no accepted step.
   bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
-  /// Why a step that was solved is none that the rod and the machine make. Empty: it is.
+  /// Why a step that was solved is to be tried again, shorter; empty: it is accepted.
   std::string refuse(const Points& end, double dt) const {
     if (breaks)
       if (std::string why = breaks->refuse(*stepper, end, dt); !why.empty()) return why;
-    const double least = kLeastPassed * material.bending_stiffness / (material.radius * material.radius);
+    const double least = kLeastPassed * scaled.bending_stiffness / (scaled.radius * scaled.radius);
     const bool passed =
-        frame.passed_balance(grip_tried - grip, grip_tried, travel_tried, grips.tried_force_upper(*stepper),
-                             held_length(time, time + dt), dt, drag_tried, least);
+        frame.passed_balance(tried.grip - grip, tried.grip, tried.travel, grips.tried_force_upper(*stepper),
+                             held_length(time, time + dt), dt, tried.drag, least);
     return passed ? "the grip passed the balance of the forces of specimen and frame" : "";
   }
 
-  /// After an accepted step: does the rod part? The next step ends where at this pace it will.
+  /// After an accepted step: judges whether the rod parts. If not, the next step ends no later than it would part at
+  /// the present rate.
   void judge_break(double dt) {
     if (!breaks) return;
     const std::optional<Exposure> reached = breaks->judge(*stepper, dt);
@@ -258,7 +260,7 @@ struct TestingMachine::Impl {
     control.halt();
   }
 
-  /// Whether the specimen cannot be tied or mounted.
+  /// Ends the test if the specimen cannot be tied or mounted, and returns whether it did.
   bool give_up_tying() {
     if (!tying || tying->gave_up().empty()) return false;
     status = BenchStatus::kFailed;
@@ -295,7 +297,7 @@ struct TestingMachine::Impl {
     if (tying) tying->read(s);
     if (free_ends && knows_contacts()) s.tail_length = free_ends->lengths(stepper->readings());
     const ContactReading contact = stepper->readings().contact();
-    s.max_penetration = contact.largest_overlap / thinnest(material);
+    s.max_penetration = contact.largest_overlap / thinnest(scaled);
     s.normal_force = contact.normal_force;
     s.contacts = contact.touching;
     s.fastest_node = std::sqrt(stepper->state().velocity.colwise().squaredNorm().maxCoeff());
@@ -352,39 +354,39 @@ struct TestingMachine::Impl {
         *stepper, time, end,
         [&](double from, double to) -> const Boundary& { return boundary_at(command, from, to, start); },
         [&](double to, double dt, const StepSummary&) {
-          displacement = mounts()            ? travel_tried
+          displacement = mounts()            ? tried.travel
                          : to < command.time ? start.displacement + speed * (to - start.time)
                                              : command.displacement;
           turn =
               to < command.time ? start.turn + (to - start.time) / whole * (command.turn - start.turn) : command.turn;
-          const double moved = grip_tried - grip;
-          grip = frame.rigid() ? displacement : grip_tried;
-          if (!frame.rigid()) frame.follow(moved, grips.force_upper(*stepper) - borne_before, held_length(to - dt, to));
+          const double moved = tried.grip - grip;
+          grip = frame.rigid() ? displacement : tried.grip;
+          if (!frame.rigid())
+            frame.follow(moved, grips.force_upper(*stepper) - tried.borne_before, held_length(to - dt, to));
           work += stepper->readings().work();
           const double apart = grips.end_to_end(grip);
           if (tying) tying->follow(phase, {to, displacement, grip}, dt);
           grips.follow_weights(weight_borne(to));
           if (free_ends) free_ends->follow(stepper->readings().contact().normal_force > 0.0);
-          extension_zero += grips.end_to_end(grip) - apart;  // what slips through the upper grip extends nothing
+          extension_zero += grips.end_to_end(grip) - apart;  // rod that slips through the upper grip is no extension
           judge_break(dt);
           substeps.push_back(read(command, to));
         });
   }
 
+  /// Enters the step of a command. False: the test has failed or ended, and the rod stays as it is.
+  bool may_go_on(const Command& command) {
+    if (status == BenchStatus::kFailed || status == BenchStatus::kBroken) return false;
+    if (command.step != step_index) enter_step(command);
+    if (command.turn == turn || grips.clamp_turns()) return !give_up_tying();
+    status = BenchStatus::kFailed;
+    message = "the upper clamp cannot be turned: the rod leaves it across the load axis";
+    return false;
+  }
+
   Sample respond(const Command& command) {
     substeps.clear();
-    if (status == BenchStatus::kFailed || status == BenchStatus::kBroken) {
-      substeps.push_back(read(command, time));
-      return substeps.back();
-    }
-    if (command.step != step_index) enter_step(command);
-    if (command.turn != turn && !grips.clamp_turns()) {
-      status = BenchStatus::kFailed;
-      message = "the upper clamp cannot be turned: the rod leaves it across the load axis";
-      substeps.push_back(read(command, time));
-      return substeps.back();
-    }
-    if (give_up_tying()) {
+    if (!may_go_on(command)) {
       substeps.push_back(read(command, time));
       return substeps.back();
     }
@@ -395,12 +397,11 @@ struct TestingMachine::Impl {
       raw_extension_zero = displacement;
     }
     const std::string gave_up = advance(command, {time, displacement, turn}, command.time);
-    if (parted()) {
-      // The test ends here.
-    } else if (!gave_up.empty() || status == BenchStatus::kFailed) {
+    if (!parted() && !gave_up.empty()) {
       status = BenchStatus::kFailed;
-      if (!gave_up.empty()) message = gave_up;
-    } else {
+      message = gave_up;
+    }
+    if (!parted() && status != BenchStatus::kFailed) {
       if (!mounts()) displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
       if (tying) tying->leave(phase, place());
@@ -437,7 +438,7 @@ Vec3 TestingMachine::lower_grip() const { return impl_->grips.lower(); }
 Vec3 TestingMachine::upper_grip() const { return impl_->grips.upper(impl_->grip); }
 double TestingMachine::time() const { return impl_->time; }
 double TestingMachine::longest_step() const {
-  return tolerances(impl_->physics, impl_->specimen, impl_->material).longest_step;
+  return tolerances(impl_->physics, impl_->specimen, impl_->scaled).longest_step;
 }
 Eigen::VectorXd TestingMachine::tension() const {
   if (impl_->parted()) return Eigen::VectorXd::Constant(rod().edges(), Sample::kNone);

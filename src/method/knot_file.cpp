@@ -146,14 +146,14 @@ class LandmarkReader {
   void read(const YAML::Node& node) {
     for (const auto& [name, what] : named("read", node, "a map such as {eye: {loop: eye}}")) {
       const std::string key = "read." + name;
-      if (knot_.read.size() == PerKnot::kMost)
+      if (knot_.readings.size() == PerKnot::kMost)
         reader_.refuse(key, "at most " + std::to_string(PerKnot::kMost) + " things are read of a knot");
       if (!what.IsMap() || what.size() != 1) reader_.refuse(key, what, kWhat);
       const YAML::Node of = what.begin()->second;
       const std::string kind = what.begin()->first.IsScalar() ? what.begin()->first.Scalar() : "";
       if (kind == "loop") {
         const std::size_t around = landmark(key + ".loop", of);
-        knot_.read.push_back({name, KnotReading::Kind::kLoop, around, around});
+        knot_.readings.push_back({name, KnotReading::Kind::kLoop, around, around});
       } else if (kind == "between" || kind == "distance") {
         const std::string place = key + "." + kind;
         if (!of.IsSequence() || of.size() != 2) reader_.refuse(place, of, "a list of two landmarks");
@@ -162,7 +162,8 @@ class LandmarkReader {
         if (first == second) reader_.refuse(place, "it must have two landmarks that differ");
         if (along && knot_.landmarks[first].strand != knot_.landmarks[second].strand)
           reader_.refuse(place, "both landmarks must be of one strand");
-        knot_.read.push_back({name, along ? KnotReading::Kind::kBetween : KnotReading::Kind::kDistance, first, second});
+        knot_.readings.push_back(
+            {name, along ? KnotReading::Kind::kBetween : KnotReading::Kind::kDistance, first, second});
       } else {
         reader_.refuse(key, what, kWhat);
       }

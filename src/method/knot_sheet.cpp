@@ -90,10 +90,10 @@ std::string type_of_ropes(const Centreline& knot) {
 std::string type_of(const Centreline& knot, double radius) {
   if (!knot.cuts.empty()) return type_of_ropes(knot);
   if (knot.knots.size() == 2) return type_of_loop(knot, radius);
-  const bool held = knot.above.empty() || (knot.above.size() == 1 && knot.below.size() == 1);
+  const bool held = knot.held_upper.empty() || (knot.held_upper.size() == 1 && knot.held_lower.size() == 1);
   if (held) return type_of_rope(knot);
-  return knot.free.empty() ? "not defined, as both ends are held by one grip"
-                           : "not defined, as the rope has a free end";
+  return knot.free_ends.empty() ? "not defined, as both ends are held by one grip"
+                                : "not defined, as the rope has a free end";
 }
 
 /// The least radius of the circle through the midpoints of two edges, infinite in a straight rope, and the node between

@@ -9,10 +9,10 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kMetExtension = 1e-9;  // nearer to an extension it is met [m]
-constexpr double kMetByAFrame = 1e-3;   // on a compliant frame [of what one period moves]
-constexpr double kRigid = 1.0 - 1e-6;   // gain of a frame that gives nothing
-constexpr double kLeastGain = 1e-3;     // of a frame that gives nearly all
+constexpr double kTolerance = 1e-9;       // of an extension on a rigid frame [m]
+constexpr double kFrameTolerance = 1e-3;  // of an extension on a compliant frame [of the motion in one period]
+constexpr double kRigid = 1.0 - 1e-6;     // gain from which a frame counts as rigid
+constexpr double kLeastGain = 1e-3;       // of a frame that is much softer than the specimen
 
 }  // namespace
 
@@ -23,7 +23,7 @@ bool CrossheadCourse::over(double time) const {
 
 void CrossheadCourse::move(const Sample& now, double velocity) {
   leg_.begin = last_.sequence;
-  // Where the machine says when a step is done, it may move the crosshead by itself, and says where it is.
+  // In a step that the machine ends by itself, it may also have moved the crosshead by itself.
   leg_.displacement = ends_by_itself(last_.phase) ? now.displacement : last_.displacement;
   leg_.velocity = velocity;
 }
@@ -33,8 +33,8 @@ double CrossheadCourse::velocity_to_extension(double left, double fastest) const
   return std::clamp(left / gain_.value, -most, most) / period();
 }
 
-double CrossheadCourse::met_extension(double fastest) const {
-  return gain_.value > kRigid ? kMetExtension : kMetByAFrame * fastest * period();
+double CrossheadCourse::extension_tolerance(double fastest) const {
+  return gain_.value > kRigid ? kTolerance : kFrameTolerance * fastest * period();
 }
 
 double CrossheadCourse::speed_to_load(const Sample& now, double load, double fastest, bool creeps) {
@@ -42,18 +42,18 @@ double CrossheadCourse::speed_to_load(const Sample& now, double load, double fas
 }
 
 double CrossheadCourse::velocity_at_load(const Sample& now, double fastest) {
-  return load_control_.following(now, wanted_load, period(), fastest);
+  return load_control_.following(now, wanted_load_, period(), fastest);
 }
 
 double CrossheadCourse::velocity_at_load_rate(const Sample& now, double rate, double fastest, double end) {
-  if (leg_.velocity >= fastest) wanted_load = balanced_load(now);
-  wanted_load += rate * period();
-  return load_control_.following(now, std::min(wanted_load, end), period(), fastest);
+  if (leg_.velocity >= fastest) wanted_load_ = balanced_load(now);
+  wanted_load_ += rate * period();
+  return load_control_.following(now, std::min(wanted_load_, end), period(), fastest);
 }
 
 void CrossheadCourse::begin_step(const Sample& now) {
   begin_ = last_.sequence;
-  begin_load_ = wanted_load = balanced_load(now);
+  begin_load_ = wanted_load_ = balanced_load(now);
   begin_turn_ = last_.turn;
   load_control_.begin();
   move(now, 0.0);
@@ -62,18 +62,18 @@ void CrossheadCourse::begin_step(const Sample& now) {
 
 bool CrossheadCourse::take(const Sample& now) {
   const double moved = now.displacement - gain_.displacement, shift = now.balance_offset - balance_offset_;
-  if (std::abs(moved) > kMetExtension && !last_.balance)
+  if (std::abs(moved) > kTolerance && !last_.balance)
     gain_.value = std::clamp((now.extension - gain_.extension) / moved, kLeastGain, 1.0);
   gain_.extension = now.extension;
   gain_.displacement = now.displacement;
   balance_offset_ = now.balance_offset;
-  wanted_load -= shift;
+  wanted_load_ -= shift;
   begin_load_ -= shift;
   load_control_.shift(shift);
   return shift != 0.0;
 }
 
-void CrossheadCourse::fill(Command& command) const {
+void CrossheadCourse::write_motion(Command& command) const {
   command.velocity = leg_.velocity;
   command.displacement = leg_.displacement + leg_.velocity * seconds(command.sequence - leg_.begin);
   command.turn = turn_leg_.turn + turn_leg_.rate * seconds(command.sequence - turn_leg_.begin);
@@ -88,8 +88,8 @@ void CrossheadCourse::accept(const Command& command) {
 namespace {
 
 constexpr double kCreep = 0.01;  // of the highest speed
-// A motion counts from this fraction of the longest one of a command on. The slope over less would be that of what
-// Newton's method leaves unbalanced.
+// Least motion, over the longest one of a command, from which a slope is taken: over a shorter one, the residual of
+// Newton's method would decide it.
 constexpr double kCounts = 1e-5;
 
 }  // namespace

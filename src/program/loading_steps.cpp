@@ -18,22 +18,14 @@ EndedBy BenchStep::ended(const Sample& now, CrossheadCourse&) {
   return done ? EndedBy::kProgram : EndedBy::kNotYet;
 }
 
-void TieStep::keys(fields::Fields& f, double) {
-  f.says("speed; of the tail grips", "3.15 radii/s").scaled_number("speed", speed, kSpeeds);
-}
-
 void TieStep::check(const StepPlace& place) const {
   if (place.index != 0) place.misplaced("can only be the first step");
-  place.needs(place.tied);
+  place.needs(place.can_be_tied);
 }
-
-void ReleaseStep::keys(fields::Fields& f, double) { f.number("duration", duration, {1e-3, 1e4, "s"}); }
 
 void ReleaseStep::check(const StepPlace& place) const {
   if (place.index != 1 || !place.program[0].as<TieStep>()) place.misplaced("can only stand right after tie");
 }
-
-void MountStep::keys(fields::Fields& f, double) { speed_key(f); }
 
 void MountStep::check(const StepPlace& place) const {
   place.needs(place.loops);
@@ -58,7 +50,7 @@ void PreloadStep::steer(const Sample& now, CrossheadCourse& course) {
 }
 
 EndedBy PreloadStep::ended(const Sample& now, CrossheadCourse& course) {
-  if (!balancing_ && !reached(balanced_load(now), load, 1.0, kMetLoad * load)) return EndedBy::kNotYet;
+  if (!balancing_ && !reached(balanced_load(now), load, 1.0, kLoadTolerance * load)) return EndedBy::kNotYet;
   if (balancing_ || !balance) return EndedBy::kLoad;
   balancing_ = true;
   course.balance();
@@ -104,7 +96,7 @@ void PullStep::steer(const Sample& now, CrossheadCourse& course) {
 
 EndedBy PullStep::ended(const Sample& now, CrossheadCourse& course) {
   if (until.extension && now.extension >= *until.extension) return EndedBy::kExtension;
-  if (until.load && reached(balanced_load(now), *until.load, 1.0, kMetLoad * *until.load)) return EndedBy::kLoad;
+  if (until.load && reached(balanced_load(now), *until.load, 1.0, kLoadTolerance * *until.load)) return EndedBy::kLoad;
   return until.time && course.over(*until.time) ? EndedBy::kProgram : EndedBy::kNotYet;
 }
 
@@ -128,7 +120,7 @@ void HoldStep::check(const StepPlace& place) const {
 }
 
 void HoldStep::begin(const Sample&, CrossheadCourse& course) {
-  if (held_load) course.wanted_load = *held_load;
+  if (held_load) course.keep_load(*held_load);
 }
 
 void HoldStep::steer(const Sample& now, CrossheadCourse& course) {
@@ -174,8 +166,8 @@ void CycleStep::steer(const Sample& now, CrossheadCourse& course) {
 
 EndedBy CycleStep::ended(const Sample& now, CrossheadCourse& course) {
   const double sense = outwards_ ? 1.0 : -1.0;
-  if (extension ? reached(now.extension, target(), sense, course.met_extension(speed))
-                : reached(balanced_load(now), target(), sense, kMetLoad * (load->high - load->low))) {
+  if (extension ? reached(now.extension, target(), sense, course.extension_tolerance(speed))
+                : reached(balanced_load(now), target(), sense, kLoadTolerance * (load->high - load->low))) {
     outwards_ = !outwards_;
     course.forget_stiffness();
     ++turns_;
@@ -202,8 +194,8 @@ void ReturnStep::steer(const Sample& now, CrossheadCourse& course) {
 }
 
 EndedBy ReturnStep::ended(const Sample& now, CrossheadCourse& course) {
-  if (now.extension <= extension + course.met_extension(speed)) return EndedBy::kExtension;
-  const bool met = load && reached(balanced_load(now), *load, -1.0, kMetLoad * std::abs(course.begin_load()));
+  if (now.extension <= extension + course.extension_tolerance(speed)) return EndedBy::kExtension;
+  const bool met = load && reached(balanced_load(now), *load, -1.0, kLoadTolerance * std::abs(course.begin_load()));
   return met ? EndedBy::kLoad : EndedBy::kNotYet;
 }
 
@@ -234,18 +226,11 @@ void TwistStep::steer(const Sample& now, CrossheadCourse& course) {
 
 EndedBy TwistStep::ended(const Sample& now, CrossheadCourse& course) {
   const double sense = turns > 0.0 ? 1.0 : -1.0, whole = 2.0 * M_PI * turns;
-  if (reached(now.turn - course.begin_turn(), whole, sense, kMetTurn)) return EndedBy::kProgram;
+  if (reached(now.turn - course.begin_turn(), whole, sense, kTurnTolerance)) return EndedBy::kProgram;
   return torque && reached(now.torque, sense * *torque, sense, 0.0) ? EndedBy::kLoad : EndedBy::kNotYet;
 }
 
 double TwistStep::usual_duration(const CrossheadCourse&) const { return std::abs(turns) / rate; }
-
-void FollowStep::keys(fields::Fields& f, double) {
-  f.says(
-       "record; of the crosshead: a `curve.csv`, which [`import_instron`](results.md#raw-data) makes of raw data, or "
-       "the folder of a run")
-      .file("record", record);
-}
 
 void FollowStep::check(const StepPlace& place) const {
   if (record.empty()) throw InvalidInput::missing(place.key() + ".record", "a curve.csv, or the folder of a run");

@@ -13,8 +13,8 @@ namespace knot_utm {
 
 std::string BreakDetector::judge(const Sample& sample) {
   if (!detection_.fraction_of_peak) return {};
-  // Within a command nobody knows whether its largest or its least load came first: the larger of two falls counts,
-  // from what came before to the least load, and from the largest of both to the load at the end.
+  // It is not known whether the largest or the least load of a command came first. The larger of two falls counts: from
+  // the peak before to the least load, and from the peak so far to the load at the end.
   double from = peak_, to = sample.lowest_load;
   peak_ = std::max(peak_, sample.highest_load);
   if (peak_ - balanced_load(sample) > from - to) {
@@ -30,7 +30,7 @@ std::string BreakDetector::judge(const Sample& sample) {
 
 namespace {
 
-constexpr int kUndoneAnswers = 3;  // in a row: a strand that is thrown about may be taken for another knot once
+constexpr int kUndoneAnswers = 3;  // in a row: one answer may mistake a strand that is thrown about for another knot
 
 /// The slack keeps a period that is meant to be equal from being halved by rounding.
 std::uint64_t commands_per_reading(double sampling_rate, double longest_period) {
@@ -64,7 +64,7 @@ Command ProgramRunner::next(const Sample& sample) {
   const EndedBy by = first ? EndedBy::kNotYet : program_[step_]->ended(sample, course_);
   if (by != EndedBy::kNotYet) {
     if (step_ + 1 == program_.size()) {
-      // What only ties has done what it is for; that the knot is gone is how it ended all the same.
+      // A program that only ties ends as programmed even if its knot is gone, but that is how the test ended.
       end(is_undone(sample) ? EndedBy::kUntangled : by, "");
       return command(last().sequence);
     }
@@ -80,12 +80,6 @@ Command ProgramRunner::next(const Sample& sample) {
   return last();
 }
 
-void ProgramRunner::stop() { end(EndedBy::kOperator, "stopped by the operator"); }
-
-void ProgramRunner::balance() { course_.balance(); }
-
-void ProgramRunner::plateau_settled(std::string where) { end(EndedBy::kPlateau, std::move(where)); }
-
 void ProgramRunner::fail(std::string why) {
   ended_by_ = EndedBy::kSolver;
   reason_ = std::move(why);
@@ -95,8 +89,6 @@ bool ProgramRunner::failed() const {
   return ended_by_ == EndedBy::kSolver || (ended_by_ == EndedBy::kUntangled && !only_ties()) ||
          (ended_by_ == EndedBy::kBreak && parts_too_early());
 }
-
-Phase ProgramRunner::phase() const { return ended() ? Phase::kDone : last().phase; }
 
 double ProgramRunner::progress() const {
   if (ended()) return 1.0;
@@ -143,8 +135,8 @@ bool ProgramRunner::only_ties() const {
   return std::all_of(program_.begin(), program_.end(), [](const ProgramStep& step) { return !moves(step->phase()); });
 }
 
-/// Whether a rod that parts now does so before the program has loaded it, in a step that prepares it or in one that a
-/// load would follow. A rod that is held to the end may part under its own weight: such a test waits for that.
+/// Whether a rod that parts now has not been loaded yet: no step so far loads it, and this one prepares it or a later
+/// one would load it. A rod that is only held to the end of the test may part under its own weight.
 bool ProgramRunner::parts_too_early() const {
   const auto next = program_.begin() + static_cast<std::ptrdiff_t>(step_) + 1;
   const auto loads = [](const ProgramStep& step) { return step->loads(); };
@@ -188,7 +180,7 @@ Command ProgramRunner::command(std::uint64_t sequence) const {
   c.phase = step->phase();
   c.speed = step->speed;
   c.duration = step->duration;
-  course_.fill(c);
+  course_.write_motion(c);
   return c;
 }
 

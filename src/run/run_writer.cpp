@@ -76,9 +76,9 @@ SpecimenFacts facts_of(const Method& method, const Centreline& drawn) {
   out.may_hold_a_knot = knot.may_hold_a_knot();
   out.follows_type = !knot.may_hold_a_knot() || type_is_followed(specimen);
   out.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
-  out.free_ends = drawn.free.size();
+  out.free_ends = drawn.free_ends.size();
   if (specimen.drawing)
-    for (const KnotDrawing::Reading& reading : specimen.drawing->read) out.knot_readings.push_back(reading.name);
+    for (const KnotDrawing::Reading& reading : specimen.drawing->readings) out.knot_readings.push_back(reading.name);
   for (const NodeForce& load : knot_of(specimen).supports(specimen, method.material).loads)
     out.dead_load += load.force.norm();
   if (specimen.to_be_tied && tied_by_preload(specimen)) out.preload = specimen.preload.value_or(Sample::kNone);

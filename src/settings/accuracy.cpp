@@ -34,7 +34,7 @@ double shorter_where_tied_hard(const SpecimenOptions& specimen, const Material& 
   return std::clamp(std::pow(preload_group(specimen, material) / kTiedHard, 0.25), 1.0, kShortestForHard);
 }
 
-/// A knot of a solid rod that is drawn open, between clamps.
+/// A knot of a solid rod that is sketched open, between clamps.
 bool is_open(const SpecimenOptions& specimen, const Material& material) {
   const KnotDescription& knot = knot_of(specimen).about();
   return knot.knots > 0 && !knot.loop && is_solid(material);
@@ -166,9 +166,9 @@ RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& 
   const double h = material.radius, edge = specimen.edge_length / h;
   const Answer rod = answer(physics, specimen, material);
   const bool soft = material.is_soft();
-  if (study == ErrorStudy::kDrawnKnot && !material.other && !soft)
+  if (study == ErrorStudy::kSketchedKnot && !material.other && !soft)
     out.largest_load = coarseness(tolerances(physics, specimen, material), of(Accuracy::kNormal, rod), edge) *
-                       (is_solid(material) ? kDrawnInSolid : kDrawnInRope);
+                       (is_solid(material) ? kSketchedInSolid : kSketchedInRope);
   if (study != ErrorStudy::kFisherman || machine.roller_friction != 0.0 || !rollers_hold(specimen, machine)) return out;
   const bool solid = rod.stretches, opposite = specimen.handedness == Handedness::kOpposite;
   const Tolerances own = tolerances(physics, specimen, material);

@@ -24,9 +24,9 @@ inline constexpr Tolerances kStretchingDraft{0.34, 3e-4, 0.12, 2e-2, 1.0};
 inline constexpr Tolerances kStretchingNormal{0.17, 2e-4, 0.08, 1e-2, 1.0};
 inline constexpr Tolerances kStretchingFine{0.05, 1e-5, 0.01, 1e-3, 2.0};
 
-// The same for a knot of a solid rod between clamps that is drawn open, and whose strands roll. Its swing decides how
-// far its force is off, and finer tolerances do not change it: over twelfths of the pull of open overhands with one to
-// three turns the mean force differs from that of `fine` by 0.5 to 1.3 %, and by 0.4 to 1.3 % with those of ropes.
+// The same for a knot of a solid rod between clamps that is sketched open, and whose strands roll. Its swing decides
+// how far its force is off, and finer tolerances do not change it: over twelfths of the pull of open overhands with one
+// to three turns the mean force differs from that of `fine` by 0.5 to 1.3 %, and by 0.4 to 1.3 % with those of ropes.
 inline constexpr Tolerances kOpenDraft{0.34, 5e-4, 0.2, 4e-2, 1.0};
 inline constexpr Tolerances kOpenNormal{0.17, 2e-4, 0.1, 2e-2, 1.0};
 
@@ -48,7 +48,7 @@ inline constexpr double kPlateau = 0.06, kRollingPlateau = 0.09, kSlippery = 0.8
 // locking themselves, and so does its error: by 1 + (M0 mu/kNearLocking)^2, with M0 in k_b/h. This includes all but
 // one of the plateaus of seeds 91 and 92 whose knots have the same handedness.
 inline constexpr double kNearLocking = 0.07;
-// The load at which a knot parts whose bend helps to part it (fibre_breaking.hpp), with edges of h: it is 1.7 to 4.6 %
+// The load at which a knot parts whose bend helps to part it (FibreBreaking), with edges of h: it is 1.7 to 4.6 %
 // too high in twelve knots of ropes (doc/developers/measured.md), and right within 1.6 % in those of solid rods.
 inline constexpr double kBreakInBend = 0.06;
 // The same where contacts that press it flat help, too: 3 to 8 % too high in five knots of ropes. Forces of contacts
@@ -86,7 +86,7 @@ inline constexpr double kStraightStiffness = 1e-3;
 // The largest load of a knot from a file, in a solid rod and in a rope that slips at less than its pre-load. They hold
 // 21 of 22 and 13 of 13 means of two starts (bench/results/knots.md, and six other knots). Of six more, tried once they
 // were set, they hold 11 of 12, one being off by 10.3 % while the error of the finer mean is 9 %, and 2 of 2.
-inline constexpr double kDrawnInSolid = 0.10, kDrawnInRope = 0.15;
+inline constexpr double kSketchedInSolid = 0.10, kSketchedInRope = 0.15;
 
 // Fraction of the error that each source contributes at `normal` with edges of one radius [-]; they sum to 1. For the
 // same draws each source by itself was reduced: edges to a half, contact tolerance to a half, presliding displacement

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -15,18 +16,18 @@ namespace {
 
 constexpr double kPost = 12.0;          // diameter, as that of the paper's rollers [h]
 constexpr double kStrand = 30.0;        // of the tail, and from the post to the grip [h]
-constexpr double kEdgesARadian = 4.0;   // at least: the tension ratio is then right within half a percent
-constexpr double kFewestARadian = 2.0;  // edges that still follow the bend
+constexpr double kEdgesARadian = 4.0;   // by default: the tension ratio is then right within half a percent
+constexpr double kFewestARadian = 2.0;  // edges that are allowed
 constexpr double kPull = 1.5;           // by then the rod slides everywhere on the post [rho]
-constexpr double kBeyondPull = 15.0;    // of the tail, so that its end keeps off the post [h]
-constexpr double kLeastTail = 3.0;      // of it at the end of a pull [h]
-constexpr double kTailStrain = 0.01;    // so that a strand that stretches slides within the pull
-constexpr double kMostStrain = 1.0;     // by the tail load, from a drawn shape that is not stretched [-]
+constexpr double kBeyondPull = 15.0;    // of tail left after a pull, so that its end keeps off the post [h]
+constexpr double kLeastTail = 3.0;      // the same, at least [h]
+constexpr double kTailStrain = 0.01;    // by the default load: a strand that stretches more slides too late
+constexpr double kMostStrain = 1.0;     // by the tail load: a sketched shape is not stretched [-]
 constexpr double kPitch = 4.0;          // of a helix, so that strands side by side do not touch [h]
 
 double bend_radius(const SpecimenOptions& specimen, double h) { return 0.5 * specimen.post_diameter + h; }
 
-/// The wrapped part and what turns it so that its end runs along z.
+/// The wrapped part of the rod, tilted so that its upper end runs along z.
 class Winding {
  public:
   Winding(const SpecimenOptions& specimen, double h) : rho_(bend_radius(specimen, h)) {
@@ -62,7 +63,7 @@ class Winding {
   Mat3 tilt_;
 };
 
-/// A load that the rod can bear, and a stretch that the drawn shape, which has none, can reach.
+/// The rod must bear the load, and the sketched shape, which is not stretched, must be able to take the strain.
 void check_tail_load(const SpecimenOptions& specimen, const Material& material) {
   const double load = tail_load(specimen, material);
   if (material.breaking_force && load >= *material.breaking_force)
@@ -75,14 +76,6 @@ void check_tail_load(const SpecimenOptions& specimen, const Material& material) 
         "one that stretches the rod to at most twice its length, and not to " + text(1.0 + strain) + " times that");
 }
 
-KnotDescription describe_capstan() {
-  KnotDescription out;
-  out.name = "capstan";
-  out.title = "Strand around a post (capstan)";
-  out.keys = {"wrap", "post_diameter", "tail_load", "tail", "end_to_end"};
-  return out;
-}
-
 /// knot: capstan. A rod lies around a fixed post by the angle `wrap` [rad]. A dead load T1, `tail_load` [N], pulls at
 /// its first node along the `tail` [m], as a weight does over a pulley that turns freely. The upper grip pulls its last
 /// node along +z with T2. A rod without bending stiffness that slides has T2/T1 = exp(mu wrap), mu being
@@ -93,7 +86,11 @@ KnotDescription describe_capstan() {
 /// tangents turn by `wrap` in all, and the axis is tilted so that the strand to the grip still runs along z.
 class CapstanSpecimen final : public Knot {
  public:
-  CapstanSpecimen() : Knot(describe_capstan()) {}
+  CapstanSpecimen() {
+    about_.name = "capstan";
+    about_.title = "Strand around a post (capstan)";
+    about_.keys = {"wrap", "post_diameter", "tail_load", "tail", "end_to_end"};
+  }
 
   SpecimenOptions defaults(double h) const override {
     SpecimenOptions out;
@@ -151,9 +148,6 @@ double tail_load(const SpecimenOptions& specimen, const Material& material) {
       std::min(specimen_scales(material).force, kTailStrain * material.stretching_stiffness));
 }
 
-const Knot& capstan() {
-  static const CapstanSpecimen knot;
-  return knot;
-}
+std::unique_ptr<const Knot> capstan() { return std::make_unique<CapstanSpecimen>(); }
 
 }  // namespace knot_utm

@@ -19,10 +19,10 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kMostEdges = 2e4;  // of a shape from a file: each is held against each other one
+constexpr double kMostEdges = 2e4;  // of a shape from a file: each is compared with each other one
 
-// A shape is near itself where it is within the first of these of a place that is the second one away along it. By
-// choice: wider than strands that touch (2), and not a bend that a rod makes by itself.
+// Places nearer than the first and further apart along the rod than the second of these make a shape near itself. By
+// choice: further than strands that touch (2), and no bend that a rod takes by itself.
 constexpr double kNearItself = 8.0, kAwayAlong = 20.0;  // [h]
 
 /// Nodes along a polyline, with finer edges where it comes near itself.
@@ -40,8 +40,6 @@ Points graded(const Points& way, double radius, double edge_length, double refin
 
 double Centreline::length() const { return arclengths(points).back(); }
 
-int Centreline::windings() const { return knots.empty() ? 1 : knots.front().windings; }
-
 int Centreline::nearest_node(double arclength) const {
   const std::vector<double> at = arclengths(points);
   const auto next = std::lower_bound(at.begin() + 1, at.end() - 1, arclength);
@@ -56,21 +54,21 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
     throw InvalidInput::sentence(key, std::string(key) + " " + shown(value) + ": " + why);
   };
   const auto length = [&](double metres) { return origin ? text(metres / radius) + " radii" : text(metres) + " m"; };
-  // Strands touch along the smooth centreline, outwards of which a bent polyline cuts its corners. Those of a tight
-  // knot that a run left press on each other a little.
-  constexpr double kMayOverlap = 0.07;  // by choice: overlap of a shape that may begin [h]
-  constexpr double kCutCorners = 0.02;  // by choice: that of ropes as they are drawn, with coarse edges, too [h]
+  // A polyline cuts the corners of the smooth centreline along which strands touch, so strands that touch seem to
+  // overlap. Strands of a tight knot that another run left behind do overlap a little.
+  constexpr double kMayOverlap = 0.07;  // by choice: of a shape from a file or of a loop [h]
+  constexpr double kCutCorners = 0.02;  // by choice: of sketched ropes, even with coarse edges [h]
   const double exclusion = 1.5 * M_PI * radius;
   const NearestPlaces nearest = nearest_places(points, exclusion, centreline.cuts, radii);
-  const double touching = 2.0 * radius - nearest.thinner;
-  const bool as_drawn = !centreline.cuts.empty();
+  const double touching = 2.0 * radius - nearest.radius_deficit;
+  const bool of_ropes = !centreline.cuts.empty();
   if (nearest.distance < touching - (centreline.cuts.empty() ? 0.0 : kCutCorners * radius) &&
-      (as_drawn || nearest_places(sampled_centreline(points), exclusion).distance < (2.0 - kMayOverlap) * radius))
+      (of_ropes || nearest_places(sampled_centreline(points), exclusion).distance < (2.0 - kMayOverlap) * radius))
     refuse("strands overlap at " +
            (origin ? place_text((nearest.middle - *origin) / radius)
                    : text(nearest.first) + " m and " + text(nearest.second) + " m along the rod") +
            ", where they are " + length(nearest.distance) + " apart, but must be at least " +
-           (nearest.thinner > 0.0 ? "both radii" : "a diameter") + " apart, " + length(touching));
+           (nearest.radius_deficit > 0.0 ? "both radii" : "a diameter") + " apart, " + length(touching));
   TunnellingSearch search(points.cols());
   for (const int cut : centreline.cuts) search.part(cut);
   if (const std::optional<Tunnelling> passage = search.find(points, points)) {
@@ -127,9 +125,9 @@ Centreline from_points(const Points& points, double radius, double edge_length, 
 
 namespace {
 
-constexpr double kLeastAcross = 0.01;  // of the axis x, its part across the rod
+constexpr double kLeastAcross = 0.01;  // the x axis gives the side if its part normal to the rod is larger [-]
 
-/// alpha, once there are frames.
+/// alpha of give_rest_shape; the state has its frames.
 double angle_of_side(const RodState& state) {
   const Vec3 along = (state.position.col(1) - state.position.col(0)).normalized();
   const Vec3 first = state.reference_director.col(0);

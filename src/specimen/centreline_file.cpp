@@ -1,14 +1,14 @@
-#include "knot_utm/specimen/centreline_file.hpp"
-
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kKey = "specimen.file";
 constexpr double kFarthest = 1000.0;  // coordinate of a point [m]
-constexpr double kLeastStep = 1e-12;  // of neighbours: below it the way between them has no direction [m]
+constexpr double kLeastStep = 1e-12;  // distance of neighbours below which an edge has no direction [m]
 
 std::optional<double> to_number(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
@@ -92,22 +92,18 @@ Points read_centreline(std::istream& in, const std::string& file) {
 
 namespace {
 
-constexpr double kPulledWay = 0.04;  // of a pull, for the paper's radius [m]
+constexpr double kPulledWay = 0.04;  // extension of a pull, for the paper's radius [m]
 
-KnotDescription describe_drawn_rod() {
-  KnotDescription out;
-  out.name = "file";
-  out.title = "Rod of a shape from a file";
-  out.keys = {"file", "refinement", "natural_curvature"};
-  out.any_shape = true;
-  return out;
-}
-
-/// knot: file. A rod whose centreline is in a CSV file (centreline_file.hpp). The grips hold its ends, the upper grip,
+/// knot: file. A rod whose centreline is in a CSV file (read_centreline). The grips hold its ends, the upper grip,
 /// which moves along +z, the last one. The program does not know whether it is knotted.
-class DrawnRod final : public Knot {
+class SketchedRod final : public Knot {
  public:
-  DrawnRod() : Knot(describe_drawn_rod()) {}
+  SketchedRod() {
+    about_.name = "file";
+    about_.title = "Rod of a shape from a file";
+    about_.keys = {"file", "refinement", "natural_curvature"};
+    about_.any_shape = true;
+  }
 
   SpecimenOptions defaults(double h) const override {
     SpecimenOptions out;
@@ -136,9 +132,6 @@ class DrawnRod final : public Knot {
 
 }  // namespace
 
-const Knot& drawn_rod() {
-  static const DrawnRod knot;
-  return knot;
-}
+std::unique_ptr<const Knot> sketched_rod() { return std::make_unique<SketchedRod>(); }
 
 }  // namespace knot_utm

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
-#include <utility>
 
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -16,27 +16,28 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kFineBeyondCoil = 3.0;   // of the strand that a coil holds [h]
+constexpr double kFineBeyondCoil = 3.0;   // length of fine edges on the threaded strand beyond the coil [h]
 constexpr double kHalfOfCoil = 2.0;       // half the axial length of a coil of one winding [h]
-constexpr double kBeyondWindings = 0.25;  // of a turn, from where the standing part is to where the tail is
+constexpr double kBeyondWindings = 0.25;  // turns of a coil beyond its windings, from standing part to tail
 constexpr double kLeastDistance = 12.0;   // of the two knots: room for the coils themselves [h]
 
-/// By which a coil of so many windings is longer, to either side of its middle: all of them have the pitch of one.
+/// By how much a coil of so many windings exceeds one of a single winding, to either side of its middle, at the same
+/// pitch.
 double longer_coil(int windings, double h) { return kHalfOfCoil / (1.0 + kBeyondWindings) * (windings - 1) * h; }
 
-/// One overhand of the fisherman's loop, in lengths.
+/// Dimensions of one overhand of the fisherman's loop, in cylindrical coordinates about the knots' axis [m].
 struct Coil {
-  double strand;  ///< a, of standing part and threaded strand from the axis
-  double tail;    ///< b
-  double radius;  ///< R
+  double strand;  ///< a, radius at which standing part and threaded strand run
+  double tail;    ///< b, radius at which the tail runs
+  double radius;  ///< R, of the coil
   double half;    ///< w, half its axial length
-  double wrap;    ///< angle [rad]
-  double outer;   ///< of its outermost point from its middle
-  double inner;   ///< of its innermost point
+  double wrap;    ///< angle of the coil [rad]
+  double outer;   ///< axial distance of the outermost point of the overhand from its middle
+  double inner;   ///< the same of its innermost point
 };
 
-/// A knot's own strand from its middle plane of the loop to the end of its tail. The axis passes `origin` along
-/// `outwards`, z' = 0 there; the knot's middle is at z' = c; angles run from `u` (standing part) to `v` (tail).
+/// Cylindrical coordinates of a knot's own strand. The axis passes through `origin`, z' = 0, in the direction
+/// `outwards`; the knot's middle is at z' = c; angles run from `u` (standing part) to `v` (tail).
 struct KnotFrame {
   Vec3 origin, u, v, outwards;
   Vec3 at(double r, double angle, double z) const {
@@ -44,11 +45,12 @@ struct KnotFrame {
   }
 };
 
+/// Arclengths along a knot's own strand from z' = 0 [m].
 struct KnotMarks {
-  double standing_begin, coil_middle, tail_exit, tail_end;  ///< along the knot's own strand from z' = 0
+  double standing_begin, coil_middle, tail_exit, tail_end;
 };
 
-KnotMarks draw_knot(const KnotFrame& frame, const Coil& coil, double c, double radius, double tail, Path& path) {
+KnotMarks sketch_knot(const KnotFrame& frame, const Coil& coil, double c, double radius, double tail, Path& path) {
   KnotMarks marks{};
   marks.standing_begin = c - 3.0 * radius - coil.half;
   path.add(frame.at(coil.strand, 0.0, 0.0));
@@ -112,11 +114,11 @@ double distance_on_roller(const FishermanShape& shape, const Coil& coil) {
   return rolled;
 }
 
-/// Beyond the middle of a knot, where the other end's strand leaves it for its roller.
+/// Axial distance from the middle of a knot at which the threaded strand leaves it for its roller.
 double strand_leaves(const Coil& coil, double h) { return coil.outer + 2.0 * h; }
 
-/// Distance of each coil's middle from that of the loop. The knots clear each other; their strands reach the rollers;
-/// their coils clear the rollers.
+/// Distance c of each coil's middle from the middle of the loop. Checked: the knots clear each other, their strands
+/// reach the rollers, and their coils clear the rollers.
 double knot_height(const FishermanShape& shape, const Coil& coil, double rolled) {
   const double h = shape.radius;
   const double c = 0.5 * (shape.knot_distance - shape.outward_shift);
@@ -143,14 +145,14 @@ double knot_height(const FishermanShape& shape, const Coil& coil, double rolled)
 /// The loop without its knots: two straight sides at x = near and far, from z = bottom to top, and two half circles.
 struct Outline {
   double length;  ///< of the straight sides
-  double narrow;  ///< radius of the half circles as it is wanted
-  double rho;     ///< that to be drawn, which the smoothing makes the wanted one
+  double narrow;  ///< radius of the half circles after smoothing
+  double rho;     ///< their radius before smoothing
   double near, far, centre;
   double bottom, top;
 };
 
-/// Both ends are drawn further out where the straight strands beyond the knots ask for it, and the half circles
-/// narrower, so that the rod is as long as before.
+/// Where the straight strands beyond the knots are too short, both half circles are sketched further out and narrower,
+/// so that the length of the rod stays the same.
 Outline outline_of(const FishermanShape& shape, const Coil& coil, double rolled, double c) {
   const double narrowest = std::min(rolled, narrowest_loop(coil, shape.radius));
   const double wanted = std::max(shape.end_to_end, 2.0 * (c + shape.straight));
@@ -169,12 +171,11 @@ Outline outline_of(const FishermanShape& shape, const Coil& coil, double rolled,
 
 struct KnotFrames {
   KnotFrame lower, upper;
-  // Where strands meet their rollers, along y: away from the neighbouring tail.
-  double lower_y, upper_y;
+  double lower_y, upper_y;  ///< y at which strands meet their rollers, away from the neighbouring tail
 };
 
-/// Standing parts lie at +-u from the axis. Opposite-handed tails lie on either side of the loop's plane, so u lies in
-/// the plane; the axis is then set off so that the inner strand runs straight to its roller.
+/// Standing parts lie at +-u from the axis. Opposite-handed tails lie on either side of the loop's plane, so that u has
+/// to lie in the plane; the axis is then offset, so that the inner strand runs straight to its roller.
 KnotFrames frames_of(const FishermanShape& shape, const Coil& coil, const Outline& outline) {
   const bool same = shape.handedness == Handedness::kSame;
   const Vec3 u = same ? Vec3::UnitY() : Vec3::UnitX();
@@ -186,20 +187,21 @@ KnotFrames frames_of(const FishermanShape& shape, const Coil& coil, const Outlin
           same ? -coil.strand : 0.0};
 }
 
-/// The whole rod, and where along it what begins and ends.
-struct Drawing {
+/// The whole rod, and arclengths at which its parts begin and end.
+struct LoopSketch {
   Path path;
-  KnotMarks marks;  ///< of either knot
-  double first_middle = 0.0, second_middle = 0.0;
-  double upper_begin = 0.0, upper_end = 0.0, lower_begin = 0.0, lower_end = 0.0;  ///< of the half circles
+  KnotMarks marks;                                 ///< of either knot
+  double first_middle = 0.0, second_middle = 0.0;  ///< z' = 0 on the own strand of the lower and of the upper knot
+  double upper_begin = 0.0, upper_end = 0.0, lower_begin = 0.0, lower_end = 0.0;  ///< half circles
 };
 
-Drawing draw_loop(const FishermanShape& shape, const Coil& coil, const Outline& o, const KnotFrames& knots, double c) {
-  const double spacing = drawing_spacing(shape.radius, shape.edge_length);
+LoopSketch sketch_loop(const FishermanShape& shape, const Coil& coil, const Outline& o, const KnotFrames& knots,
+                       double c) {
+  const double spacing = sketch_spacing(shape.radius, shape.edge_length);
   const double past = strand_leaves(coil, shape.radius);
   const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };  // back into the plane around the roller
   Path knot_path(spacing);
-  Drawing out{Path(spacing), draw_knot(knots.lower, coil, c, shape.radius, shape.tail, knot_path)};
+  LoopSketch out{Path(spacing), sketch_knot(knots.lower, coil, c, shape.radius, shape.tail, knot_path)};
   Path& path = out.path;
   for (auto point = knot_path.points().rbegin(); point != knot_path.points().rend(); ++point) path.add(*point);
   out.first_middle = path.length();
@@ -220,29 +222,29 @@ Drawing draw_loop(const FishermanShape& shape, const Coil& coil, const Outline& 
   path.add(knots.lower.at(coil.strand, M_PI, c + past));
   path.add(knots.lower.at(coil.strand, M_PI, 0.0));
   out.second_middle = path.length();
-  draw_knot(knots.upper, coil, c, shape.radius, shape.tail, path);
+  sketch_knot(knots.upper, coil, c, shape.radius, shape.tail, path);
   return out;
 }
 
-/// Fine edges are the two strands between and within the knots: a coil presses as hard on the strand that it holds as
-/// that does on the coil, and slides along it towards the other knot.
-EdgeGrading grading_of(const FishermanShape& shape, const Coil& coil, const Drawing& drawn) {
+/// Both strands between and within the knots have fine edges, as coil and threaded strand press on each other, and the
+/// coil slides along that strand towards the other knot.
+EdgeGrading grading_of(const FishermanShape& shape, const Coil& coil, const LoopSketch& loop) {
   const double fine = shape.edge_length / shape.refinement;
-  const KnotMarks& marks = drawn.marks;
+  const KnotMarks& marks = loop.marks;
   EdgeGrading grading;
   grading.coarse = std::min(shape.coarsening * shape.edge_length, 2.0 * shape.radius);
   const double beyond = 0.5 * shape.knot_distance + coil.outer + kFineBeyondCoil * shape.radius;
-  grading.zones = {{drawn.first_middle - marks.tail_exit, drawn.first_middle + beyond, fine},
-                   {drawn.second_middle - beyond, drawn.second_middle + marks.tail_exit, fine},
-                   {0.0, drawn.upper_begin, shape.edge_length},
-                   {drawn.lower_end, drawn.path.length(), shape.edge_length}};
+  grading.zones = {{loop.first_middle - marks.tail_exit, loop.first_middle + beyond, fine},
+                   {loop.second_middle - beyond, loop.second_middle + marks.tail_exit, fine},
+                   {0.0, loop.upper_begin, shape.edge_length},
+                   {loop.lower_end, loop.path.length(), shape.edge_length}};
   return grading;
 }
 
 /// Distance that a knot of several windings may run outwards, as it tightens, beyond that of a single winding [m]. Its
-/// coils are drawn with the radius R = looseness h. Three strands run through a tight coil, each against the other two:
-/// standing part, threaded strand and tail. Its centreline therefore has the radius (2 + 2/sqrt 3) h, and each winding
-/// gives up
+/// coils are sketched with the radius R = looseness h. Three strands run through a tight coil, each against the other
+/// two: standing part, threaded strand and tail. Its centreline therefore has the radius (2 + 2/sqrt 3) h, and each
+/// winding gives up
 ///
 ///     2 pi (R - (2 + 2/sqrt 3) h)
 ///
@@ -253,8 +255,8 @@ double runs_out(int windings, double looseness, double h) {
   return M_PI * (looseness - tight) * h * (windings - 1);
 }
 
-/// `way` leads from `middle`, where the knot's own strand begins, to its tail: 1 or -1 along the rod. `threaded`: where
-/// this knot's coil holds the other end's strand.
+/// `middle`: where the knot's own strand begins, which leads to its tail along the rod (`way` 1) or against it (-1).
+/// `threaded`: where this knot's coil holds the other end's strand. Arclengths of the path [m].
 KnotLandmarks landmarks_of(const FishermanShape& shape, const Resampled& rod, const KnotMarks& marks, double middle,
                            double way, double tail_end, double threaded) {
   KnotLandmarks out{};
@@ -278,17 +280,17 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   const double rolled = distance_on_roller(shape, coil);
   const double c = knot_height(shape, coil, rolled);
   const Outline outline = outline_of(shape, coil, rolled, c);
-  const Drawing drawn = draw_loop(shape, coil, outline, frames_of(shape, coil, outline), c);
-  const Resampled rod(drawn.path, smoothed(drawn.path, h, drawing_spacing(h, shape.edge_length)),
-                      grading_of(shape, coil, drawn));
+  const LoopSketch loop = sketch_loop(shape, coil, outline, frames_of(shape, coil, outline), c);
+  const Resampled rod(loop.path, smoothed(loop.path, h, sketch_spacing(h, shape.edge_length)),
+                      grading_of(shape, coil, loop));
   Centreline centreline;
   centreline.points = rod.points;
-  centreline.upper_apex = rod(0.5 * (drawn.upper_begin + drawn.upper_end));
-  centreline.lower_apex = rod(0.5 * (drawn.lower_begin + drawn.lower_end));
-  centreline.loop = {outline.length, outline.narrow, rod(drawn.upper_end), rod(drawn.lower_begin)};
+  centreline.upper_apex = rod(0.5 * (loop.upper_begin + loop.upper_end));
+  centreline.lower_apex = rod(0.5 * (loop.lower_begin + loop.lower_end));
+  centreline.loop = {outline.length, outline.narrow, rod(loop.upper_end), rod(loop.lower_begin)};
   centreline.knots = {
-      landmarks_of(shape, rod, drawn.marks, drawn.first_middle, -1.0, 0.0, drawn.second_middle - c),
-      landmarks_of(shape, rod, drawn.marks, drawn.second_middle, 1.0, drawn.path.length(), drawn.first_middle + c)};
+      landmarks_of(shape, rod, loop.marks, loop.first_middle, -1.0, 0.0, loop.second_middle - c),
+      landmarks_of(shape, rod, loop.marks, loop.second_middle, 1.0, loop.path.length(), loop.first_middle + c)};
   check_no_overlap(centreline, h, "specimen.knot_distance", text(shape.knot_distance));
   return centreline;
 }
@@ -297,10 +299,9 @@ namespace {
 
 // These are the lengths of the shipped method, for the paper's radius [m].
 constexpr double kKnotDistance = 0.15, kEndToEnd = 0.25, kTail = 0.03, kRollerDiameter = 0.0381, kWay = 0.12;
-constexpr double kWayOfDistance = 0.7;   // knots far apart lock after about this fraction of their distance, or less
-constexpr double kFractionOfLoop = 0.6;  // e over L, as the paper has it
-
-constexpr double kCoarsening = 1.5;  // of edges on the far side of a loop, which touches nothing but rollers
+constexpr double kWayOfDistance = 0.7;   // extension of a pull over e: knots far apart lock by then
+constexpr double kFractionOfLoop = 0.6;  // e over L, as in the paper
+constexpr double kCoarsening = 1.5;      // of edges on the far side of a loop, which touches nothing but rollers
 
 // By how much tying moves the two knots apart. Fitted so that the four shipped materials end within 5 % of the distance
 // that is asked for, with e from 0.11 to 0.19 m: `tied_knot_distance` of config/tighten.yaml with material= and
@@ -318,7 +319,7 @@ double outward_shift(const SpecimenOptions& specimen, const Material& material, 
          kRecovered * strain * specimen.knot_distance;
 }
 
-/// The least L for knots at this distance, by which their coils clear the rollers, and the rollers each other.
+/// The least L for knots at this distance with which their coils clear the rollers, and the rollers each other.
 double least_end_to_end(double knot_distance, double roller_diameter, double h) {
   const double between = knot_distance + 2.0 * (5.0 * h + std::sqrt(9.0 * h * (0.5 * roller_diameter + h)));
   return std::max(between, roller_diameter + 4.0 * h);
@@ -327,7 +328,15 @@ double least_end_to_end(double knot_distance, double roller_diameter, double h) 
 /// knot: fisherman.
 class FishermanKnot : public Knot {
  public:
-  FishermanKnot() : FishermanKnot(description()) {}
+  FishermanKnot() {
+    about_.name = "fisherman";
+    about_.title = "Fisherman's knot";
+    about_.keys = {"handedness", "knot_distance", "end_to_end", "tail", "preload", "refinement"};
+    about_.knots = 2;
+    about_.loop = true;
+    about_.sketched_coil = FishermanShape().looseness;
+    about_.error_study = ErrorStudy::kFisherman;
+  }
 
   SpecimenOptions defaults(double h) const override {
     const double r = h / kPaperRadius;
@@ -342,7 +351,7 @@ class FishermanKnot : public Knot {
   void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override {
     const double r = h / kPaperRadius, e = known.knot_distance;
     out.knot_distance = std::min(kKnotDistance * r, kFractionOfLoop * known.end_to_end);
-    // What further windings take up: of the strands outside of both coils, and of the tails.
+    // Further windings need more room: on the strands outside of both coils, and on the tails.
     const double longer = 2.0 * runs_out(windings(known), FishermanShape().looseness, h);
     const bool roomy = kEndToEnd * r >= e + 12.0 * h + longer && roller_diameter <= kRollerDiameter * r;
     if (!roomy) out.end_to_end = std::max(kEndToEnd * r, least_end_to_end(e, roller_diameter, h) + longer);
@@ -356,7 +365,7 @@ class FishermanKnot : public Knot {
   }
 
   void check(const SpecimenOptions& specimen, double h) const override {
-    // Coarse: room for the coils themselves. The shape that is really laid judges itself.
+    // A coarse check: room for the coils. fisherman_loop() checks the shape itself.
     if (specimen.knot_distance < kLeastDistance * h)
       throw InvalidInput("specimen.knot_distance", format_number(specimen.knot_distance),
                          "at least 12 radii, " + least_text(kLeastDistance * h) + " m");
@@ -386,29 +395,14 @@ class FishermanKnot : public Knot {
   }
 
   /// The bottom and the top of the loop.
-  std::vector<HeldNode> held_below(const Centreline& centreline, bool) const override {
+  std::vector<HeldNode> held_lower(const Centreline& centreline, bool) const override {
     const int node = centreline.nearest_node(centreline.lower_apex);
     return {HeldNode{node, node + 1}};
   }
 
-  std::vector<HeldNode> held_above(const Centreline& centreline, bool) const override {
+  std::vector<HeldNode> held_upper(const Centreline& centreline, bool) const override {
     const int node = centreline.nearest_node(centreline.upper_apex);
     return {HeldNode{node, node + 1}};
-  }
-
- protected:
-  /// Another knot of the same loop.
-  explicit FishermanKnot(KnotDescription about) : Knot(std::move(about)) {}
-  static KnotDescription description() {
-    KnotDescription out;
-    out.name = "fisherman";
-    out.title = "Fisherman's knot";
-    out.keys = {"handedness", "knot_distance", "end_to_end", "tail", "preload", "refinement"};
-    out.knots = 2;
-    out.loop = true;
-    out.drawn_coil = FishermanShape().looseness;
-    out.error_study = ErrorStudy::kFisherman;
-    return out;
   }
 
  private:
@@ -420,7 +414,12 @@ class FishermanKnot : public Knot {
 /// fisherman's knot, with each tail wound `turns` times around the other strand and itself before it goes through.
 class MultipleFishermanKnot final : public FishermanKnot {
  public:
-  MultipleFishermanKnot() : FishermanKnot(description()) {}
+  MultipleFishermanKnot() {
+    about_.name = "multiple_fisherman";
+    about_.title = "Multiple fisherman's knot";
+    about_.keys.insert(about_.keys.begin(), "turns");
+    about_.error_study = ErrorStudy::kNone;
+  }
 
   SpecimenOptions defaults(double h) const override {
     SpecimenOptions out = FishermanKnot::defaults(h);
@@ -435,27 +434,13 @@ class MultipleFishermanKnot final : public FishermanKnot {
   }
 
  private:
-  static KnotDescription description() {
-    KnotDescription out = FishermanKnot::description();
-    out.name = "multiple_fisherman";
-    out.title = "Multiple fisherman's knot";
-    out.keys.insert(out.keys.begin(), "turns");
-    out.error_study = ErrorStudy::kNone;
-    return out;
-  }
   int windings(const SpecimenOptions& specimen) const override { return specimen.turns; }
 };
 
 }  // namespace
 
-const Knot& fisherman_knot() {
-  static const FishermanKnot knot;
-  return knot;
-}
+std::unique_ptr<const Knot> fisherman_knot() { return std::make_unique<FishermanKnot>(); }
 
-const Knot& multiple_fisherman_knot() {
-  static const MultipleFishermanKnot knot;
-  return knot;
-}
+std::unique_ptr<const Knot> multiple_fisherman_knot() { return std::make_unique<MultipleFishermanKnot>(); }
 
 }  // namespace knot_utm

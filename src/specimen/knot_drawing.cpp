@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/roller_contact.hpp"
@@ -18,16 +19,16 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kStraightToGrip = 4.0;  // of a held strand, at least, between its last point and its grip [h]
-constexpr double kSame = 1.0 + 1e-6;     // over a length that is rounded in a method
-constexpr double kMayCut = 0.99;         // of the distance of a post, by edges that cut the corners of a bend
+constexpr double kStraightToGrip = 4.0;  // least length of a held strand between its last point and its grip [h]
+constexpr double kSame = 1.0 + 1e-6;     // ratio of lengths up to which they are equal but for rounding in a method
+constexpr double kMayCut = 0.99;  // least distance from a post over that at touch: edges cut the corners of a bend
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Where a curve through four points is at `t`, from 0 at the second to 1 at the third (Barry and Goldman's pyramid,
-/// with knots whose distances are the square roots of those of the points).
+/// The centripetal Catmull-Rom curve through four points at parameter `t`, 0 at the second point and 1 at the third, by
+/// the recursion of Barry and Goldman.
 Vec3 catmull_rom(const Vec3 (&p)[4], double t) {
   double knot[4] = {0.0};
   for (int i = 1; i < 4; ++i) knot[i] = knot[i - 1] + std::sqrt((p[i] - p[i - 1]).norm());
@@ -39,19 +40,20 @@ Vec3 catmull_rom(const Vec3 (&p)[4], double t) {
   return between(between(a, b, 0, 2), between(b, c, 1, 3), 1, 2);
 }
 
-/// A drawing in metres, with the lower grip at z = 0.
-class Drawer {
+struct SketchedStrand {
+  Points points;
+  std::vector<double> places;  // arclengths along its edges of the points of the drawing [m]
+};
+
+/// Sketches the strands of a drawing in metres, with the lower grip at z = 0.
+class Sketcher {
  public:
-  Drawer(const KnotDrawing& drawing, const DrawnSize& size)
+  Sketcher(const KnotDrawing& drawing, const SketchSize& size)
       : drawing_(drawing), size_(size), origin_(height_of_origin(drawing, size)) {}
 
-  struct Drawn {
-    Points points;
-    std::vector<double> places;  // of the points it is drawn through: arclengths along its edges [m]
-  };
-  /// `part`: its radius and edge length over those of the thickest one.
-  Drawn strand(const KnotDrawing::Strand& strand, double part) const {
-    const double spacing = drawing_spacing(part * size_.radius, part * size_.edge_length / size_.refinement);
+  /// `part`: radius and edge length of the strand over those of the thickest one.
+  SketchedStrand strand(const KnotDrawing::Strand& strand, double part) const {
+    const double spacing = sketch_spacing(part * size_.radius, part * size_.edge_length / size_.refinement);
     std::vector<Vec3> points;
     for (const Vec3& point : strand.points) points.push_back(placed(point));
     const Vec3 begin = run_out(strand.ends[0], points[0], points[1]),
@@ -76,7 +78,7 @@ class Drawer {
 
   Vec3 placed(const Vec3& point) const { return size_.radius * point + origin_ * Vec3::UnitZ(); }
 
-  /// Where an end's strand ends, which comes from `before` to its last point.
+  /// The end of a strand beyond its last point, which follows `before`.
   Vec3 run_out(const std::string& end, const Vec3& last, const Vec3& before) const {
     switch (drawing_.held(end)) {
       case KnotDrawing::End::kLower:
@@ -90,17 +92,17 @@ class Drawer {
   }
 
  private:
-  /// On the way from `from` to `towards`, as far away as `other` is.
+  /// The point in the direction from `from` to `towards` whose distance is that of `other`.
   static Vec3 ahead(const Vec3& from, const Vec3& towards, const Vec3& other) {
     return from + (other - from).norm() * (towards - from).normalized();
   }
 
   const KnotDrawing& drawing_;
-  const DrawnSize& size_;
+  const SketchSize& size_;
   double origin_;
 };
 
-void check_posts(const KnotDrawing& drawing, const DrawnSize& size, const Centreline& rod) {
+void check_posts(const KnotDrawing& drawing, const SketchSize& size, const Centreline& rod) {
   const double h = size.radius;
   const Vec3 origin(0.0, 0.0, height_of_origin(drawing, size));
   for (std::size_t k = 0; k < drawing.posts.size(); ++k) {
@@ -119,7 +121,7 @@ void check_posts(const KnotDrawing& drawing, const DrawnSize& size, const Centre
   }
 }
 
-/// A rod cannot bend around a circle of its own radius without touching itself.
+/// A rod cannot bend with a radius below its own.
 void check_bends(const KnotDrawing& drawing, double radius, const Points& strand) {
   for (Eigen::Index i = 1; i + 1 < strand.cols(); ++i) {
     const Vec3 before = strand.col(i) - strand.col(i - 1), after = strand.col(i + 1) - strand.col(i);
@@ -149,7 +151,7 @@ struct NamedNodes {
   std::vector<int> landmarks;
 };
 
-void check_room(const KnotDrawing& drawing, const DrawnSize& size) {
+void check_room(const KnotDrawing& drawing, const SketchSize& size) {
   const double least = least_end_to_end(drawing, size.radius);
   if (!(size.end_to_end >= least))
     throw InvalidInput("specimen.end_to_end", text(size.end_to_end),
@@ -159,12 +161,12 @@ void check_room(const KnotDrawing& drawing, const DrawnSize& size) {
                        "auto, " + text(least) + " m, which its posts are apart, for knot: " + drawing.name);
 }
 
-/// One behind the other, joined by cut edges.
-NamedNodes join(const KnotDrawing& drawing, const std::vector<Drawer::Drawn>& strands, Centreline& out) {
+/// Joins strands to one rod by cut edges, and finds the nodes that the drawing names.
+NamedNodes join(const KnotDrawing& drawing, const std::vector<SketchedStrand>& strands, Centreline& out) {
   NamedNodes named;
   named.landmarks.resize(drawing.landmarks.size());
   Eigen::Index nodes = 0;
-  for (const Drawer::Drawn& strand : strands) nodes += strand.points.cols();
+  for (const SketchedStrand& strand : strands) nodes += strand.points.cols();
   out.points.resize(3, nodes);
   int begin = 0;
   for (std::size_t k = 0; k < strands.size(); ++k) {
@@ -182,12 +184,12 @@ NamedNodes join(const KnotDrawing& drawing, const std::vector<Drawer::Drawn>& st
   return named;
 }
 
-/// What is held, pulled, hung and read.
+/// Which nodes are held, pulled, loaded by weights, and read.
 void name_nodes(const KnotDrawing& drawing, const NamedNodes& named, Centreline& out) {
   for (const auto& [name, at] : named.ends) {
-    if (contains(drawing.lower, name)) out.below.push_back({at.node, at.next});
-    if (contains(drawing.upper, name)) out.above.push_back({at.node, at.next});
-    if (drawing.held(name) == KnotDrawing::End::kFree) out.free.push_back(at.node);
+    if (contains(drawing.lower, name)) out.held_lower.push_back({at.node, at.next});
+    if (contains(drawing.upper, name)) out.held_upper.push_back({at.node, at.next});
+    if (drawing.held(name) == KnotDrawing::End::kFree) out.free_ends.push_back(at.node);
   }
   const auto pulled = [&](const std::vector<KnotDrawing::Pull>& pulls) {
     std::vector<PulledEnd> found;
@@ -199,15 +201,15 @@ void name_nodes(const KnotDrawing& drawing, const NamedNodes& named, Centreline&
           found.push_back({at.node, (out.points.col(at.node) - out.points.col(at.next)).normalized(), pull.fraction});
     return found;
   };
-  for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) out.tied.push_back(pulled(together));
+  for (const std::vector<KnotDrawing::Pull>& together : drawing.tie) out.pull_groups.push_back(pulled(together));
   for (const KnotDrawing::Pull& weight : drawing.weights) {
     for (const auto& [name, at] : named.ends)
       if (name == weight.end) out.weights.push_back({at.node, weight.fraction});
     for (std::size_t i = 0; i < named.landmarks.size(); ++i)
       if (drawing.landmarks[i].name == weight.end) out.weights.push_back({named.landmarks[i], weight.fraction});
   }
-  for (const KnotDrawing::Reading& reading : drawing.read)
-    out.read.push_back({reading.kind, named.landmarks[reading.first], named.landmarks[reading.second]});
+  for (const KnotDrawing::Reading& reading : drawing.readings)
+    out.readings.push_back({reading.kind, named.landmarks[reading.first], named.landmarks[reading.second]});
 }
 
 }  // namespace
@@ -217,14 +219,12 @@ KnotDrawing::End KnotDrawing::held(const std::string& end) const {
   return contains(upper, end) ? End::kUpper : End::kFree;
 }
 
-bool KnotDrawing::has_free_ends() const { return lower.size() + upper.size() < 2 * strands.size(); }
-
 const KnotDrawing::Post* KnotDrawing::post_of(bool upper_grip) const {
   const auto found = std::find_if(posts.begin(), posts.end(), [&](const Post& one) { return one.upper == upper_grip; });
   return (upper_grip ? upper : lower).empty() && found != posts.end() ? &*found : nullptr;
 }
 
-Vec3 KnotDrawing::held_below() const {
+Vec3 KnotDrawing::point_in_lower_grip() const {
   for (const Strand& strand : strands) {
     if (held(strand.ends[0]) == End::kLower) return strand.points.front();
     if (held(strand.ends[1]) == End::kLower) return strand.points.back();
@@ -254,7 +254,7 @@ double least_end_to_end(const KnotDrawing& drawing, double radius) {
   return (drawing.top() - drawing.bottom() + lower + upper) * radius;
 }
 
-double height_of_origin(const KnotDrawing& drawing, const DrawnSize& size) {
+double height_of_origin(const KnotDrawing& drawing, const SketchSize& size) {
   if (drawing.lower.empty()) return -drawing.bottom() * size.radius;
   if (drawing.upper.empty()) return size.end_to_end - drawing.top() * size.radius;
   return 0.5 * (size.end_to_end - (drawing.top() + drawing.bottom()) * size.radius);
@@ -269,15 +269,15 @@ Roller roller_of(const KnotDrawing::Post& post, double radius, const Vec3& origi
   return out;
 }
 
-Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
+Centreline sketch(const KnotDrawing& drawing, const SketchSize& size) {
   check_radius(size.radius);
   check_edge_length(size.edge_length, size.radius);
   check_room(drawing, size);
-  const Drawer drawer(drawing, size);
-  std::vector<Drawer::Drawn> strands;
+  const Sketcher sketcher(drawing, size);
+  std::vector<SketchedStrand> strands;
   for (const KnotDrawing::Strand& strand : drawing.strands) {
     const double part = strands.empty() ? size.first : size.others;
-    strands.push_back(drawer.strand(strand, part));
+    strands.push_back(sketcher.strand(strand, part));
     check_bends(drawing, part * size.radius, strands.back().points);
   }
   Centreline out;
@@ -295,33 +295,29 @@ Centreline draw(const KnotDrawing& drawing, const DrawnSize& size) {
 
 namespace {
 
-constexpr double kStrandToGrip = 20.0;  // of straight strand between a knot and each grip [h]
-constexpr double kDrawnTail = 30.0;     // [h]
-constexpr double kDrawnPull = 80.0;     // of a pull: by then a drawn knot is tight, and slides if it does [h]
-constexpr double kDrawnCoil = 4.0;      // radius of the bends of a drawn knot [h]
-
-KnotDescription describe_drawn_knot() {
-  KnotDescription out;
-  out.name = "a file of config/knots/";
-  out.title = "Knot from a file";
-  out.keys = {"end_to_end", "tail", "preload", "refinement", "natural_curvature"};
-  out.any_shape = true;
-  out.tied_by_ends = true;
-  out.drawn_coil = kDrawnCoil;
-  out.error_study = ErrorStudy::kDrawnKnot;
-  return out;
-}
+constexpr double kStrandToGrip = 20.0;  // straight strand between a knot and each grip [h]
+constexpr double kSketchedTail = 30.0;  // [h]
+constexpr double kSketchedPull = 80.0;  // of a pull: by then a sketched knot is tight, and slides if it does [h]
+constexpr double kSketchedCoil = 4.0;   // radius of the bends of a sketched knot [h]
 
 /// A knot that a file describes, of one or more ropes (knot_drawing.hpp). The grips hold ends of its ropes; pulling at
 /// the free ones ties it.
-class DrawnKnot final : public Knot {
+class SketchedKnot final : public Knot {
  public:
-  DrawnKnot() : Knot(describe_drawn_knot()) {}
+  SketchedKnot() {
+    about_.name = "a file of config/knots/";
+    about_.title = "Knot from a file";
+    about_.keys = {"end_to_end", "tail", "preload", "refinement", "natural_curvature"};
+    about_.any_shape = true;
+    about_.tied_by_ends = true;
+    about_.sketched_coil = kSketchedCoil;
+    about_.error_study = ErrorStudy::kSketchedKnot;
+  }
 
   SpecimenOptions defaults(double h) const override {
     SpecimenOptions out;
     out.edge_length = kPaperKnottedEdge * (h / kPaperRadius);
-    out.tail = kDrawnTail * h;
+    out.tail = kSketchedTail * h;
     return out;
   }
 
@@ -330,12 +326,12 @@ class DrawnKnot final : public Knot {
     out.end_to_end = least_end_to_end(*known.drawing, h) + (on_posts ? 0.0 : 2.0 * kStrandToGrip * h);
   }
 
-  double pull(const SpecimenOptions&, double h) const override { return kDrawnPull * h; }
+  double pull(const SpecimenOptions&, double h) const override { return kSketchedPull * h; }
   void check(const SpecimenOptions&, double) const override {}
 
   Centreline centreline(const SpecimenOptions& specimen, const Material& material,
                         const Mounting& mounting) const override {
-    return draw(*specimen.drawing, size_of(specimen, material, mounting.refinement));
+    return sketch(*specimen.drawing, size_of(specimen, material, mounting.refinement));
   }
 
   Supports supports(const SpecimenOptions& specimen, const Material& material) const override {
@@ -348,7 +344,7 @@ class DrawnKnot final : public Knot {
   }
 
  private:
-  static DrawnSize size_of(const SpecimenOptions& specimen, const Material& material, double refinement) {
+  static SketchSize size_of(const SpecimenOptions& specimen, const Material& material, double refinement) {
     const double h = thickest(material), others = material.other ? material.other->radius : material.radius;
     return {h, specimen.end_to_end, specimen.tail, specimen.edge_length, material.radius / h, others / h, refinement};
   }
@@ -356,9 +352,6 @@ class DrawnKnot final : public Knot {
 
 }  // namespace
 
-const Knot& drawn_knot() {
-  static const DrawnKnot knot;
-  return knot;
-}
+std::unique_ptr<const Knot> sketched_knot() { return std::make_unique<SketchedKnot>(); }
 
 }  // namespace knot_utm

@@ -31,7 +31,7 @@ double first_within(double reach, const Vec3& p, const Vec3& a, const Vec3& q, c
   return inside;
 }
 
-constexpr double kOutside = 0.05;  // of a rope's normal force: what lies before it is the tail
+constexpr double kOutside = 0.05;  // share of a rope's normal force at which its tail ends
 
 NodeRange between(Eigen::Index a, Eigen::Index b) {
   return {static_cast<int>(std::min(a, b)), static_cast<int>(std::max(a, b))};
@@ -40,7 +40,7 @@ NodeRange between(Eigen::Index a, Eigen::Index b) {
 }  // namespace
 
 KnotReadings::KnotReadings(const Centreline& centreline, const RodProperties& rod)
-    : read_(centreline.read), arclength_(rod.arclength()), radius_(rod.edges()) {
+    : read_(centreline.readings), arclength_(rod.arclength()), radius_(rod.edges()) {
   for (Eigen::Index j = 0; j < rod.edges(); ++j) radius_[j] = rod.is_cut(j) ? 0.0 : rod.material_at(j).radius;
 }
 
@@ -109,7 +109,7 @@ FreeEnds::FreeEnds(const Centreline& centreline, const RodProperties& rod) : arc
   int first = 0;
   const auto add_rope = [&](int last) {
     ropes_.push_back({first, last});
-    for (const int end : centreline.free) {
+    for (const int end : centreline.free_ends) {
       if (end == first) tails_.push_back({first, last, 1});
       if (end == last) tails_.push_back({last, first, -1});
     }
@@ -128,7 +128,7 @@ double FreeEnds::length(const Tail& tail, const Eigen::VectorXd& normal_force) c
   double sum = 0.0;
   int i = tail.begin;
   while (sum + normal_force[i] < borne) sum += normal_force[i], i += tail.step;
-  // The force of a node is spread over the edge before it.
+  // The force of a node counts as spread over the edge before it.
   const double part = (borne - sum) / normal_force[i], at = arclength_[i],
                before = i == tail.begin ? at : arclength_[i - tail.step];
   return std::abs(before + part * (at - before) - arclength_[tail.begin]);

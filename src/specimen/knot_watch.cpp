@@ -16,7 +16,7 @@ KnotType KnotWatch::follow(const Points& points) {
   if ((points - last_).colwise().squaredNorm().maxCoeff() < radius_ * radius_) return type_;
   try {
     const LoopTopology::Reading now = read(points);
-    // Without a knot there is none to be lost: how the ends are joined may still make one of an arch or a helix.
+    // A rod that began without a knot cannot lose it, but joining the ends of an arch or a helix may make one.
     const bool unknotted = !loop_ && start_.polynomial == KnotPolynomial{1};
     type_ = unknotted || now.same_knot(start_) ? KnotType::kKept : KnotType::kChanged;
   } catch (const std::runtime_error&) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "knot_utm/specimen/knot.hpp"
@@ -16,21 +17,17 @@ namespace {
 
 constexpr double kShippedLength = 0.25;  // of the shipped method, for the paper's radius [m]
 
-KnotDescription describe_straight_rod() {
-  KnotDescription out;
-  out.name = "straight";
-  out.title = "Straight rod";
-  out.keys = {"length"};
-  out.straight = true;
-  out.error_study = ErrorStudy::kStraight;
-  return out;
-}
-
 /// knot: straight. A straight rod along the load axis. Its `length` is that between the grips, so that the load grows
 /// by k_s/length per extension (`stretching_law: linear`).
 class StraightRod final : public Knot {
  public:
-  StraightRod() : Knot(describe_straight_rod()) {}
+  StraightRod() {
+    about_.name = "straight";
+    about_.title = "Straight rod";
+    about_.keys = {"length"};
+    about_.straight = true;
+    about_.error_study = ErrorStudy::kStraight;
+  }
 
   SpecimenOptions defaults(double h) const override {
     const double r = h / kPaperRadius;
@@ -49,7 +46,7 @@ class StraightRod final : public Knot {
                         const Mounting& mounting) const override {
     Centreline out = knot_utm::straight(specimen.length, material.radius, specimen.edge_length);
     if (!mounting.clamps) return out;
-    // What the clamps hold is one edge more at each end.
+    // Each clamp holds one more edge, beyond `length`.
     const Eigen::Index nodes = out.points.cols() + 2;
     const double edge = out.length() / static_cast<double>(out.points.cols() - 1);
     out.points = Points::Zero(3, nodes);
@@ -57,11 +54,11 @@ class StraightRod final : public Knot {
     out.points.row(2).array() -= edge;
     return out;
   }
-  std::vector<HeldNode> held_below(const Centreline& centreline, bool clamped) const override {
-    return inwards(Knot::held_below(centreline, clamped), clamped);
+  std::vector<HeldNode> held_lower(const Centreline& centreline, bool clamped) const override {
+    return inwards(Knot::held_lower(centreline, clamped), clamped);
   }
-  std::vector<HeldNode> held_above(const Centreline& centreline, bool clamped) const override {
-    return inwards(Knot::held_above(centreline, clamped), clamped);
+  std::vector<HeldNode> held_upper(const Centreline& centreline, bool clamped) const override {
+    return inwards(Knot::held_upper(centreline, clamped), clamped);
   }
 
  private:
@@ -74,10 +71,7 @@ class StraightRod final : public Knot {
 
 }  // namespace
 
-const Knot& straight_rod() {
-  static const StraightRod knot;
-  return knot;
-}
+std::unique_ptr<const Knot> straight_rod() { return std::make_unique<StraightRod>(); }
 
 bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
   return knot_of(specimen).about().loop && machine.grips == GripKind::kRollers;
@@ -93,18 +87,23 @@ bool clamp_turns(const SpecimenOptions& specimen, const MachineOptions& machine)
 }
 
 // Each is defined in a file of this folder.
-const Knot& fisherman_knot();
-const Knot& multiple_fisherman_knot();
-const Knot& overhand_knot();
-const Knot& straight_rod();
-const Knot& drawn_rod();
-const Knot& capstan();
-const Knot& drawn_knot();
+std::unique_ptr<const Knot> fisherman_knot();
+std::unique_ptr<const Knot> multiple_fisherman_knot();
+std::unique_ptr<const Knot> overhand_knot();
+std::unique_ptr<const Knot> straight_rod();
+std::unique_ptr<const Knot> sketched_rod();
+std::unique_ptr<const Knot> capstan();
+std::unique_ptr<const Knot> sketched_knot();
 
 const std::vector<const Knot*>& knots() {
-  static const std::vector<const Knot*> all = {
-      &fisherman_knot(), &multiple_fisherman_knot(), &overhand_knot(), &straight_rod(), &drawn_rod(), &capstan(),
-      &drawn_knot()};
+  static const std::unique_ptr<const Knot> owned[] = {
+      fisherman_knot(), multiple_fisherman_knot(), overhand_knot(), straight_rod(), sketched_rod(), capstan(),
+      sketched_knot()};
+  static const std::vector<const Knot*> all = [] {
+    std::vector<const Knot*> out;
+    for (const auto& knot : owned) out.push_back(knot.get());
+    return out;
+  }();
   return all;
 }
 
@@ -127,7 +126,7 @@ bool type_is_followed(const SpecimenOptions& specimen) {
 std::vector<std::string> knot_names(const KnotDrawing* drawing) {
   std::vector<std::string> out;
   for (const Knot* knot : knots())
-    if (knot != &drawn_knot()) out.emplace_back(knot->about().name);
+    if (!knot->about().tied_by_ends) out.emplace_back(knot->about().name);  // a knot from a file has the name of that
   if (drawing != nullptr) out.push_back(drawing->name);
   return out;
 }
@@ -180,19 +179,13 @@ bool Knot::has(const std::string& key) const {
   return std::find(about_.keys.begin(), about_.keys.end(), key) != about_.keys.end();
 }
 
-void Knot::suit(const SpecimenOptions&, double, double, SpecimenOptions&) const {}
-
-std::optional<double> Knot::roller_diameter(double) const { return std::nullopt; }
-
-Supports Knot::supports(const SpecimenOptions&, const Material&) const { return {}; }
-
-std::vector<HeldNode> Knot::held_below(const Centreline& centreline, bool) const {
-  if (!centreline.above.empty() || !centreline.below.empty()) return centreline.below;
+std::vector<HeldNode> Knot::held_lower(const Centreline& centreline, bool) const {
+  if (!centreline.held_upper.empty() || !centreline.held_lower.empty()) return centreline.held_lower;
   return {HeldNode{0, 1}};
 }
 
-std::vector<HeldNode> Knot::held_above(const Centreline& centreline, bool) const {
-  if (!centreline.above.empty() || !centreline.below.empty()) return centreline.above;
+std::vector<HeldNode> Knot::held_upper(const Centreline& centreline, bool) const {
+  if (!centreline.held_upper.empty() || !centreline.held_lower.empty()) return centreline.held_upper;
   const int last = static_cast<int>(centreline.points.cols()) - 1;
   return {HeldNode{last, last - 1}};
 }

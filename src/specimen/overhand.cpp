@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "knot_utm/specimen/knot.hpp"
@@ -17,8 +18,8 @@ namespace {
 constexpr double kLength = 1.0;    // of the shipped method, for the paper's radius [m]
 constexpr double kEndToEnd = 0.7;  // [of its length]
 
-/// The least length of rod, beyond its end-to-end distance, that an overhand knot of so many turns takes up [m].
-double taken_up(int turns, double h) { return 1.1 * (34.5 + 40.0 * turns) * h; }
+/// The least excess of the rod's length over its end-to-end distance with which an overhand of so many turns fits [m].
+double least_excess(int turns, double h) { return 1.1 * (34.5 + 40.0 * turns) * h; }
 
 /// Length of the braid: the loose knot's own, but never so short that its strands would overlap.
 double braid_length(double radius, int turns, double loop_radius) {
@@ -28,7 +29,7 @@ double braid_length(double radius, int turns, double loop_radius) {
 }
 
 /// The overhand with a loop of the given radius, before smoothing; straight tails reach the ends.
-Path draw_overhand(const OverhandShape& shape, double loop_radius, double spacing) {
+Path sketch_overhand(const OverhandShape& shape, double loop_radius, double spacing) {
   const double half = 0.5 * braid_length(shape.radius, shape.turns, loop_radius);
   const double angle = (2 * shape.turns + 1) * M_PI;
   const double middle = 0.5 * shape.end_to_end;
@@ -55,7 +56,7 @@ Path draw_overhand(const OverhandShape& shape, double loop_radius, double spacin
   return path;
 }
 
-/// A tight knot of one turn takes up 40 h of the rod, each turn more another 15 h: its middle.
+/// Fine edges in the middle, from which the tight knot is made: 40 h of rod for one turn, 15 h for each further one.
 EdgeGrading grading(const OverhandShape& shape, double path_length) {
   const double half = (20.0 + 7.5 * (shape.turns - 1)) * shape.radius;
   const double middle = 0.5 * path_length;
@@ -70,13 +71,13 @@ void check_overhand(const OverhandShape& shape) {
     throw InvalidInput("specimen.length", text(shape.length), "above 0 and at most 100 m");
 }
 
-/// What a loop of some radius leaves between the grips, with straight tails of 4 h at both ends [m].
+/// Length between the grips that is left beside the braid and straight tails of 4 h at both ends [m].
 double room(const OverhandShape& shape, double loop_radius) {
   return shape.end_to_end - braid_length(shape.radius, shape.turns, loop_radius) - 8.0 * shape.radius;
 }
 
 double rod_length(const OverhandShape& shape, double loop_radius, double spacing) {
-  const Path path = draw_overhand(shape, loop_radius, spacing);
+  const Path path = sketch_overhand(shape, loop_radius, spacing);
   const Points smooth = smoothed(path, shape.radius, spacing);
   return (smooth.rightCols(smooth.cols() - 1) - smooth.leftCols(smooth.cols() - 1)).colwise().norm().sum();
 }
@@ -120,7 +121,7 @@ OverhandShape with_end_to_end(const OverhandShape& shape, double end_to_end) {
   return out;
 }
 
-/// By how much the rod is longer than its end-to-end distance where the loop is as large as that has room for [m].
+/// The largest excess of the rod's length over its end-to-end distance, with the largest loop that has room [m].
 double longest_knot(const OverhandShape& shape, double spacing) {
   return rod_length(shape, largest_loop(shape, kSmallestLoop * shape.radius), spacing) - shape.end_to_end;
 }
@@ -131,7 +132,7 @@ double longest_knot(const OverhandShape& shape, double spacing) {
     throw InvalidInput("specimen.length", text(shape.length),
                        "more than " + least_text(shape.length + narrowest - widest) +
                            " m, which the smallest knot and its ends take up");
-  // The larger the distance, the more rod a knot may take up.
+  // The larger the distance, the more excess length a knot has room for.
   double low = narrowest, high = widest;
   while (high - low > 1e-4 * high) {
     const double middle = 0.5 * (low + high);
@@ -162,8 +163,8 @@ double fitting_loop(const OverhandShape& shape, double spacing) {
 
 Centreline overhand(const OverhandShape& shape) {
   check_overhand(shape);
-  const double spacing = drawing_spacing(shape.radius, shape.edge_length);
-  const Path path = draw_overhand(shape, fitting_loop(shape, spacing), spacing);
+  const double spacing = sketch_spacing(shape.radius, shape.edge_length);
+  const Path path = sketch_overhand(shape, fitting_loop(shape, spacing), spacing);
   Centreline centreline;
   centreline.points = Resampled(path, smoothed(path, shape.radius, spacing), grading(shape, path.length())).points;
   check_no_overlap(centreline, shape.radius, "specimen.end_to_end", text(shape.end_to_end));
@@ -172,19 +173,15 @@ Centreline overhand(const OverhandShape& shape) {
 
 namespace {
 
-KnotDescription describe_overhand() {
-  KnotDescription out;
-  out.name = "overhand";
-  out.title = "Overhand knot";
-  out.keys = {"turns", "length", "end_to_end", "refinement"};
-  out.knots = 1;
-  return out;
-}
-
 /// knot: overhand.
 class OverhandKnot final : public Knot {
  public:
-  OverhandKnot() : Knot(describe_overhand()) {}
+  OverhandKnot() {
+    about_.name = "overhand";
+    about_.title = "Overhand knot";
+    about_.keys = {"turns", "length", "end_to_end", "refinement"};
+    about_.knots = 1;
+  }
 
   SpecimenOptions defaults(double h) const override {
     const double r = h / kPaperRadius;
@@ -196,11 +193,11 @@ class OverhandKnot final : public Knot {
   }
 
   void suit(const SpecimenOptions& known, double, double h, SpecimenOptions& out) const override {
-    const double r = h / kPaperRadius, length = known.length, least = taken_up(known.turns, h);
+    const double r = h / kPaperRadius, length = known.length, least = least_excess(known.turns, h);
     const double loose = (1.0 - kEndToEnd) * length;
     out.end_to_end = loose >= least ? kEndToEnd * length : length - least;
     const double end_to_end = known.end_to_end;
-    const bool is_default = end_to_end == kEndToEnd * kLength * r;  // it makes room for the knot itself
+    const bool is_default = end_to_end == kEndToEnd * kLength * r;  // this value is adapted above, the length is not
     if (!is_default && kLength * r - end_to_end < least)
       out.length = end_to_end + std::max((1.0 - kEndToEnd) * kLength * r, least);
   }
@@ -229,9 +226,6 @@ class OverhandKnot final : public Knot {
 
 }  // namespace
 
-const Knot& overhand_knot() {
-  static const OverhandKnot knot;
-  return knot;
-}
+std::unique_ptr<const Knot> overhand_knot() { return std::make_unique<OverhandKnot>(); }
 
 }  // namespace knot_utm

@@ -60,15 +60,9 @@ double Resampled::operator()(double s) const {
   return node_arclength_[i - 1] + t * (node_arclength_[i] - node_arclength_[i - 1]);
 }
 
-namespace {
-
-constexpr int kDigits = 4;
-
-}  // namespace
-
 std::string text(double value) {
   std::ostringstream out;
-  out.precision(kDigits);
+  out.precision(4);
   out << value;
   return out.str();
 }

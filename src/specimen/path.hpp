@@ -12,7 +12,7 @@
 namespace knot_utm {
 
 /// Spacing of the points of a curve before it is resampled [m].
-inline double drawing_spacing(double radius, double edge_length) { return std::min(radius, edge_length) / 16.0; }
+inline double sketch_spacing(double radius, double edge_length) { return std::min(radius, edge_length) / 16.0; }
 
 /// Radius of a circle that has the given radius after it is smoothed by a Gaussian with the standard deviation
 /// `deviation` [m].
@@ -91,7 +91,8 @@ std::string text(double value);
 /// A place for a message, "(1.2, 0.0, -3.0)".
 std::string place_text(const Vec3& place);
 
-/// Throw InvalidInput where a rod of this radius [m] cannot be drawn, or cannot be drawn with edges of this length [m].
+/// Throw InvalidInput where a rod of this radius [m] cannot be sketched, or cannot be sketched with edges of this
+/// length [m].
 void check_radius(double radius);
 void check_edge_length(double edge_length, double radius);
 

@@ -17,8 +17,8 @@ class ChordWalk {
 
   double length() const { return arclength_.back(); }
 
-  /// How many chords of this length fit, the rest of the last one as a fraction of it. `visit` gets every node that
-  /// the chords reach, and where it lies along the polyline.
+  /// How many chords of this length fit, an incomplete last one counting as a fraction. `visit` gets the end of every
+  /// whole chord, and its arclength on the polyline.
   template <typename Visit>
   double walk(double chord, Visit visit) const {
     Vec3 from = points_.col(0);
@@ -152,7 +152,7 @@ NearestPlaces nearest_places(const Points& points, double exclusion, const std::
   const Eigen::Map<const Eigen::VectorXd> begin(along.data(), edges + 1);
   const double thickest = radii.empty() ? 1.0 : *std::max_element(radii.begin(), radii.end());
   Eigen::VectorXd radius = Eigen::VectorXd::Constant(edges, thickest);  // of each edge
-  Eigen::VectorXi piece(edges);                                         // that of each edge; -1: it is cut
+  Eigen::VectorXi piece(edges);                                         // rope of each edge; -1: it is cut
   int number = 0;
   for (const Piece& one : pieces_between(points.cols(), cuts)) {
     if (!radii.empty()) radius.segment(one.begin, one.nodes() - 1).setConstant(radii[static_cast<std::size_t>(number)]);
@@ -167,14 +167,16 @@ NearestPlaces nearest_places(const Points& points, double exclusion, const std::
     for (Eigen::Index j = i + 1; j < edges; ++j) {
       if (piece[j] < 0) continue;
       if (piece[i] == piece[j] && begin[j] - begin[i + 1] < along_least) continue;
-      const double thinner = 2.0 * thickest - radius[i] - radius[j], nearer = best.distance + best.thinner - thinner;
-      const double reach = std::max(nearer + 0.5 * (length[i] + length[j]), 0.0);
+      const double radius_deficit = 2.0 * thickest - radius[i] - radius[j];
+      // Centrelines of this pair must be nearer than this for its surfaces to be the nearest ones so far.
+      const double bound = best.distance + best.radius_deficit - radius_deficit;
+      const double reach = std::max(bound + 0.5 * (length[i] + length[j]), 0.0);
       if ((middle.col(i) - middle.col(j)).squaredNorm() >= reach * reach) continue;
       const ClosestPoints at = closest_points(points.col(i), edge.col(i), points.col(j), edge.col(j), 0.0);
       const Vec3 gap = points.col(i) + at.t * edge.col(i) - points.col(j) - at.u * edge.col(j);
       const double distance = gap.norm();
-      if (distance < nearer)
-        best = {distance, thinner, begin[i] + at.t * length[i], begin[j] + at.u * length[j],
+      if (distance < bound)
+        best = {distance, radius_deficit, begin[i] + at.t * length[i], begin[j] + at.u * length[j],
                 points.col(j) + at.u * edge.col(j) + 0.5 * gap};
     }
   }

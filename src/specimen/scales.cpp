@@ -16,15 +16,15 @@ namespace {
 constexpr double kBendingTime = 2e-4;  // tau [s]
 // With 3.7 s, that of its own mass, a loose overhand in a rod of 4 m swings through its whole pull, with 0.8 s a tenth
 // of it; with 0.1 s its force is steady (doc/developers/measured.md).
-constexpr double kSlackTime = 0.1;  // of a slack loop [s]
+constexpr double kSlackTime = 0.1;  // in which a slack loop springs, at most [s]
 // The drag of a loop is no less than that of a rod with this time. A thread with tau = 1.9e-7 s, whose drag followed
 // from its own mass, coasted around its rollers at 80 m/s, in steps that led nowhere (doc/developers/measured.md).
 constexpr double kCoastingTime = 2e-5;  // tau [s]
 constexpr double kFading = 3.0;         // of motion under the drag that brings a specimen to rest [1/s]
 constexpr double kRestSpeed = 0.0063;   // [radii/s]
 
-/// Mass per length of a rod that a length bends in this time [kg/m]. No root, so that similar specimens have the same
-/// bits.
+/// Mass per length with which a rod that is bent over a length springs back in this time [kg/m]. Without a root, so
+/// that similar specimens have the same bits.
 double mass_of(double time, double length, const RodMaterial& material) {
   const double length2 = length * length;
   return time * time * material.bending_stiffness / (length2 * length2);
@@ -54,7 +54,7 @@ double inertia_factor(const Material& material, const PhysicsOptions& physics, d
   return material.other ? std::min(of(material), of(*material.other)) : of(material);
 }
 
-Material as_it_moves(Material material, const PhysicsOptions& physics, double slack) {
+Material with_scaled_inertia(Material material, const PhysicsOptions& physics, double slack) {
   const double factor = inertia_factor(material, physics, slack);
   material.density *= factor;
   if (!material.other) return material;
@@ -64,9 +64,9 @@ Material as_it_moves(Material material, const PhysicsOptions& physics, double sl
   return material;
 }
 
-double drag_to_rest(const RodMaterial& as_it_moves, bool loop) {
-  const double mass = specimen_scales(as_it_moves).mass;
-  return kFading * (loop ? std::max(mass, mass_of(kCoastingTime, as_it_moves.radius, as_it_moves)) : mass);
+double drag_to_rest(const RodMaterial& material, bool loop) {
+  const double mass = specimen_scales(material).mass;
+  return kFading * (loop ? std::max(mass, mass_of(kCoastingTime, material.radius, material)) : mass);
 }
 
 double settling_drag(const RodMaterial& material, double wave, double time) {

@@ -1,3 +1,4 @@
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/study/headless_run.hpp"
 
 #include <yaml-cpp/yaml.h>

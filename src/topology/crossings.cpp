@@ -7,8 +7,8 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-/// Whether c lies to the left of the line from a to b, or on it. Each pair of segments that shares a point asks the
-/// same about it, so that a crossing at a node is seen once and not twice or never.
+/// Whether c lies to the left of the line from a to b, or on it. The two segments that share a node get the same answer
+/// for it, so that a crossing there is found exactly once.
 bool left_of(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()) >= 0.0;
 }
@@ -48,7 +48,7 @@ struct View {
   std::vector<std::vector<Box>> boxes;  // [level][i]: around segments i 2^level to (i + 1) 2^level - 1
 };
 
-/// One box of a view, and with it all segments in it.
+/// One box of a view, which stands for all segments in it.
 struct Piece {
   const View* view;
   std::size_t level, i;
@@ -60,7 +60,7 @@ struct Piece {
 
 Piece whole(const View& view) { return {&view, view.boxes.size() - 1, 0}; }
 
-/// Calls visit(segment of a, segment of b) for all whose boxes meet.
+/// Calls visit(segment of a, segment of b) for all pairs whose boxes overlap.
 template <typename Visit>
 void meet(const Piece& a, const Piece& b, const Visit& visit) {
   if (!a.exists() || !b.exists() || a.box().apart_from(b.box())) return;
@@ -76,7 +76,7 @@ void meet(const Piece& a, const Piece& b, const Visit& visit) {
   }
 }
 
-/// Calls visit(i, j), i < j, for all segments of a piece whose boxes meet.
+/// Calls visit(i, j), i < j, for all pairs of segments of a piece whose boxes overlap.
 template <typename Visit>
 void meet_itself(const Piece& piece, const Visit& visit) {
   if (!piece.exists() || piece.level == 0) return;
@@ -125,7 +125,7 @@ std::vector<Crossing> crossings_between(const Points& first, const Points& secon
 
 namespace {
 
-// A turn counts once the strand has come back from it by so much; a coil is longer than that however tight [h].
+// A turning point counts once the strand has come back from it by this height; even a tight coil is longer [h].
 constexpr double kTurn = 1.5;
 
 }  // namespace
@@ -140,7 +140,7 @@ OverhandStrand OverhandStrand::follow(const Points& points, std::size_t k, Eigen
   strand.cut = strand.end = k == 0 ? 0 : points.cols() - 1;
   double lowest = height(standing), highest = lowest, bottom = lowest, leaving = 0.0;
   const int rises = std::max(own_rises(windings), passed_over);  // of the coil
-  int aslant = rises;                                            // that may still come
+  int aslant = rises;                                            // left
   enum { kRising, kFalling, kLeaving } part = kRising;
   for (Eigen::Index i = standing; i != strand.end + step; i += step) {
     const double z = height(i);

@@ -30,11 +30,11 @@ void LoopTurn::add(const Points& shape) {
 
 namespace {
 
-constexpr int kViews = 400;          // over half of all directions: the other half sees the same
-constexpr std::size_t kBest = 8;     // of these are turned further
-constexpr double kFirstTurn = 0.1;   // half of what lies between two neighbouring views [rad]
+constexpr int kViews = 400;          // evenly over half of all directions: the other half gives the same views
+constexpr std::size_t kBest = 8;     // number of views that are turned further
+constexpr double kFirstTurn = 0.1;   // half of the angle between neighbouring views [rad]
 constexpr double kLastTurn = 1e-3;   // [rad]
-constexpr double kWorthATurn = 0.8;  // of the largest circle so far: none much smaller becomes the largest by a turn
+constexpr double kWorthATurn = 0.8;  // of the largest circle so far: smaller ones do not become the largest by a turn
 constexpr double kFirstTolerance = 0.05;  // [h]
 constexpr double kTolerance = 1e-3;       // [h]
 
@@ -44,7 +44,8 @@ struct Loop {
   Eigen::Vector2d crossing;
 };
 
-/// By how much a step from a to b turns around p, counted where it crosses the ray from p to the right.
+/// Contribution of the segment from a to b to the winding number around p: 1 or -1 if it crosses the ray from p to the
+/// right.
 int passes(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
   if ((a.y() > p.y()) == (b.y() > p.y())) return 0;
   const double side = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
@@ -73,8 +74,8 @@ class HoleView {
   const Eigen::Vector2d& low() const { return low_; }
   const Eigen::Vector2d& high() const { return high_; }
 
-  /// Distance to the curve near its loops, negative where it does not enclose p. A curve encloses what one of the loops
-  /// goes around: each crossing adds one loop to those that could be, and the face in which p lies is bounded by such.
+  /// Distance to the curve near its loops, negative where it does not enclose p. A curve encloses p if one of its loops
+  /// winds around p.
   double signed_distance(const Eigen::Vector2d& p) {
     double least = std::numeric_limits<double>::infinity();
     for (const Segment& segment : near_) {
@@ -95,7 +96,7 @@ class HoleView {
     end_ = std::max(end_, loop.last);
   }
 
-  /// Those that a circle which the loops enclose could touch.
+  /// Keeps the segments that a circle enclosed by the loops could touch.
   void keep_near_segments() {
     const double reach = 0.5 * (high_ - low_).minCoeff();
     for (Eigen::Index i = 0; i + 1 < points_.cols(); ++i) {
@@ -144,7 +145,7 @@ struct Cell {
   bool operator<(const Cell& other) const { return most < other.most; }
 };
 
-/// From all directions evenly: the angles go on by the golden section.
+/// View directions at even spacing, by the golden angle.
 Vec3 direction(int view) {
   const double z = (view + 0.5) / kViews, across = std::sqrt(1.0 - z * z), angle = M_PI * (3.0 - std::sqrt(5.0)) * view;
   return {across * std::cos(angle), across * std::sin(angle), z};
@@ -162,7 +163,7 @@ struct Seen {
   double radius;
 };
 
-/// Turned to and fro until that widens the hole no more.
+/// Turns the view in four directions until that no longer widens the hole.
 double widest_around(const Points& points, Seen best, double tolerance) {
   for (double turn = kFirstTurn; turn > kLastTurn;) {
     const Vec3 right = any_normal(best.along), up = best.along.cross(right);
@@ -190,7 +191,7 @@ EnclosedCircle largest_enclosed_circle(const Points& points, const Mat3& rotatio
   HoleView view(points, rotation);
   if (!view.has_loops()) return best;
   std::priority_queue<Cell> cells;
-  // A circle within an unenclosed square reaches no further than the square does beyond the curve.
+  // Within a square the distance grows by at most half its diagonal from the centre.
   const auto add = [&](const Eigen::Vector2d& centre, double half) {
     const double radius = view.signed_distance(centre);
     if (radius > std::max(best.radius, larger_than)) best = {centre, radius};

@@ -25,7 +25,7 @@ Mat3 generic_view(int n) {
   return rotation;
 }
 
-/// What the relation of a crossing holds at t, except in the last column.
+/// The Wirtinger relation of a crossing at t as a row of the matrix, without the last column.
 modular::Row relation(const Crossing& crossing, std::size_t k, std::size_t over_arc, std::size_t n, std::uint64_t t) {
   const std::size_t in = crossing.positive ? k : k + 1, out = crossing.positive ? k + 1 : k;
   modular::Row terms = {{over_arc, modular::subtract(1, t)}, {in, t}, {out, modular::subtract(0, 1)}};
@@ -85,7 +85,7 @@ Points joined(const std::vector<Vec3>& points) {
   return result;
 }
 
-/// Larger than anything in the scene, by far.
+/// A distance far larger than the rod.
 double far_away(const Points& points) {
   return 10.0 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
 }
@@ -99,7 +99,7 @@ KnotPolynomial alexander_polynomial(const Points& polygon) {
   for (int n = 0; n < kMostViews; ++n) {
     views.push_back(crossings_of(polygon, generic_view(n)));
     if (n + 1 < kViews && views.back().size() > 16) continue;
-    // The projection with the fewest crossings first; one that is no knot's met a degenerate place.
+    // Begins with the projection that has the fewest crossings. One that gives no knot is degenerate.
     std::sort(views.begin(), views.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
     for (std::vector<Crossing>& view : views) {
       KnotPolynomial polynomial = polynomial_of(std::move(view));
@@ -171,7 +171,7 @@ LoopAxes axes_of(const Points& points, const std::array<OverhandStrand, 2>& stra
   return out;
 }
 
-/// Where the strand that knot k holds, which is the other knot's own, passes the level of the cut, or comes nearest
+/// The node at which the strand that knot k holds, the other knot's own, passes the level of the cut, or comes nearest
 /// to it.
 Eigen::Index threaded_at_cut(const Points& points, const std::array<OverhandStrand, 2>& strands, const LoopAxes& axes,
                              std::size_t k) {
@@ -179,7 +179,8 @@ Eigen::Index threaded_at_cut(const Points& points, const std::array<OverhandStra
   const auto height = [&](Eigen::Index i) { return points.col(i).dot(outwards); };
   const double level = strands[k].level;
   const Eigen::Index back = k == 0 ? -1 : 1;
-  // Once the knots have slid together its standing part may begin beyond the level: back then, towards its coil.
+  // Once the knots have slid together, its standing part may begin beyond the level. The search then goes back to its
+  // coil.
   Eigen::Index pass = strands[1 - k].begin;
   const Eigen::Index other_end = strands[1 - k].end;
   while (pass != other_end && std::min(height(pass), height(pass - back)) >= level) pass -= back;
@@ -190,8 +191,8 @@ Eigen::Index threaded_at_cut(const Points& points, const std::array<OverhandStra
   return pass;
 }
 
-/// From the cut of tail k to far away. `followed`: the angle by which the cut has gone around, at the reading before;
-/// then at this one.
+/// The closure of tail k from its cut to far away. `followed`: the angle theta at the reading before, which becomes
+/// that at this one.
 std::vector<Vec3> closure_of_tail(const Points& points, const std::array<OverhandStrand, 2>& strands,
                                   const LoopAxes& axes, std::size_t k, double& followed) {
   const OverhandStrand& strand = strands[k];
@@ -218,7 +219,7 @@ std::vector<Vec3> closure_of_tail(const Points& points, const std::array<Overhan
   return closure;
 }
 
-/// From far away over both tails' closures to far away.
+/// The loop with both closures, from far away to far away.
 Points whole_loop(const Points& points, const std::array<OverhandStrand, 2>& strands,
                   const std::array<std::vector<Vec3>, 2>& closures) {
   std::vector<Vec3> loop(closures[0].rbegin(), closures[0].rend());
@@ -227,8 +228,9 @@ Points whole_loop(const Points& points, const std::array<OverhandStrand, 2>& str
   return joined(loop);
 }
 
-/// The halves part in the middle of the far side. Each goes from there away from the knots, over its own knot's end
-/// of the loop, and meets its tail's closure; where they cross behind the far side the lower knot's passes in front.
+/// One half of the loop, closed on its own. The halves part in the middle of the far side. From there each goes away
+/// from the knots and around the end of the loop to the closure of its tail. Where they cross behind the far side, that
+/// of the lower knot passes in front.
 Points half_of_loop(const Points& points, const OverhandStrand& strand, const std::vector<Vec3>& closure,
                     const LoopAxes& axes, std::size_t k) {
   const double distance = axes.distance, sign = k == 0 ? -1.0 : 1.0;
@@ -293,10 +295,6 @@ LoopTopology::PassedOver LoopTopology::passed_over(const Reading& known, const R
     }
   }
   return out;
-}
-
-LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_axis) {
-  return read(points, load_axis, PassedOver{});
 }
 
 LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over) {

@@ -28,7 +28,7 @@ void add_multiple(const Row& a, std::uint64_t factor, const Row& b, Row& sum) {
   }
 }
 
-/// Whether it takes an odd number of exchanges to put these numbers, 0 to n - 1, in order.
+/// Whether the permutation that puts these numbers, 0 to n - 1, in order is odd.
 bool odd(std::vector<std::size_t> numbers) {
   bool result = false;
   for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -72,7 +72,7 @@ std::uint64_t determinant(std::vector<Row> rows) {
   for (std::size_t column = 0; column < n; ++column) {
     const std::vector<std::size_t>& led = led_by[column];
     if (led.empty()) return 0;
-    // The shortest row fills the others least.
+    // The shortest row causes the least fill-in.
     const std::size_t pivot = *std::min_element(
         led.begin(), led.end(), [&](std::size_t a, std::size_t b) { return rows[a].size() < rows[b].size(); });
     pivots.push_back(pivot);

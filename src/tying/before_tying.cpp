@@ -19,34 +19,34 @@ namespace {
 
 constexpr double kClosed = 2.0;        // radius of a coil that lies on the strands in it [h]
 constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
-constexpr double kCoarsestEdge = 0.9;  // of a rope whose knots slide as with finer ones [h]: doc/developers/history.md
-constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which a law of tension was ever measured [-]
+constexpr double kCoarsestEdge = 0.9;  // of ropes that slide as with finer edges [h]: doc/developers/history.md
+constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which stretching laws were measured [-]
 // Pink VPS was tied and mounted with a linear law up to a strain of 4.8 (4.8 k_s) and with a neo-Hookean one up to 5.6
 // (2.2 k_s); at 6 and 6.8 the tail grips came to the end of their way first (config/tighten.yaml with material=pink_vps
 // and specimen.preload= at draft).
 constexpr double kLargestStrain = 5.0;  // by a pre-load [-]
 
-double drawn_coil(const SpecimenOptions& specimen) { return knot_of(specimen).about().drawn_coil; }  // R_0 [h]
+double sketched_coil(const SpecimenOptions& specimen) { return knot_of(specimen).about().sketched_coil; }  // R_0 [h]
 
 double bending_force(const Material& material) {
   return material.bending_stiffness / (material.radius * material.radius);
 }
 
-/// Pre-load below which the coils stay as they are drawn, but no more than closes them without friction: strands that
-/// hold each other by friction alone may be pulled tight later.
+/// Pre-load below which the coils stay as they are sketched; at most that which closes them without friction, because
+/// strands that only friction holds may still be pulled tight later.
 double least_preload(const SpecimenOptions& specimen, const Material& material) {
-  const double closed = closing_preload(material), fraction = kClosed / drawn_coil(specimen);
+  const double closed = closing_preload(material), fraction = kClosed / sketched_coil(specimen);
   return std::min(closed * fraction * fraction, bending_force(material) / (2.0 * kClosed * kClosed));
 }
 
-/// Strain of the outermost fibre over the one that parts it, of a rod that is stretched and bent; 0: bending does not
-/// part it.
+/// Strain of the outermost fibre of a rod that is stretched and bent, over the strain at which it parts; 0: bending
+/// does not part it.
 double exposed_by(double stretch, double bend, const Material& material) {
   if (!parts_by_bending(material)) return 0.0;
   return std::get<FibreBreaking>(breaking_law_of(material)).fraction({0.0, stretch, bend, 0.0});
 }
 
-/// Warns of a strain that the outermost fibre of a tied knot may not bear. It is empty where nothing is known to fail.
+/// Warning about a strain that the outermost fibre of a tied knot may not bear; empty: nothing is known to fail.
 std::string strain_warning(double stretch, const Material& material) {
   const double strain = stretch + kSharpestBend, exposed = exposed_by(stretch, kSharpestBend, material);
   if (exposed > 1.0)
@@ -60,7 +60,8 @@ std::string strain_warning(double stretch, const Material& material) {
   return "";
 }
 
-/// Warns of edges that are too long for the bends of a tied rope. Knots of solid rods were the same with edges of 2 h.
+/// Warning about edges that are too long for the bends of a tied rope; empty: they are not. Knots of solid rods came
+/// out the same with edges of 2 h.
 std::string mesh_warning(double edge, const Material& material) {
   const double h = thickest(material);
   if (edge <= kCoarsestEdge * h || is_solid(material)) return "";
@@ -95,7 +96,7 @@ double tension_at(const Material& material, double strain) {
   return std::visit([&](const auto& law) { return law.respond(edge).tension; }, stretching_law_of(material));
 }
 
-/// `section`: of the method, whose material this is.
+/// `section`: that of the method which describes this material.
 void check_stretch(double preload, const Material& material, const std::string& section) {
   const double largest = tension_at(material, kLargestStrain);
   if (preload <= largest) return;
@@ -120,7 +121,7 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
                            short_number(closing_preload(material)) + " N");
   check_stretch(preload, material, "material");
   if (material.other) check_stretch(preload, *material.other, "other_material");
-  const double exposed = exposed_by(strain_under(material, preload), 1.0 / drawn_coil(specimen), material);
+  const double exposed = exposed_by(strain_under(material, preload), 1.0 / sketched_coil(specimen), material);
   if (exposed >= 1.0)
     throw InvalidInput(
         "material.breaking.bending_share", short_number(material.breaking.number(FibreBreaking::kBendingShare)),
@@ -137,7 +138,7 @@ std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const M
     stretch = strain_under(material, preload);
     if (preload < closing)
       all.push_back("a pre-load of " + short_number(preload) + " N leaves the coils open, at a radius of about " +
-                    short_number(std::min(coil_radius(material, preload) / material.radius, drawn_coil(specimen))) +
+                    short_number(std::min(coil_radius(material, preload) / material.radius, sketched_coil(specimen))) +
                     " radii of the rod: they close at " + short_number(closing) + " N");
     if (stretch > kMostStretch)
       all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " +

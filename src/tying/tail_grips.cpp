@@ -4,7 +4,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "knot_utm/rod/material.hpp"
+#include "knot_utm/specimen/scales.hpp"
+
 namespace knot_utm {
+
+Settling::Settling(const RodMaterial& material) : drag_(settling_drag(material, kWave * material.radius, kTime)) {}
 
 void RestWatch::follow(const Points& velocity, double dt) {
   fastest_ = std::sqrt(velocity.colwise().squaredNorm().maxCoeff());
@@ -23,7 +28,7 @@ bool RestWatch::waited(double time, double begin, const char* since) {
 
 namespace {
 
-constexpr double kSlips = 0.999;  // of the force at which a grip slips: it counts as slipping [-]
+constexpr double kSlips = 0.999;  // a grip counts as slipping from this share of its slip force on [-]
 
 }  // namespace
 

@@ -15,23 +15,23 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kMet = 0.2;         // nearer to the load it is met [of it]
-constexpr double kMuch = 0.5;        // there is a load [of the one to meet]
-constexpr double kSlow = 0.25;       // of the speed, once there is a load; and of that before at each turn
-constexpr double kMostBack = 3.0;    // behind where it began [h]
-constexpr double kKnotsMoved = 0.3;  // by which knots slide [h]
+constexpr double kMet = 0.2;         // tolerance of the taut load [of it]
+constexpr double kMuch = 0.5;        // load from which the crosshead is slower [of the taut load]
+constexpr double kSlow = 0.25;       // factor of the speed from that load on, and at each reversal
+constexpr double kMostBack = 3.0;    // the crosshead goes no further back behind where it began [h]
+constexpr double kKnotsMoved = 0.3;  // change of the knot distance from which the knots slide [h]
 
 }  // namespace
 
-void TakeUp::begin(double load, double displacement, double knot_distance) {
-  *this = TakeUp(taut_, radius_);
+void TakeUpSlack::begin(double load, double displacement, double knot_distance) {
+  *this = TakeUpSlack(taut_, radius_);
   begin_ = displacement;
   knot_distance_ = knot_distance;
   follow(load, displacement, knot_distance);
   moved_ = false;
 }
 
-void TakeUp::follow(double load, double displacement, double knot_distance) {
+void TakeUpSlack::follow(double load, double displacement, double knot_distance) {
   if (done_) return;
   const double sense = load < taut_ ? 1.0 : -1.0;
   const bool slid = sense > 0.0 && std::abs(knot_distance - knot_distance_) > kKnotsMoved * radius_;
@@ -44,20 +44,22 @@ void TakeUp::follow(double load, double displacement, double knot_distance) {
   fraction_ = std::min(finest_, sense > 0.0 && load > kMuch * taut_ ? kSlow : 1.0);
 }
 
-void TakeUp::state(Archive& archive) { archive(sense_, fraction_, finest_, begin_, knot_distance_, moved_, done_); }
+void TakeUpSlack::state(Archive& archive) {
+  archive(sense_, fraction_, finest_, begin_, knot_distance_, moved_, done_);
+}
 
 namespace {
 
 constexpr double kGripStretch = 2.4;    // of a tail's grip when it slips [h]
-constexpr double kTautLoad = 0.03;      // of a loop whose slack is taken up [k_b/h^2]
-constexpr double kNear = 0.005;         // of e and L, nearer to which they are met
-constexpr int kMostSets = 4;            // of a taut loop to its marks
-constexpr double kSetTime = 1.0 / 3.0;  // in which that is done, at least [s]
-constexpr double kSliding = 4.0;        // times the crosshead's speed: that of the knots' marks meanwhile
-constexpr double kEndOfSetting = 1e-9;  // when no time is left of it [s]
-constexpr double kFarthest = 0.4;  // of e, further than which no release moves knots that hold: tight silicone by 0.27
+constexpr double kTautLoad = 0.03;      // load of a taut loop [k_b/h^2]
+constexpr double kNear = 0.005;         // relative deviation of e and L up to which a loop is at its marks [-]
+constexpr int kMostSets = 4;            // a taut loop is set to its marks no more often
+constexpr double kSetTime = 1.0 / 3.0;  // of one setting, at least [s]
+constexpr double kSliding = 4.0;        // change of e in a setting over that of the crosshead's speed, at most
+constexpr double kEndOfSetting = 1e-9;  // a setting is over if less time is left [s]
+constexpr double kFarthest = 0.4;       // of e: a release moves knots that hold by less (tight silicone by 0.27)
 constexpr double kOpenCoil = 3.0;  // radius from which a coil, 2 (R + h) wide, reaches into the straight strands [h]
-constexpr double kOpened = 0.05;   // of e, as where the motion pattern says so (motion_pattern.cpp)
+constexpr double kOpened = 0.05;   // of e: knots that came nearer by more have opened (as in motion_pattern.cpp)
 constexpr const char* kNoRoom =
     "mount: the loop as it was tied and released leaves no room for the rollers; choose a larger specimen.end_to_end, "
     "a smaller specimen.preload or a smaller machine.roller_diameter";
@@ -82,7 +84,7 @@ TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, co
       end_to_end_(specimen.end_to_end),
       rig_(centreline, stepper.rod(), tying_options(specimen, material, creep_speed)),
       touch_(rig_.standing_nodes(), material.core_radius(), centreline.windings()),
-      take_up_(kTautLoad * specimen_scales(material).force, material.radius) {}
+      slack_(kTautLoad * specimen_scales(material).force, material.radius) {}
 
 void TiedLoop::enter(const Command& command, const Place& now) {
   const Phase phase = command.phase;
@@ -99,7 +101,7 @@ void TiedLoop::enter(const Command& command, const Place& now) {
   if (phase != Phase::kMount) return;
   speed_ = command.speed;
   at_marks_ = false;
-  begin_to_take_up(now);
+  begin_on_slack(now);
 }
 
 void TiedLoop::put_on(const Place& now) {
@@ -109,8 +111,9 @@ void TiedLoop::put_on(const Place& now) {
   if (!grips_.put_on(loop, now.grip, radius_)) not_mounted_ = kNoRoom;
 }
 
-/// Straight strands become longer or shorter until e and L are met, as if the loop had been drawn so: neither affects
-/// how a knot is tied and let go. Knots that have come nearer by themselves have opened, and stay.
+/// Begins to make straight strands longer or shorter so that e and L are met, as if the loop had been sketched so:
+/// neither of them affects how a knot is tied and released. Knots that came nearer by themselves have opened, and are
+/// left as they are. False: there is nothing to set.
 bool TiedLoop::set_to_marks(const Place& now) {
   const double distance = knot_distance(), apart = knot_distance_ - distance;
   const double further = grips_.on_rollers() ? end_to_end_ - grips_.end_to_end(now.grip) : 0.0;
@@ -144,19 +147,19 @@ void TiedLoop::follow(Phase phase, const Place& now, double dt) {
     further_ -= part * further_;
     if (part == 1.0) set_end_ = 0.0;
   }
-  // From here on weight, if there is any, would carry the slack loop round.
+  // From here on weight, if there is any, would make the slack loop turn around the rollers.
   if (puts_on && rig_.guides()) grips_.hold_far_side(stepper_.state().position, now.grip);
   if (phase == Phase::kMount && rig_.guides()) follow_mounting(now, puts_on);
   touch_.follow(stepper_);
 }
 
 void TiedLoop::follow_mounting(const Place& now, bool puts_on) {
-  if (puts_on || setting()) return begin_to_take_up(now);
-  take_up_.follow(load_on_both(), now.displacement, knot_distance());
-  at_marks_ = take_up_.done() && !set_to_marks(now);
+  if (puts_on || setting()) return begin_on_slack(now);
+  slack_.follow(load_on_both(), now.displacement, knot_distance());
+  at_marks_ = slack_.done() && !set_to_marks(now);
 }
 
-void TiedLoop::begin_to_take_up(const Place& now) { take_up_.begin(load_on_both(), now.displacement, knot_distance()); }
+void TiedLoop::begin_on_slack(const Place& now) { slack_.begin(load_on_both(), now.displacement, knot_distance()); }
 
 void TiedLoop::hold(Boundary& boundary, double from, double to) const {
   if (rig_.off_rollers()) {
@@ -172,7 +175,7 @@ void TiedLoop::hold(Boundary& boundary, double from, double to) const {
 
 double TiedLoop::held_length(double from, double to) const {
   double length = grips_.end_to_end(0.0);
-  // Off the rollers nothing bears on the grip.
+  // A loop that is off the rollers does not load the grip.
   if (rig_.stage() == TyingRig::Stage::kIdle || rig_.off_rollers()) return length;
   Boundary held;
   rig_.hold(held, from, to);
@@ -181,9 +184,9 @@ double TiedLoop::held_length(double from, double to) const {
 }
 
 double TiedLoop::mounting_velocity(double speed) const {
-  // It stands while the loop is put on.
+  // The crosshead stands while the loop is put on.
   if (!rig_.guides()) return 0.0;
-  return setting() ? set_speed_ : speed * take_up_.velocity();
+  return setting() ? set_speed_ : speed * slack_.velocity();
 }
 
 bool TiedLoop::done(Phase phase) const {
@@ -210,7 +213,7 @@ void TiedLoop::read(Sample& sample) const {
 
 void TiedLoop::state(Archive& archive) {
   archive.section("LOOP");
-  archive(rig_, touch_, take_up_, set_end_, set_speed_, apart_, further_, speed_, tied_distance_, sets_, at_marks_);
+  archive(rig_, touch_, slack_, set_end_, set_speed_, apart_, further_, speed_, tied_distance_, sets_, at_marks_);
 }
 
 double marks_of(const SpecimenOptions& specimen, const Program& program) {

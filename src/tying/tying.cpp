@@ -15,16 +15,17 @@
 namespace knot_utm {
 namespace {
 
-/// Ties a knot between the machine's grips by pulling at its ends, as a drawing says (Centreline::tied). The drawn
-/// shape first settles under a strong drag that fades. Then each group of ends is pulled in turn by grips that move at
-/// a set speed and slip at their part of the pre-load: free ends outwards as they were drawn, and those of the upper
-/// grip, which lets them slip from then on, along z. The lower grip stands still. Earlier groups are held at their
-/// part, or pulled again to another. A group's turn ends once all of them slip and everything is at rest. A knot
-/// without an end to pull at only settles, and the crosshead pulls it tight.
+/// Ties a knot between the machine's grips by pulling at its ends, in the groups of its drawing
+/// (Centreline::pull_groups). The sketched shape first settles under a strong drag that fades. Then each group is
+/// pulled in turn by grips that move at a set speed and slip at their fraction of the pre-load: free ends outwards as
+/// sketched; ends in the upper grip along z, and that grip only guides them from then on. The lower grip stands still.
+/// Earlier groups stay at their load, unless a later group pulls at the same end with another one. A group is done once
+/// all grips slip and everything is at rest. A knot without an end to pull at only settles, and the crosshead tightens
+/// it.
 ///
-/// Release: all these loads go to zero linearly, and everything comes to rest; then the upper grip holds its ends where
-/// they are. Where the program pulls a knot that it did not release, the upper grip holds them at once, and the loads
-/// of the free ends go to zero within a third of a second.
+/// Release: all loads go to zero linearly, and everything comes to rest; then the upper grip holds its ends where they
+/// are. If the program pulls a knot without a release, the upper grip holds them at once, and the loads of the free
+/// ends go to zero within a third of a second.
 class EndTying final : public Tying {
  public:
   /// `preload`: F_p [N]. `rest_speed`: slower than this a node is at rest [m/s]. `stepper` and `grips` must outlive
@@ -36,7 +37,7 @@ class EndTying final : public Tying {
   void follow(Phase phase, const Place& now, double dt) override;
   void hold(Boundary& boundary, double from, double to) const override;
   double extra_drag(double to) const override;
-  /// All that hangs on the rod is borne little by little as the knot is let go.
+  /// Weights are put on gradually as the knot is let go.
   double weight_borne(double time) const override;
   double held_length(double, double) const override { return grips_.end_to_end(0.0); }
   bool done(Phase phase) const override;
@@ -76,7 +77,7 @@ EndTying::EndTying(const Centreline& centreline, const Material& material, doubl
                    const TimeStep& stepper, Grips& grips)
     : stepper_(stepper),
       grips_(grips),
-      groups_(centreline.tied),
+      groups_(centreline.pull_groups),
       preload_(preload),
       radius_(thickest(material)),
       settling_(material),
@@ -106,7 +107,7 @@ void EndTying::add(const PulledEnd& end) {
   pulling_.add(end.node, end.direction, load / (kGripStretch * radius_), load);
 }
 
-/// It is tied once there is none. What the upper grip holds goes over to the grip that pulls it.
+/// Without a next group the knot is tied. A grip begins with the force that the upper grip had on its end.
 void EndTying::pull_next_group(double time) {
   if (pulled_groups_ == groups_.size()) return enter(Stage::kTied, time);
   const Points& x = stepper_.state().position;
@@ -128,7 +129,7 @@ double EndTying::held_with(const PulledEnd& end) const {
   return std::max(0.0, readings.reaction(end.node)[2] + readings.reaction(end.held_next)[2]);
 }
 
-/// Of a grip, as it pulls or is let go [N].
+/// Load of a grip as it pulls or is let go [N].
 double EndTying::load(std::size_t grip, double time) const {
   if (stage_ == Stage::kRamp) return std::clamp(1.0 - (time - stage_begin_) / ramp_time_, 0.0, 1.0) * ramp_from_[grip];
   const bool pulls = stage_ == Stage::kPulling || stage_ == Stage::kTied;

@@ -12,18 +12,16 @@
 namespace knot_utm {
 namespace {
 
-// Places of the clamps, in rod radii from the middle of the loose coil. A knot that runs over its clamp reads wrong:
-// they stand clear of where it ends. They are the same for every loop, so that neither e nor L enters what is tied.
+// Places of the clamps, in rod radii from the middle of the loose coil. They are clear of the tightened knot, whose
+// readings would be wrong if it ran over a clamp, and the same for every loop, so that e and L do not affect tying.
 constexpr double kStandingFromKnot = 8.0;  // inwards
-constexpr int kGuideNodes = 3;             // on the strand from there outwards: they guide its direction, too
-constexpr double kHalfKnot = 4.0;          // a tight knot of one winding reaches no further out from its middle [h]
-// Each further winding of a tight knot lies beside it, by half of its thickness to either side [h].
-constexpr double kHalfTightWinding = 1.0;
+constexpr int kGuideNodes = 3;             // neighbouring nodes that guide a strand, and so its direction
+constexpr double kHalfKnot = 4.0;          // reach of a tight knot of one winding from its middle, at most [h]
+constexpr double kHalfTightWinding = 1.0;  // by how much each further winding adds to that [h]
 
-// While the loop is put on, it moves as a whole: waves of so many radii relax in about a tenth of the settling time.
-constexpr double kPuttingOnWave = 73.0;
-constexpr double kLongest = 2.0;          // that strands may become as the knots are set to their marks [-]
-constexpr double kShortest = 0.2;         // edge of such a strand, over the shortest one as the rod is drawn [-]
+constexpr double kPuttingOnWave = 73.0;   // waves of this length relax in a tenth of the settling time meanwhile [h]
+constexpr double kLongest = 2.0;          // largest factor of the length of a strand that is set to its marks [-]
+constexpr double kShortest = 0.2;         // shortest edge after that, over the shortest one of the sketch [-]
 constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
 
 }  // namespace
@@ -157,7 +155,7 @@ TyingRig::Laid TyingRig::longer(double apart, double beyond, const RodProperties
     if (i < first || i > last) {
       out.position(2, i) += i > last ? of_second : -of_second;
     } else if (i > outside.first && i < outside.last) {
-      // Along its own way around the loop, and not at all half-way.
+      // Along the rod, by less towards the middle of the far side.
       const double from_second = static_cast<double>(i - outside.first) / (outside.last - outside.first);
       out.position.col(i) += up * of_second * (1.0 - 2.0 * from_second) * (x.col(i + 1) - x.col(i - 1)).normalized();
     } else if (high > low) {

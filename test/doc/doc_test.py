@@ -78,7 +78,7 @@ class Method(unittest.TestCase):
         found = [name for file in [*files("include/knot_utm/contact", "_friction.hpp"), *files("include/knot_utm/rod", ".hpp")]
                  for name in re.findall(r'kName = "(\w+)"|LawKey(?: \w+)?\{"(\w+)"', text(file))]
         names = [law or key for law, key in found]
-        names += [name for file in files("src/specimen", ".cpp") for name in re.findall(r'out\.name = "(\w+)"', text(file))]
+        names += [name for file in files("src/specimen", ".cpp") for name in re.findall(r'about_\.name = "(\w+)"', text(file))]
         self.assertGreater(len(names), 20)
         for name in names:
             self.assertTrue(re.search(rf"`(\w+\.)*{name}`", self.page), name)

@@ -29,7 +29,6 @@
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/csv.hpp"
 #include "knot_utm/specimen/centreline.hpp"
-#include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/polyline.hpp"

@@ -14,6 +14,7 @@
 #include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"

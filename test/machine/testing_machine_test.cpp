@@ -12,6 +12,7 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 #include "overhand_specimen.hpp"
@@ -138,14 +139,15 @@ TEST(TestingMachine, HoldsAShapeFromAFileAtItsFirstAndLastEdge) {
   file.edge_length = 0.005;
   TestingMachine machine = bench(file);
   machine.respond(Command{});
-  const Points drawn = machine.state().position;
-  const Eigen::Index last = drawn.cols() - 1;
+  const Points sketched = machine.state().position;
+  const Eigen::Index last = sketched.cols() - 1;
   const Sample sample = machine.respond(pull(1, 0.1, 1e-4));
   EXPECT_EQ(sample.status, BenchStatus::kRunning) << sample.message;
   const Points& now = machine.state().position;
   const Vec3 up(0.0, 0.0, 1e-4);
-  for (const Eigen::Index i : {Eigen::Index(0), Eigen::Index(1)}) EXPECT_LT((now.col(i) - drawn.col(i)).norm(), 1e-12);
-  for (const Eigen::Index i : {last - 1, last}) EXPECT_LT((now.col(i) - drawn.col(i) - up).norm(), 1e-12);
+  for (const Eigen::Index i : {Eigen::Index(0), Eigen::Index(1)})
+    EXPECT_LT((now.col(i) - sketched.col(i)).norm(), 1e-12);
+  for (const Eigen::Index i : {last - 1, last}) EXPECT_LT((now.col(i) - sketched.col(i) - up).norm(), 1e-12);
 
   std::ofstream(name) << "0,0,0.1\n0,0,0.07\n0.01,0,0.05\n0,0,0\n";
   EXPECT_EQ(wrong_key(file), "specimen.file") << "upside down";
@@ -185,7 +187,7 @@ TEST(TestingMachine, ThereIsNoDragInTheForceBetweenClampsUnlessTheMethodSetsOne)
   }
 }
 
-/// The shape as drawn stores energy that would throw it about. Friction's part of a force is at most mu times its
+/// The shape as sketched stores energy that would throw it about. Friction's part of a force is at most mu times its
 /// pressure, and tangential.
 TEST(TestingMachine, ADrawnOverhandSettlesGentlyAndItsForcesBetweenStrandsAreThoseOfTheReading) {
   TestingMachine machine = bench(drawn_overhand());

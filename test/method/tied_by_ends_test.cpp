@@ -10,6 +10,7 @@
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
@@ -54,7 +55,8 @@ Method knot_method(const std::string& knot, std::vector<std::string> settings = 
 std::vector<PulledEnd> pulled_ends(const Method& method) {
   const Centreline rod = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
   std::vector<PulledEnd> out;
-  for (const std::vector<PulledEnd>& together : rod.tied) out.insert(out.end(), together.begin(), together.end());
+  for (const std::vector<PulledEnd>& together : rod.pull_groups)
+    out.insert(out.end(), together.begin(), together.end());
   return out;
 }
 
@@ -171,7 +173,7 @@ TEST(TiedByEnds, ARopeIsReadToLoseInTheKnotWhatItsEndsGain) {
   roll_freely(&method);
   KnotDrawing drawing = *method.specimen.drawing;
   drawing.landmarks = {{"lower", 0, 0}, {"upper", 0, drawing.strands[0].points.size() - 1}};
-  drawing.read = {{"knot", KnotReading::Kind::kBetween, 0, 1}, {"ends", KnotReading::Kind::kDistance, 0, 1}};
+  drawing.readings = {{"knot", KnotReading::Kind::kBetween, 0, 1}, {"ends", KnotReading::Kind::kDistance, 0, 1}};
   method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
   Bench bench(method);
   bench.run_past(Phase::kRelease);
@@ -260,7 +262,7 @@ Method around(const KnotDrawing::Post& post) {
                                     {0.0, 0.0, -6.6},  {4.7, 0.0, -4.7},  {6.6, 0.0, 0.0},  {6.6, 0.0, 9.0}};
   drawing.posts = {post};
   drawing.landmarks.clear();
-  drawing.read.clear();
+  drawing.readings.clear();
   method.specimen.drawing = std::make_shared<const KnotDrawing>(drawing);
   return method;
 }

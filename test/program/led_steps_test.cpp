@@ -33,7 +33,7 @@ TEST(LedSteps, PreloadMeetsItsLoadAndBalancesStandingStill) {
   const Command& last = result.commands[first - 1];
   EXPECT_TRUE(last.balance);
   EXPECT_EQ(last.velocity, 0.0);
-  EXPECT_NEAR(result.samples[first - 1].force_upper, 2.0, 2e-3);  // kMetLoad
+  EXPECT_NEAR(result.samples[first - 1].force_upper, 2.0, 2e-3);  // kLoadTolerance
   EXPECT_EQ(result.samples[first - 1].load, 0.0);
   EXPECT_NEAR(result.samples[first].load, 1000.0 * 0.0033 * program.period(), 1e-12);
 
@@ -95,7 +95,7 @@ TEST(LedSteps, CyclesBetweenLoadsByCountOrTime) {
   cycle.cycles = 2;
   ProgramRunner by_count({cycle}, 3.0, 0.1, {});
   const Answered counted = run(FakeBench(), by_count);
-  constexpr double kMet = 3e-3;  // kMetLoad of the range
+  constexpr double kMet = 3e-3;  // kLoadTolerance of the range
   double highest = 0.0;
   for (const Sample& sample : counted.samples) highest = std::max(highest, sample.load);
   EXPECT_NEAR(highest, 4.0, kMet);
@@ -116,7 +116,7 @@ TEST(LedSteps, ReturnsToAnExtensionOrALoad) {
   ReturnStep unload;
   unload.load = 3.0;
   ProgramRunner to_load({BalanceStep(), pull(0.01), unload}, 3.0, 0.1, {});
-  EXPECT_NEAR(run(FakeBench(), to_load).samples.back().load, 3.0, 1e-3 * 10.3);  // kMetLoad of where it began
+  EXPECT_NEAR(run(FakeBench(), to_load).samples.back().load, 3.0, 1e-3 * 10.3);  // kLoadTolerance of where it began
   EXPECT_EQ(to_load.ended_by(), EndedBy::kLoad);
 }
 
@@ -229,7 +229,7 @@ struct Taken {
 };
 
 Taken take_up(const Loop& loop, double step) {
-  TakeUp taking(kTaut, kRadius);
+  TakeUpSlack taking(kTaut, kRadius);
   taking.begin(loop.load(0.0), 0.0, 0.15);
   Taken out;
   for (int k = 0; k < 100000 && !taking.done(); ++k) {
@@ -244,7 +244,7 @@ Taken take_up(const Loop& loop, double step) {
   return out;
 }
 
-TEST(TakeUp, StopsAtTheSameLoadInSoftAndStiffLoopsAtAnyStep) {
+TEST(TakeUpSlack, StopsAtTheSameLoadInSoftAndStiffLoopsAtAnyStep) {
   for (const double stiffness : {200.0, 3e3, 3e4})
     for (const double slack : {0.0, 1e-3, 5e-3})
       for (const double step : {1e-3, 1.0 / 24.0, 1.0 / 6.0}) {
@@ -254,21 +254,21 @@ TEST(TakeUp, StopsAtTheSameLoadInSoftAndStiffLoopsAtAnyStep) {
       }
 }
 
-TEST(TakeUp, SlackensALoopThatIsTautAlready) {
+TEST(TakeUpSlack, SlackensALoopThatIsTautAlready) {
   const Taken taken = take_up({-2e-3, 1000.0}, 1.0 / 24.0);
   ASSERT_TRUE(taken.done);
   EXPECT_NEAR(taken.load, kTaut, 0.2 * kTaut);
   EXPECT_LE(taken.most, 0.0) << "it went further out first";
 }
 
-TEST(TakeUp, StandsWhereNoWayBackTakesTheLoadAway) {
+TEST(TakeUpSlack, StandsWhereNoWayBackTakesTheLoadAway) {
   const Taken taken = take_up({0.0, 1000.0, 1.0}, 1.0 / 24.0);
   ASSERT_TRUE(taken.done);
   EXPECT_LT(taken.least, -2.9 * kRadius);
   EXPECT_GT(taken.least, -3.2 * kRadius);
 }
 
-TEST(TakeUp, StandsWhereKnotsSlideUnderLess) {
+TEST(TakeUpSlack, StandsWhereKnotsSlideUnderLess) {
   const Taken taken = take_up({1.0, 1000.0, 0.0, 2.0}, 1.0 / 24.0);
   ASSERT_TRUE(taken.done);
   EXPECT_NEAR(2.0 * taken.way, 0.3 * kRadius, 2.0 * kSpeed / 24.0);

@@ -220,7 +220,7 @@ TEST(ProgramRunner, APlateauThatIsSettledEndsTheTestAndFailsNone) {
 using namespace programs;
 
 constexpr double kLength = 0.25, kEdge = 0.005;
-constexpr const char* kDrawn = "a file of config/knots/";
+constexpr const char* kFromFile = "a file of config/knots/";
 constexpr double kTwisted = kLength + kEdge;  // clamps hold the frames of edges, each of which lies in one
 
 TwistStep twist(double turns, double rate = 1.0) {
@@ -242,7 +242,7 @@ TestingMachine clamped_rod() {
   return {specimen, nylon(), machine, physics};
 }
 
-/// Two straight strands of a solid rod, half their length and touching, one drawn up and one down.
+/// Two straight strands of a solid rod, half their length and touching, one running up and one down.
 TestingMachine clamped_pair() {
   KnotDrawing pair;
   pair.name = "pair";
@@ -251,7 +251,7 @@ TestingMachine clamped_pair() {
   pair.lower = {"lower_1", "lower_2"};
   pair.upper = {"upper_1", "upper_2"};
   SpecimenOptions specimen;
-  specimen.knot = knot_named(kDrawn);
+  specimen.knot = knot_named(kFromFile);
   specimen.drawing = std::make_shared<const KnotDrawing>(pair);
   Material solid = nylon();
   solid.stretching_stiffness = 10.0 * solid.bending_stiffness / (solid.radius * solid.radius);

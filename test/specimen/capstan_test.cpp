@@ -32,7 +32,7 @@ SpecimenOptions strand(double wrap, double tail_load) {
   return out;
 }
 
-Centreline drawn(const SpecimenOptions& specimen) { return knot_of(specimen).centreline(specimen, nylon(), {}); }
+Centreline sketched(const SpecimenOptions& specimen) { return knot_of(specimen).centreline(specimen, nylon(), {}); }
 Roller post(const SpecimenOptions& specimen) { return knot_of(specimen).supports(specimen, nylon()).posts.at(0); }
 
 double bend_radius(const SpecimenOptions& specimen) { return 0.5 * specimen.post_diameter + nylon().radius; }
@@ -42,7 +42,7 @@ class CapstanSpecimenOf : public testing::TestWithParam<double> {};
 TEST_P(CapstanSpecimenOf, LiesAroundThePostByItsAngle) {
   SpecimenOptions specimen = strand(GetParam(), 1.0);
   specimen.edge_length /= 40.0;
-  const Points points = drawn(specimen).points;
+  const Points points = sketched(specimen).points;
   const Vec3 axis = post(specimen).axis;
   const double rho = bend_radius(specimen);
   double turned = 0.0, nearest = rho;
@@ -55,12 +55,12 @@ TEST_P(CapstanSpecimenOf, LiesAroundThePostByItsAngle) {
   }
   EXPECT_NEAR(turned, GetParam(), 1e-6 * GetParam());
   EXPECT_NEAR(nearest, rho, 1e-9 * rho);
-  EXPECT_NO_THROW(check_no_overlap(drawn(specimen), nylon().radius, "specimen.wrap", "this"));
+  EXPECT_NO_THROW(check_no_overlap(sketched(specimen), nylon().radius, "specimen.wrap", "this"));
 }
 
 TEST_P(CapstanSpecimenOf, IsPulledAlongBothItsEnds) {
   const SpecimenOptions specimen = strand(GetParam(), 2.0);
-  const Points points = drawn(specimen).points;
+  const Points points = sketched(specimen).points;
   const Eigen::Index last = points.cols() - 1;
   EXPECT_NEAR((points.col(last) - points.col(last - 1)).normalized()[2], 1.0, 1e-12);
   EXPECT_NEAR(points(2, last), specimen.end_to_end, 1e-12);

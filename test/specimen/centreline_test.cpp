@@ -11,7 +11,6 @@
 #include <string>
 
 #include "complaint.hpp"
-#include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/polyline.hpp"
@@ -27,7 +26,8 @@ double largest_turn(const Points& points);
 void expect_equal_edges(const Points& points, double edge_length) {
   const Eigen::Index edges = points.cols() - 1;
   const Eigen::VectorXd length = (points.rightCols(edges) - points.leftCols(edges)).colwise().norm();
-  // Equal along the drawn curve: chords are shorter by (turn)^2/24, and an edge may turn more than the node at its end.
+  // Equal along the sketched curve: chords are shorter by (turn)^2/24, and an edge may turn more than the node at its
+  // end.
   EXPECT_LT(length.maxCoeff() / length.minCoeff() - 1.0, 1e-3 + std::pow(largest_turn(points), 2) / 12.0);
   EXPECT_NEAR(length.mean(), edge_length, 0.02 * edge_length);
 }
@@ -312,7 +312,7 @@ TEST(SpecimenScales, SimilarSpecimensOfAnyDensityMoveAlike) {
       Material material = similar(lengths, forces);
       // More than tau = 2e-4 s takes.
       material.density *= std::pow((1.0 + lengths) * 2e-4 / specimen_scales(material).own_time, 2);
-      const Material moving = as_it_moves(material, {}, 0.0);
+      const Material moving = with_scaled_inertia(material, {}, 0.0);
       EXPECT_NEAR(specimen_scales(moving).own_time, 2e-4, 1e-16);
       const double h2 = material.radius * material.radius;
       EXPECT_NEAR(drag_to_rest(moving, false) * h2 * h2 / material.bending_stiffness, 1.2e-7, 1e-19);
@@ -343,7 +343,7 @@ TEST(SpecimenScales, ASlackLoopSpringsFast) {
   const Material material = nylon();
   const double h = material.radius, tight = 100.0 * h, slack = 1000.0 * h, radius = slack / (2.0 * M_PI);
   EXPECT_EQ(inertia_factor(material, {}, tight), inertia_factor(material, {}, 0.0));
-  const SpecimenScales moving = specimen_scales(as_it_moves(material, {}, slack));
+  const SpecimenScales moving = specimen_scales(with_scaled_inertia(material, {}, slack));
   EXPECT_NEAR(radius * radius * std::sqrt(moving.mass / material.bending_stiffness), 0.1, 1e-12);
 }
 

@@ -1,4 +1,4 @@
-// A knot that is drawn through points: where its ropes lie, and what is refused.
+// A knot that is sketched through points: where its ropes lie, and what is refused.
 #include "knot_utm/specimen/knot_drawing.hpp"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr DrawnSize kSize{0.003, 0.3, 0.05, 0.003};
+constexpr SketchSize kSize{0.003, 0.3, 0.05, 0.003};
 
 /// Two elbows that hang in each other: the simplest bend there is.
 KnotDrawing hooks() {
@@ -40,16 +40,16 @@ KnotDrawing hooks() {
 }
 
 TEST(KnotDrawing, RunsFromGripToGripAndItsTailsRunOnStraight) {
-  const Centreline rod = draw(hooks(), kSize);
+  const Centreline rod = sketch(hooks(), kSize);
   ASSERT_EQ(rod.cuts.size(), 1u);
   const int cut = rod.cuts[0], last = static_cast<int>(rod.points.cols()) - 1;
   EXPECT_NEAR(rod.points(2, 0), 0.0, 1e-12);
   EXPECT_NEAR(rod.points(2, last), kSize.end_to_end, 1e-12);
-  ASSERT_EQ(rod.below.size(), 1u);
-  ASSERT_EQ(rod.above.size(), 1u);
-  EXPECT_EQ(rod.below[0].node, 0);
-  EXPECT_EQ(rod.above[0].node, last);
-  // The last point and the way that leads there, as drawn; the knot lies half-way between the grips.
+  ASSERT_EQ(rod.held_lower.size(), 1u);
+  ASSERT_EQ(rod.held_upper.size(), 1u);
+  EXPECT_EQ(rod.held_lower[0].node, 0);
+  EXPECT_EQ(rod.held_upper[0].node, last);
+  // The last point and the way that leads there, as sketched; the knot lies half-way between the grips.
   const Vec3 middle(0.0, 0.0, 0.5 * kSize.end_to_end + 0.5 * kSize.radius);
   const Vec3 end = kSize.radius * Vec3(9, 0, 3) + middle + kSize.tail * Vec3(3, -1, 0).normalized();
   EXPECT_NEAR((rod.points.col(cut) - end).norm(), 0.0, 1e-9);
@@ -58,18 +58,18 @@ TEST(KnotDrawing, RunsFromGripToGripAndItsTailsRunOnStraight) {
 TEST(KnotDrawing, PullsAnEndOfTheUpperGripAlongTheLoadAxis) {
   KnotDrawing drawing = hooks();
   drawing.tie = {{{"upper", 0.7}}};
-  const Centreline rod = draw(drawing, kSize);
-  ASSERT_EQ(rod.tied.size(), 1u);
-  const PulledEnd& end = rod.tied[0][0];
+  const Centreline rod = sketch(drawing, kSize);
+  ASSERT_EQ(rod.pull_groups.size(), 1u);
+  const PulledEnd& end = rod.pull_groups[0][0];
   EXPECT_TRUE(end.held());
-  EXPECT_EQ(end.node, rod.above[0].node);
-  EXPECT_EQ(end.held_next, rod.above[0].next);
+  EXPECT_EQ(end.node, rod.held_upper[0].node);
+  EXPECT_EQ(end.held_next, rod.held_upper[0].next);
   EXPECT_EQ(end.direction, Vec3::UnitZ());
-  EXPECT_FALSE(draw(hooks(), kSize).tied[0][0].held());
+  EXPECT_FALSE(sketch(hooks(), kSize).pull_groups[0][0].held());
 }
 
 TEST(KnotDrawing, GoesThroughItsPointsAsFarAsItsBendsAreRoundedOff) {
-  const Centreline rod = draw(hooks(), kSize);
+  const Centreline rod = sketch(hooks(), kSize);
   for (const KnotDrawing::Strand& strand : hooks().strands)
     for (const Vec3& point : strand.points) {
       const Vec3 place = kSize.radius * point + (0.15 + 0.0015) * Vec3::UnitZ();
@@ -81,18 +81,18 @@ TEST(KnotDrawing, GoesThroughItsPointsAsFarAsItsBendsAreRoundedOff) {
 TEST(KnotDrawing, FindsALandmarkAlongItsStrandAtAnyLengthOfEdges) {
   KnotDrawing knot = hooks();
   knot.landmarks = {{"bend", 0, 2}, {"hook", 1, 3}, {"end", 1, 5}};
-  knot.read = {{"loop", KnotReading::Kind::kLoop, 0, 0}, {"way", KnotReading::Kind::kDistance, 1, 2}};
+  knot.readings = {{"loop", KnotReading::Kind::kLoop, 0, 0}, {"way", KnotReading::Kind::kDistance, 1, 2}};
   for (const double edge : {0.003, 0.0015, 0.0005}) {
-    DrawnSize size = kSize;
+    SketchSize size = kSize;
     size.edge_length = edge;
-    const Centreline rod = draw(knot, size);
-    ASSERT_EQ(rod.read.size(), 2u);
-    EXPECT_EQ(rod.read[0].kind, KnotReading::Kind::kLoop);
-    EXPECT_EQ(rod.read[0].second, rod.read[0].first);
-    EXPECT_LE(rod.read[0].first, rod.cuts[0]);
-    EXPECT_GT(rod.read[1].first, rod.cuts[0]);
+    const Centreline rod = sketch(knot, size);
+    ASSERT_EQ(rod.readings.size(), 2u);
+    EXPECT_EQ(rod.readings[0].kind, KnotReading::Kind::kLoop);
+    EXPECT_EQ(rod.readings[0].second, rod.readings[0].first);
+    EXPECT_LE(rod.readings[0].first, rod.cuts[0]);
+    EXPECT_GT(rod.readings[1].first, rod.cuts[0]);
     const std::pair<int, Vec3> places[] = {
-        {rod.read[0].first, {0, 1, 0}}, {rod.read[1].first, {4, -1, -1}}, {rod.read[1].second, {4, -2, 7}}};
+        {rod.readings[0].first, {0, 1, 0}}, {rod.readings[1].first, {4, -1, -1}}, {rod.readings[1].second, {4, -2, 7}}};
     for (const auto& [node, point] : places) {
       const Vec3 place = kSize.radius * point + (0.15 + 0.0015) * Vec3::UnitZ();
       // Half an edge, and what a Gaussian of one radius moves so sharp a bend by.
@@ -102,7 +102,7 @@ TEST(KnotDrawing, FindsALandmarkAlongItsStrandAtAnyLengthOfEdges) {
 }
 
 TEST(KnotDrawing, RopesOfTwoRadiiMayComeAsNearAsBothAreThick) {
-  DrawnSize one = kSize, thin = kSize, first_thin = kSize;
+  SketchSize one = kSize, thin = kSize, first_thin = kSize;
   thin.others = first_thin.first = 0.5;
   const auto side_by_side = [](double apart) {
     KnotDrawing out;
@@ -113,11 +113,11 @@ TEST(KnotDrawing, RopesOfTwoRadiiMayComeAsNearAsBothAreThick) {
     out.upper = {"upper"};
     return out;
   };
-  EXPECT_NO_THROW(draw(side_by_side(2.1), one));
-  EXPECT_THROW(draw(side_by_side(1.9), one), InvalidInput);
-  for (const DrawnSize& size : {thin, first_thin}) {
-    EXPECT_NO_THROW(draw(side_by_side(1.55), size));
-    EXPECT_THAT(complaint_of([&] { draw(side_by_side(1.45), size); }),
+  EXPECT_NO_THROW(sketch(side_by_side(2.1), one));
+  EXPECT_THROW(sketch(side_by_side(1.9), one), InvalidInput);
+  for (const SketchSize& size : {thin, first_thin}) {
+    EXPECT_NO_THROW(sketch(side_by_side(1.55), size));
+    EXPECT_THAT(complaint_of([&] { sketch(side_by_side(1.45), size); }),
                 HasSubstr("must be at least both radii apart, 1.5 radii"));
   }
 }
@@ -128,7 +128,7 @@ TEST(KnotDrawing, IsRefusedWhereAStrandBendsMoreSharplyThanTheRodIsThick) {
   knot.strands = {{{"lower", "upper"}, {{0, 0, -8}, {0, 0, -4}, {0, 0, 3}, {0, 0.2, 0}, {0, 0.2, 5}, {0, 0.2, 9}}}};
   knot.lower = {"lower"};
   knot.upper = {"upper"};
-  EXPECT_THAT(complaint_of([&] { draw(knot, kSize); }),
+  EXPECT_THAT(complaint_of([&] { sketch(knot, kSize); }),
               HasSubstr("specimen.knot hairpin: a strand bends with a radius of "));
 }
 
@@ -140,9 +140,9 @@ TEST(KnotDrawing, StandsOnItsFirstPostWhereTheLowerGripHoldsNoEnd) {
   knot.upper = {"upper"};
   knot.posts = {{Vec3(0, 0, 1), Vec3::UnitY(), 2.0}};
   EXPECT_NEAR(height_of_origin(knot, kSize), -0.003, 1e-12);
-  EXPECT_NO_THROW(draw(knot, kSize));
+  EXPECT_NO_THROW(sketch(knot, kSize));
   knot.posts[0].radius = 6.0;
-  EXPECT_THROW(draw(knot, kSize), InvalidInput);
+  EXPECT_THROW(sketch(knot, kSize), InvalidInput);
 }
 
 struct Scene {

@@ -32,7 +32,7 @@ RodProperties rod_of(const Points& points, const std::vector<int>& cuts = {}) {
 PerKnot read(const Points& points, std::vector<KnotReading> what, const std::vector<int>& cuts = {}) {
   Centreline rod;
   rod.points = points;
-  rod.read = std::move(what);
+  rod.readings = std::move(what);
   return KnotReadings(rod, rod_of(points, cuts)).at(points);
 }
 

@@ -97,7 +97,7 @@ TEST(K7_Overhand, IsATorusKnotOnceItsEndsAreJoinedOutside) {
   }
 }
 
-/// A drawn loop of either handedness.
+/// A sketched loop of either handedness.
 class K7_Loop : public testing::TestWithParam<Handedness> {
  protected:
   FishermanShape shape = [] {
@@ -182,10 +182,10 @@ TEST_P(K7_Loop, KeepsItWhileATailOrAWholeKnotWindsAroundTheOtherStrand) {
   shape.knot_distance = 0.15;
   draw();
   const Eigen::Index exit = node(line.knots[1].tail_exit), standing = node(line.knots[1].standing_begin);
-  const LoopTopology drawn = topology;
+  const LoopTopology sketched = topology;
   for (const double sense : {-1.0, 1.0})
     for (const auto& [first, full] : {std::pair(exit, exit + 20), std::pair(standing - 25, standing)}) {
-      topology = drawn;
+      topology = sketched;
       for (double angle = 0.0; angle < 4.0 * M_PI; angle += 0.5)
         expect_fisherman(read(wound(first, full, sense * angle)));
     }
@@ -223,7 +223,7 @@ INSTANTIATE_TEST_SUITE_P(Hands, K7_Loop, testing::Values(Handedness::kSame, Hand
 
 constexpr double kRadius = 1.0;  // h of the rods here
 
-Points drawn(const std::vector<Vec3>& places) {
+Points sketched(const std::vector<Vec3>& places) {
   Points points(3, static_cast<Eigen::Index>(places.size()));
   for (std::size_t i = 0; i < places.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = places[i];
   return points;
@@ -241,7 +241,7 @@ Points loop(double circle) {
     places.emplace_back(corner * std::cos(angle), corner * std::sin(angle), kRadius * (2.0 * turn - 1.0));
   }
   for (int i = 1; i <= 60; ++i) places.emplace_back(0.1 * circle * i, -circle, kRadius);
-  return drawn(places);
+  return sketched(places);
 }
 
 /// An overhand drawn on a torus: it goes twice around the axis, and three times around the core, a circle of radius
@@ -257,7 +257,7 @@ Points overhand_on_torus(double core, double r) {
   for (int i = 20; i > 0; --i) places.push_back(first + Vec3(0.1 * core * i, 0.0, 0.0));
   for (int i = 0; i <= kSteps; ++i) places.push_back(at(0.02 + (2.0 * M_PI - 0.04) * i / kSteps));
   for (int i = 1; i <= 20; ++i) places.push_back(last + Vec3(0.1 * core * i, 0.0, 0.0));
-  return drawn(places);
+  return sketched(places);
 }
 
 Points turned(const Points& points) {
@@ -281,8 +281,8 @@ TEST(KnotHole, OfAStraightRodAndOfAnArchItIsNone) {
     straight.emplace_back(0.0, 0.0, i);
     arch.emplace_back(20.0 * std::cos(0.01 * M_PI * i), 0.0, 20.0 * std::sin(0.01 * M_PI * i));
   }
-  EXPECT_EQ(hole_diameter(drawn(straight), kRadius), 0.0);
-  EXPECT_EQ(hole_diameter(drawn(arch), kRadius), 0.0);
+  EXPECT_EQ(hole_diameter(sketched(straight), kRadius), 0.0);
+  EXPECT_EQ(hole_diameter(sketched(arch), kRadius), 0.0);
 }
 
 TEST(KnotHole, OfAnOverhandOnATorusItIsThatAlongTheAxis) {
@@ -338,7 +338,7 @@ TEST(KnotHole, OfTangledCurvesTheCircleIsThatWhichFloodingLeaves) {
       for (int k = 0; k < 6; ++k) at += waves[k] * std::cos(0.002 * (k + 1) * i + k) * 10.0 / (1.0 + 0.3 * k);
       places.push_back(at);
     }
-    const Points points = drawn(places);
+    const Points points = sketched(places);
     constexpr double kCell = 0.15;  // the curve's points are nearer to each other than that
     const double flooded = by_flooding(points, Mat3::Identity(), kCell);
     const double found = largest_enclosed_circle(points, Mat3::Identity(), 1e-3).radius;

@@ -8,6 +8,7 @@
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {

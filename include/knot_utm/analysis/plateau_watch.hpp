@@ -41,7 +41,7 @@ class PlateauWatch {
   PlateauWatch(double radius, std::optional<double> error);
 
   /// Adds an accepted time step.
-  void add(const Sample& step);
+  void add(const Sample& step) { samples_.push_back(step); }
   /// Adds a reading of the load cell, the last time step once more. Returns whether the plateau is settled by it.
   bool settled_by(const Sample& reading);
 

@@ -43,7 +43,7 @@ struct Snap {
 ///   - F falls by a tenth or more;
 ///   - the rod gives up at least a fiftieth of its stored energy, and twice as much as the grips put in meanwhile;
 ///   - it still stores as much as when the pull began, so that what it gives up is what the pull had stored. A shape
-///     that was drawn and settles as the pull begins does not snap.
+///     that was sketched and settles as the pull begins does not snap.
 /// All of these are ratios, so they hold for any size and stiffness, and do not depend on how long is pulled after it.
 /// Strands that stick and slip give up less. A loop of two knots has jumps in place of snaps (curve_readings.hpp).
 std::optional<Snap> snap(const std::vector<Sample>& samples);

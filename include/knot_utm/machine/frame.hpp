@@ -8,29 +8,23 @@ class Archive;
 struct Material;
 
 /// The machine's frame, load train and crosshead drive as one spring of stiffness K [N/m] between the crosshead, which
-/// travels D, and the upper grip, which moves by g less: F = K (D - g) at rest, F the force of the specimen on the
-/// grip.
+/// travels D, and the upper grip, which moves by g less: F = K (D - g) at rest, F the force of the specimen on the grip
+/// (doc/model.md, section 6).
 ///
 /// A step of length dt moves the grip from g to g' such that
 ///
 ///     K (D' - g') = F + (k + n Z/dt + K tau/dt + m/dt^2) (g' - g)        F at the beginning of the step
 ///
-/// k is the specimen's present stiffness. It is what F gained over the motion of the grip in the last step, or half of
-/// the k before where that is more, so that it rises at once and falls within some steps; never below zero, and never
-/// above n k_s/l, that of n taut strands of the length l from the grip to what else holds them, with which it begins.
-/// Z = sqrt(k_s (rho A + c dt)) is the impedance of what the grip sends along each strand within the step: a wave,
-/// which the drag c [N s/m^2] of the step slows down. tau stands for the inertia of crosshead and grip, without which
-/// they would whip to and fro when a rod snaps. F has the drag and inertia of the step before; without n Z the grip
-/// would answer to them by a motion that grows from step to step.
+///   k    present stiffness of the specimen, from the last steps; at most n k_s/l, that of n taut strands of length l
+///   Z    (k_s (rho A + c dt))^1/2, impedance of the wave that the grip sends along each strand, with drag c [N s/m^2]
+///   tau  stands for the inertia of crosshead and grip, without which they would oscillate when a rod snaps
+///   m    3 m_a, with m_a the mass of the rod around a roller or in a clamp, whose inertia force of the last step is
+///   part
+///        of F: with m <= 2 m_a a motion that alternates from step to step would not decay, as at m = 2 m_a
+///        (m + n Z dt) x^2 + (m_a + n Z dt) x - m_a has the root -1
 ///
-/// The rod around a roller, or in a clamp, moves with it, so that F contains the inertia force of its mass m_a in the
-/// last step. A motion that alternates from step to step decays, however small K and dt are, if m > 2 m_a: at m = 2
-/// m_a, (m + n Z dt) x^2 + (m_a + n Z dt) x - m_a has the root -1. Here m = 3 m_a; the drag of that length is a part of
-/// m_a, as c dt is of rho A.
-///
-/// At rest F = K (D - g) exactly. In motion the spring bears more than F, by (k - dF/dg + (n Z + K tau)/dt + m/dt^2)
-/// (g' - g), so that the grip lags as if on a damper: a little, as k follows dF/dg. Where F stiffens at once,
-/// passed_balance asks for shorter steps. The curve of F over g does not contain this lag.
+/// In motion the grip lags a little, as if on a damper; the curve of F over g does not contain this lag. Where F
+/// stiffens at once, passed_balance asks for shorter steps.
 class Frame {
  public:
   /// `strands`: their number n. `moved`: length of rod that moves with the grip, m_a/(rho A) [m].

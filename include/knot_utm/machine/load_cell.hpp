@@ -22,7 +22,7 @@ class LoadCell {
  public:
   explicit LoadCell(const LoadCellOptions& options);
 
-  void balance(double true_force);  ///< from now on this force reads zero
+  void balance(double true_force) { balanced_ = true_force; }  ///< from now on this force reads zero
 
   double offset() const { return balanced_; }  ///< F_balance [N]
 

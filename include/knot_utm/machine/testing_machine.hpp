@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/contact_force.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/machine_options.hpp"
@@ -12,8 +11,11 @@
 
 namespace knot_utm {
 
+class Archive;
 struct Command;
 struct Material;
+struct RodProperties;
+struct RodState;
 struct Sample;
 
 /// The specimen on the machine: rod, grips, rollers, tying rig, frame and load cell, stepped by commands.
@@ -22,15 +24,15 @@ struct Sample;
 /// Frame: z up and along the load axis, the lower grip's roller (or node, or clamp) near z = 0.
 class TestingMachine {
  public:
-  /// The specimen is in its drawn shape, not tied yet. Throws InvalidInput where it does not fit the machine.
+  /// The specimen begins in its sketched shape, not tied. Throws InvalidInput where it does not fit the machine.
   TestingMachine(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                  const PhysicsOptions& physics);
   ~TestingMachine();
   TestingMachine(TestingMachine&&) noexcept;
   TestingMachine& operator=(TestingMachine&&) noexcept;
 
-  /// Steps to `command.time` and reads everything there. After a sample of status kFailed the bench stays at the last
-  /// accepted step, and every later command gets the same answer.
+  /// Steps to `command.time` and reads everything there. After a sample with status kFailed or kBroken the machine
+  /// stays at the last accepted step, and every later command gets the same answer.
   Sample respond(const Command& command);
 
   /// One sample for every accepted time step of the last command, the last of them what `respond` returned.
@@ -46,17 +48,16 @@ class TestingMachine {
   /// Tension of each edge after the last accepted step, pull positive [N]. NaN once the rod has parted.
   Eigen::VectorXd tension() const;
 
-  /// Forces between the strands after the last accepted step; none before the first step, after a failure, and once the
-  /// rod has parted. For pictures: computed on demand only.
+  /// Forces between the strands after the last accepted step, for pictures. Empty before the first step, after a
+  /// failure, and once the rod has parted.
   std::vector<ContactForce> contact_forces() const;
 
-  /// Force per length that strands and rollers press on the rod with, at each node after the last accepted step: the
-  /// sum of normal forces there over the node's Voronoi length [N/m]. Empty where `contact_forces` has none to give.
-  /// For pictures: computed on demand only.
+  /// Force per length with which strands and rollers press on the rod, at each node after the last accepted step, for
+  /// pictures: the sum of normal forces there over the node's Voronoi length [N/m]. Empty where `contact_forces` is.
   Eigen::VectorXd contact_load() const;
 
-  /// Saves or loads the state after the last command. A bench that was constructed in the same way and has loaded it
-  /// answers all further commands with the same bits. `substeps` are not part of it.
+  /// Saves or loads the state after the last command, without `substeps`. A machine that was constructed in the same
+  /// way and has loaded it answers all further commands with the same bits.
   void state(Archive& archive);
 
  private:

@@ -9,7 +9,7 @@ namespace knot_utm {
 
 struct Sample;
 
-/// Moves the crosshead by the load. It uses only what a testing machine knows: the loads and displacements so far.
+/// Controls the crosshead by the load. It knows what a testing machine knows: loads and displacements so far.
 ///
 /// Following a course of the load:
 ///
@@ -20,7 +20,7 @@ struct Sample;
 /// not overshoot where the specimen becomes stiff, and catches up where it becomes soft. Before anything has moved the
 /// speed is a hundredth of v_max.
 ///
-/// Meeting a load: v_max, but no further than to where the load lies by the slope of the last command.
+/// Going to a load: v_max, but no further than to where the slope of the last command predicts the load.
 class LoadControl {
  public:
   /// Begins without knowledge of the stiffness.
@@ -29,7 +29,7 @@ class LoadControl {
   /// Speed of the crosshead until the next command, outwards positive [m/s].
   double following(const Sample& now, double wanted_load, double period, double fastest);
 
-  /// Magnitude of the speed towards a load [m/s]. `creeps`: slowly as long as no slope is known.
+  /// Magnitude of the speed towards a load [m/s]. `creeps`: go slowly as long as no slope is known.
   double meeting(const Sample& now, double wanted_load, double period, double fastest, bool creeps);
 
   /// Takes account of a new zero of the load [N].
@@ -44,19 +44,19 @@ class LoadControl {
   double stiffness_ = 0.0;  // k [N/m]
 };
 
-inline constexpr double kMetLoad = 1e-3;  // nearer to a load it is met [of it]
-inline constexpr double kMetTurn = 1e-9;  // nearer to a turn it is met [rad]
+inline constexpr double kLoadTolerance = 1e-3;  // within which a load is reached [of it]
+inline constexpr double kTurnTolerance = 1e-9;  // within which a turn is reached [rad]
 
-/// Whether a value rose (sense 1) or fell (-1) to its target.
+/// Whether a value has risen (sense 1) or fallen (-1) to its target.
 inline bool reached(double value, double target, double sense, double tolerance) {
   return sense * (value - target) >= -tolerance;
 }
 
-/// The course of the crosshead through a program. It consists of legs, in each of which the crosshead moves at one
-/// speed. The steps of the program ask it how far the test is, and lead it.
+/// The motion of the crosshead and the upper clamp through a program. It consists of legs with one velocity each. The
+/// steps of the program begin its legs, and read from it how far the test is.
 class CrossheadCourse {
  public:
-  /// `command_rate`: of commands [Hz]. `most_load`, `most_travel`: they end the test [N], [m].
+  /// `command_rate` [Hz]. `most_load` [N], `most_travel` [m]: limits that end the test.
   explicit CrossheadCourse(double command_rate = 1.0, double most_load = 0.0, double most_travel = 0.0)
       : command_rate_(command_rate), most_load_(most_load), most_travel_(most_travel) {}
 
@@ -68,38 +68,41 @@ class CrossheadCourse {
   double begin_load() const { return begin_load_; }  ///< as the step began [N]
   double begin_turn() const { return begin_turn_; }  ///< as the step began [rad]
 
-  /// The time since the step began, as it will be `more` commands from now [s].
+  /// Time from the beginning of the step to the last command, or to `more` commands after it [s].
   double time(std::uint64_t more = 0) const { return seconds(last_.sequence + more - begin_); }
-  /// Whether so much time has passed since the step began, rounded up to whole periods.
+  /// Whether this time [s], rounded up to whole periods, has passed since the step began.
   bool over(double time) const;
 
-  /// Begins a leg. Every leg counts from its own beginning, so that rounding does not add up.
+  /// Begins a leg with this velocity. Places are computed from the beginning of the leg, so that rounding does not add
+  /// up.
   void move(const Sample& now, double velocity);
   /// Turns the upper clamp from where it is, at this rate [rad/s].
   void turn(double rate) { turn_leg_ = {last_.sequence, last_.turn, rate}; }
-  void balance() { balance_next_ = true; }  ///< The next command balances.
+  void balance() { balance_next_ = true; }  ///< with the next command
 
-  /// Velocity towards an extension that is `left` [m] away, and no further.
+  /// Velocity towards an extension that is `left` [m] away; it does not lead beyond it within one period.
   double velocity_to_extension(double left, double fastest) const;
-  /// How near an extension counts as met [m].
-  double met_extension(double fastest) const;
-  /// Magnitude of the velocity towards a load. `creeps`: slowly as long as no slope is known.
+  /// Distance from an extension within which it is reached [m].
+  double extension_tolerance(double fastest) const;
+  /// Magnitude of the velocity towards a load. `creeps`: go slowly as long as no slope is known.
   double speed_to_load(const Sample& now, double load, double fastest, bool creeps);
-  /// Velocity that keeps `wanted_load`.
+  /// The load that velocity_at_load() keeps from now on [N]; at first that at the beginning of the step.
+  void keep_load(double load) { wanted_load_ = load; }
   double velocity_at_load(const Sample& now, double fastest);
-  /// Velocity that lets `wanted_load` grow at a rate, and keeps it at `end`. Where the crosshead could go no faster the
-  /// course begins anew from the present load: it is a rate, not a time table.
+  /// Velocity with which the load grows at a rate [N/s], and then stays at `end` [N]. If the crosshead is at its
+  /// highest speed and the load lags behind, it goes on from the present load: what counts is the rate, not a time
+  /// table.
   double velocity_at_load_rate(const Sample& now, double rate, double fastest,
                                double end = std::numeric_limits<double>::infinity());
-  double wanted_load = 0.0;                           ///< to be kept, or followed at a rate [N]
-  void forget_stiffness() { load_control_.begin(); }  ///< of the specimen, as after a turn
+  /// Forgets the stiffness of the specimen, which is another one after a turning point.
+  void forget_stiffness() { load_control_.begin(); }
 
   // For the runner of the program.
   void begin_step(const Sample& now);
-  /// Takes account of a sample: what is remembered of loads is told from its zero. Returns whether that moved.
+  /// Takes account of a sample. Loads that are remembered are converted to its zero; returns whether that has moved.
   bool take(const Sample& now);
-  /// Fills in the next command's motion, or that of a command that was made before.
-  void fill(Command& command) const;
+  /// Writes velocity, displacement and turn of the present leg at the time of `command` into it.
+  void write_motion(Command& command) const;
   void accept(const Command& command);
   double seconds(std::uint64_t commands) const { return static_cast<double>(commands) / command_rate_; }
 
@@ -108,10 +111,10 @@ class CrossheadCourse {
   Command last_;
   std::uint64_t begin_ = 0;  // the last command before the step
   double begin_load_ = 0.0, begin_turn_ = 0.0;
+  double wanted_load_ = 0.0;     // that is kept, or grows at a rate [N]
   double balance_offset_ = 0.0;  // of the last sample [N]
   bool balance_next_ = false;
-  // Ratio of the growth of the extension to that of the displacement in the last command that moved; 1 on a rigid
-  // frame.
+  // Growth of the extension over that of the displacement in the last command that moved; 1 on a rigid frame.
   struct {
     double extension = 0.0, displacement = 0.0;  // of the last sample [m]
     double value = 1.0;
@@ -128,7 +131,5 @@ class CrossheadCourse {
   } turn_leg_;
   LoadControl load_control_;
 };
-
-struct Sample;
 
 }  // namespace knot_utm

@@ -14,11 +14,11 @@ struct Until {
   std::optional<double> extension;  ///< s reaches it [m]
   std::optional<double> load;       ///< the balanced force reaches it [N]
   std::optional<double> time;       ///< time since the step began reaches it [s]
-  bool broken = false;  ///< `break: true`: a break occurs; a break ends the whole test even where this is false
+  bool broken = false;  ///< `break: true`: the rod breaks; a break ends the whole test even where this is false
 };
 
 /// `pull`: moves outwards at `speed`, or so that the load grows at `load_rate`, until the first sample that meets one
-/// of `until`. An extension may be passed by what one period moves.
+/// of `until`. It may pass an extension by the motion in one period.
 struct PullStep : Step {
   std::optional<double> load_rate;  ///< of load instead of extension [N/s]
   Until until;
@@ -32,7 +32,7 @@ struct PullStep : Step {
   double usual_duration(const CrossheadCourse& course) const override;
 };
 
-/// `hold`: for `duration`, rounded up to whole periods, stands still, or keeps a load.
+/// `hold`: stands still, or keeps a load, for `duration`, rounded up to whole periods.
 struct HoldStep : Step {
   bool hold_load = false;           ///< the load, not the crosshead
   std::optional<double> held_load;  ///< at this load [N]; unset: at that of the step's beginning
@@ -46,8 +46,9 @@ struct HoldStep : Step {
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;
 };
 
-/// `cycle`: out to the upper turning point, in to the lower one, and so on at `speed`; ends with the last of `cycles`,
-/// or by `time`. Extensions are met exactly; on a compliant frame, within a thousandth of the motion in one period.
+/// `cycle`: moves out to the upper turning point, in to the lower one, and so on at `speed`, until the last of `cycles`
+/// or for `time`. Extensions are reached exactly; on a compliant frame, within a thousandth of the motion in one
+/// period.
 struct CycleStep : Step {
   std::optional<fields::LowHigh> extension;  ///< turns between extensions [m] ...
   std::optional<fields::LowHigh> load;       ///< ... or loads [N]
@@ -63,14 +64,14 @@ struct CycleStep : Step {
   double usual_duration(const CrossheadCourse& course) const override;
 
  private:
-  double target() const;  ///< the turning point ahead
+  double target() const;  ///< the next turning point
 
   bool outwards_ = true;  // on the way to the upper turning point
   int turns_ = 0;         // so far
 };
 
-/// `return`: moves inwards at `speed` until the extension is `extension`, or the load `load`. It meets an extension as
-/// a cycle does.
+/// `return`: moves inwards at `speed` until the extension is `extension`, or the load `load`. It reaches an extension
+/// as exactly as a cycle does.
 struct ReturnStep : Step {
   double extension = 0.0;      ///< [m]
   std::optional<double> load;  ///< [N]
@@ -107,17 +108,22 @@ struct RecordedPlace {
 /// `follow`: repeats the motion of a record from its present place, until the record ends.
 struct FollowStep : Step {
   std::string record;                   ///< the file of the record
-  std::vector<RecordedPlace> recorded;  ///< and what it says once it has been read, times ascending from 0
+  std::vector<RecordedPlace> recorded;  ///< its rows once the file has been read, times ascending from 0
 
   FollowStep() : Step("follow", kMoves | kLoads | kPulls, "with the record") {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double) override {
+    f.says(
+         "record; of the crosshead: a `curve.csv`, which [`import_instron`](results.md#raw-data) makes of raw data, or "
+         "the folder of a run")
+        .file("record", record);
+  }
   void check(const StepPlace& place) const override;
   void steer(const Sample& now, CrossheadCourse& course) override;
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;
   double usual_duration(const CrossheadCourse&) const override { return recorded.empty() ? 0.0 : recorded.back().time; }
 
  private:
-  double way(double time) const;  ///< of the crosshead in the record; it is linear between two rows [m]
+  double way(double time) const;  ///< of the crosshead in the record, linear between two rows [m]
 };
 
 }  // namespace knot_utm

@@ -22,7 +22,9 @@ struct TieStep : BenchStep {
                   "when both grips slip at the pre-load and all is at rest") {
     speed = 0.01;
   }
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double) override {
+    f.says("speed; of the tail grips", "3.15 radii/s").scaled_number("speed", speed, kSpeeds);
+  }
   void check(const StepPlace& place) const override;
   double usual_duration(const CrossheadCourse&) const override { return 10.0; }
 };
@@ -32,7 +34,7 @@ struct ReleaseStep : BenchStep {
   ReleaseStep() : BenchStep("release", kPrepares | kForms | kEndsByItself, "when nothing is held and all is at rest") {
     duration = 3.0;
   }
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double) override { f.number("duration", duration, {1e-3, 1e4, "s"}); }
   void check(const StepPlace& place) const override;
 };
 
@@ -41,7 +43,7 @@ struct MountStep : BenchStep {
   MountStep()
       : BenchStep("mount", kPrepares | kEndsByItself | kMoves,
                   "with the knots at `knot_distance` and `end_to_end`, and a load of 0.03 k_b/h²") {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double) override { speed_key(f); }
   void check(const StepPlace& place) const override;
   void steer(const Sample& now, CrossheadCourse& course) override;
   double usual_duration(const CrossheadCourse&) const override { return kUsualDistance / speed; }

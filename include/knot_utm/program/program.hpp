@@ -20,38 +20,38 @@ struct Sample;
 
 using Program = std::vector<ProgramStep>;
 
-/// No crosshead and no tail grip of a method moves faster, nor does any testing machine [m/s].
+/// Highest speed of a crosshead or a tail grip that a method may ask for, as of testing machines [m/s].
 inline constexpr double kFastestCrosshead = 0.5;
 
 /// Where a step stands, for its checks.
 struct StepPlace {
   const Program& program;
   std::size_t index = 0;
-  std::string loops;  ///< the knots that are loops, as a message lists them; empty: the specimen is one
-  std::string tied;   ///< those that can be tied; empty: the specimen can
-  bool turns = true;  ///< its upper grip is a clamp that can be turned
+  std::string loops;        ///< the knots that are loops, as a message lists them; empty: the specimen is one
+  std::string can_be_tied;  ///< the knots that can be tied, likewise; empty: the specimen can
+  bool turns = true;        ///< its upper grip is a clamp that can be turned
 
   std::string key() const;  ///< "program.4.pull"
   /// Throws InvalidInput: the step cannot stand where it stands.
   [[noreturn]] void misplaced(const std::string& why) const;
-  /// Throws InvalidInput where the specimen is none of these knots; empty: it is.
+  /// Throws InvalidInput unless `knots` is empty: the step needs a specimen that is one of them.
   void needs(const std::string& knots) const;
 };
 
-/// A step of a test program: what a method says of it, how it moves the crosshead, and when it ends. A kind of step is
-/// a pair of files and one line in program.cpp. It is data that is copied with its program; what it remembers while it
-/// runs begins anew in `begin`.
+/// A step of a test program: its keys in a method, how it moves the crosshead, and when it ends. A kind of step is a
+/// pair of files and one line in program.cpp. Steps are copied with their program; `begin` resets what a step remembers
+/// while it runs.
 class Step {
  public:
   enum Trait : unsigned {
     kPrepares = 1,      ///< the specimen is made, mounted and zeroed, before the test proper
     kForms = 2,         ///< the specimen is being tied, or let go once it is tied
     kEndsByItself = 4,  ///< the machine says when it is done; other steps end at a condition of the program
-    kRests = 8,         ///< a loop that was released is neither put on the rollers nor gets its weight
+    kRests = 8,         ///< a loop that was released stays off the rollers, and without its weight
     kMoves = 16,        ///< the crosshead moves
     kLoads = 32,        ///< it puts a load on the specimen
     kPulls = 64,        ///< the specimen may be pulled further than before: these samples make the curve
-    kCanBreak = 128     ///< a falling load in it is judged as a break
+    kCanBreak = 128     ///< a load that falls during it may be a break
   };
 
   virtual ~Step() = default;
@@ -71,7 +71,7 @@ class Step {
   /// Whether it puts a load on the specimen.
   virtual bool loads() const { return (traits_ & kLoads) != 0; }
 
-  /// `now` is the last sample before its first command. The crosshead stands until it is told to move.
+  /// `now` is the last sample before its first command. The crosshead stands until the step moves it.
   virtual void begin(const Sample& /*now*/, CrossheadCourse&) {}
   /// Before each of its commands.
   virtual void steer(const Sample& /*now*/, CrossheadCourse&) {}
@@ -139,7 +139,7 @@ bool has_step(const Program& program) {
   return false;
 }
 
-/// Index of the step that is meant by a number from 0, or by a name that only one step has ("pull"); else nothing.
+/// Index of the step with a number from 0, or with a name that only one step has ("pull"); empty: no step is meant.
 std::optional<int> step_called(const Program& program, const std::string& name);
 
 }  // namespace knot_utm

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "knot_utm/program/course.hpp"
 #include "knot_utm/program/program.hpp"
@@ -14,8 +15,8 @@ namespace knot_utm {
 
 struct Sample;
 
-/// What a testing machine takes for a break: the load has fallen to a fraction of its peak. It judges loads only. A rod
-/// that parts in the simulation (break_watch.hpp) ends the test without it.
+/// When a testing machine detects a break: the load has fallen to a fraction of its peak. Only loads count; a rod that
+/// parts in the simulation (break_watch.hpp) ends the test in any case.
 struct BreakDetection {
   std::optional<double> fraction_of_peak;  ///< [-]; unset: no fall is a break
   double arming_load = 0.0;                ///< falls count only after the load has reached this [N]
@@ -30,15 +31,13 @@ class BreakDetector {
 
   void begin() { peak_ = 0.0; }  ///< begins a motion outwards
 
-  /// Takes the next sample. Returns the break that it shows, as a message; empty: none.
+  /// Takes the next sample. Returns a message about the break that it shows; empty: none.
   std::string judge(const Sample& sample);
 
  private:
   BreakDetection detection_;
   double peak_ = 0.0;  // [N]
 };
-
-struct Sample;
 
 /// The test program as a state machine: it gets samples and gives commands, and depends on nothing else.
 ///
@@ -55,8 +54,8 @@ struct Sample;
 /// The test ends when the last step has ended. It ends earlier if the rod parts, the load falls as Limits::breaks says
 /// (judged in steps that can break, while the crosshead does not return), the bench fails, a true force or a reading
 /// exceeds Limits::load, the crosshead reaches the end of its travel, the grips meet, or by the time limit or the
-/// operator. It also ends if the knot comes undone before the first step that pulls it, once three answers in a row say
-/// so. A program that neither mounts nor pulls is not ended by that, so that the knot can be watched.
+/// operator. It also ends if three answers in a row say that the knot came undone before the first step that pulls it,
+/// unless the program never moves the crosshead: the knot is then watched.
 class ProgramRunner {
  public:
   struct Limits {
@@ -77,11 +76,11 @@ class ProgramRunner {
   /// with phase done. Throws std::invalid_argument for the answer to another command.
   Command next(const Sample& sample);
 
-  void stop();     ///< operator: the test ends now
-  void balance();  ///< operator: the next command balances
+  void stop() { end(EndedBy::kOperator, "stopped by the operator"); }  ///< the test ends now
+  void balance() { course_.balance(); }                                ///< by the operator: the next command balances
   /// The plateau of the pull is settled: the test ends now, which is no failure. `where`: one line about it.
-  void plateau_settled(std::string where);
-  /// The bench is lost: the test has ended by the solver, whatever command came before.
+  void plateau_settled(std::string where) { end(EndedBy::kPlateau, std::move(where)); }
+  /// The machine is lost: the test has ended by the solver, whatever command came before.
   void fail(std::string why);
 
   bool ended() const { return ended_by_ != EndedBy::kNotYet; }
@@ -93,7 +92,8 @@ class ProgramRunner {
   static constexpr const char* kTooEarly = ", before it was pulled";
   const std::string& reason() const { return reason_; }  ///< one line where the test did not end as programmed
 
-  Phase phase() const;                                ///< of the last command; done once the test has ended
+  /// Of the last command; done once the test has ended.
+  Phase phase() const { return ended() ? Phase::kDone : last().phase; }
   double period() const { return course_.period(); }  ///< of commands [s]
   double progress() const;                            ///< 0..1, fraction of the programmed time that has passed
   double time_left() const;                           ///< programmed time that is left, estimated [s]
@@ -118,13 +118,10 @@ class ProgramRunner {
   std::string reason_;
 };
 
-struct Command;
-struct Sample;
-
-/// Runs a whole test, or the rest of one: the program's commands go to the bench and its samples back until the test
-/// has ended. `observe(command, sample)` sees each answer before the program does and may call `program.stop()`.
-/// `interrupted()` may end the run between commands, where bench and program can be saved and continued later. A Bench
-/// has `Sample respond(const Command&)`.
+/// Runs a whole test, or the rest of one: exchanges commands and samples with the bench until the test has ended.
+/// `observe(command, sample)` sees each answer before the program does and may call `program.stop()`. `interrupted()`
+/// may end the run between commands, when bench and program can be saved and continued later. A Bench has `Sample
+/// respond(const Command&)`.
 template <class Bench, class Observer, class Interrupted>
 void run_test(Bench& bench, ProgramRunner& program, Observer observe, Interrupted interrupted) {
   Command command = program.last();

@@ -6,11 +6,11 @@
 
 namespace knot_utm {
 
-/// The phases of a test: idle, done, and the steps that a program may have (program/program.hpp). Those that other code
-/// asks for have a name here; every other step has the next number behind them.
+/// The phases of a test: idle, done, and the steps that a program may have (program/program.hpp). Steps that other code
+/// asks for have a name here; further steps have the numbers after kDone.
 enum class Phase { kIdle, kTie, kRelease, kMount, kPreload, kBalance, kPull, kHold, kCycle, kReturn, kFollow, kDone };
 
-/// A saved state may have no higher one. Which of them are steps, program/phases.hpp says.
+/// The highest one that a saved state may have. program/phases.hpp has the name of each.
 inline constexpr Phase kHighestPhase{63};
 
 /// A command: the motion of the crosshead until `time`. The simulation answers it with a sample of the same time.

@@ -46,7 +46,7 @@ bool friction_rolls(const Material& material, const MachineOptions& machine, con
 Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                                const PhysicsOptions& physics);
 
-/// Length of rod beyond the distance of its two ends, of a knotted strand that is pulled as it was drawn; 0 of all
+/// Length of rod beyond the distance of its two ends, of a knotted strand that is pulled as it was sketched; 0 of all
 /// other specimens [m].
 double slack_of(const SpecimenOptions& specimen, const Centreline& centreline);
 

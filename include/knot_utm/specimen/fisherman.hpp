@@ -31,7 +31,7 @@ struct FishermanShape {
   double looseness = 4.7;       ///< R/h, radius of the coil over that of the rod (3.9 to 8)
   double edge_length = 0.0032;  ///< target where strands may slide along each other [m]
   double refinement = 1.0;      ///< edges of both strands between and within the knots are shorter by this factor [-]
-  double straight = 0.0;        ///< least straight length of its strands beyond the middles of the drawn coils [m]
+  double straight = 0.0;        ///< least straight length of its strands beyond the middles of the sketched coils [m]
   double coarsening = 1.0;      ///< edges of the far side are longer by this factor, up to the rod's diameter [-]
 };
 

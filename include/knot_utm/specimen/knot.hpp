@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "knot_utm/sim/scene.hpp"
@@ -21,7 +20,7 @@ struct Mounting {
   double refinement = 1.0;       ///< edges in and between its knots are shorter by this factor [-]
 };
 
-/// What bears a specimen besides its grips, unchanged throughout a test.
+/// Bodies and loads that bear a specimen besides its grips, the same throughout a test.
 struct Supports {
   std::vector<Roller> posts;     ///< fixed to the machine's base; the first one may stand for the lower grip
   std::vector<Roller> pins;      ///< fixed to the upper grip, for which the first one stands
@@ -29,7 +28,7 @@ struct Supports {
 };
 
 /// The study from which the errors of a knot's readings are known (settings/accuracy.hpp).
-enum class ErrorStudy { kNone, kStraight, kFisherman, kDrawnKnot };
+enum class ErrorStudy { kNone, kStraight, kFisherman, kSketchedKnot };
 
 /// Properties of a knot that do not depend on its keys.
 struct KnotDescription {
@@ -42,18 +41,18 @@ struct KnotDescription {
   /// Two strands bear the load, and rollers can hold it. It has two knots, each tied into an end of the rod around the
   /// other strand, so that it has the readings between two knots.
   bool loop = false;
-  double drawn_coil = 0.0;    ///< of a loop: radius of its coils' centreline before they are tied [h]
-  bool any_shape = false;     ///< the user gives its shape, which may contain any knot; the type is followed
-  bool tied_by_ends = false;  ///< tied by pulling at its free ends
-  bool straight = false;      ///< it never bends, so that it does not settle, twist or touch itself
+  double sketched_coil = 0.0;  ///< of a loop: radius of its coils' centreline before they are tied [h]
+  bool any_shape = false;      ///< the user gives its shape, which may contain any knot; the type is followed
+  bool tied_by_ends = false;   ///< of a knot from a file: tied by pulling at its ends
+  bool straight = false;       ///< it never bends, so that it does not settle, twist or touch itself
   ErrorStudy error_study = ErrorStudy::kNone;
 
   bool can_be_tied() const { return loop || tied_by_ends; }
   bool may_hold_a_knot() const { return knots > 0 || any_shape; }
 };
 
-/// The interface of a knot: how a specimen of this kind is made, and all that the program needs to know of it. A knot
-/// is a file in src/specimen and named in knots.cpp. No other code distinguishes knots.
+/// The interface of a knot: how a specimen of this kind is sketched, held and pulled. A knot is a file in src/specimen
+/// and named in knots.cpp. No other code distinguishes knots.
 class Knot {
  public:
   virtual ~Knot() = default;
@@ -65,10 +64,11 @@ class Knot {
   /// The values of `auto` for a rod of radius h [m]. Keys that the knot does not have keep their plain values, so that
   /// they may stand in its method.
   virtual SpecimenOptions defaults(double h) const = 0;
-  /// The same where some keys are `known`: where two keys must agree and one of them is set, the other one is adapted.
-  virtual void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const;
-  /// Default diameter of rollers that hold it [m].
-  virtual std::optional<double> roller_diameter(double h) const;
+  /// Adapts defaults in `out` to keys that are set, whose values are in `known`, where two keys must agree.
+  virtual void suit(const SpecimenOptions& /*known*/, double /*roller_diameter*/, double /*h*/,
+                    SpecimenOptions& /*out*/) const {}
+  /// Default diameter of rollers that hold it [m]; empty: none do.
+  virtual std::optional<double> roller_diameter(double /*h*/) const { return {}; }
   /// Extension of a pull whose `until.extension` is `auto` [m].
   virtual double pull(const SpecimenOptions& specimen, double h) const = 0;
 
@@ -78,31 +78,28 @@ class Knot {
   /// Throws InvalidInput where its keys do not go together.
   virtual void check(const SpecimenOptions& specimen, double h) const = 0;
 
-  /// The centreline in the machine before anything moves, with the lower grip at the origin, pulled along +z. Throws
-  /// InvalidInput where it does not fit.
+  /// The centreline in the machine before anything moves. The lower grip is at the origin; the upper one will pull
+  /// along +z. Throws InvalidInput where it does not fit.
   virtual Centreline centreline(const SpecimenOptions& specimen, const Material& material,
                                 const Mounting& mounting) const = 0;
   /// Empty where the grips hold its ends alone.
-  virtual Supports supports(const SpecimenOptions& specimen, const Material& material) const;
+  virtual Supports supports(const SpecimenOptions& /*specimen*/, const Material& /*material*/) const { return {}; }
   /// The nodes that the lower and the upper grip hold where there are no rollers.
-  virtual std::vector<HeldNode> held_below(const Centreline& centreline, bool clamped) const;
-  virtual std::vector<HeldNode> held_above(const Centreline& centreline, bool clamped) const;
+  virtual std::vector<HeldNode> held_lower(const Centreline& centreline, bool clamped) const;
+  virtual std::vector<HeldNode> held_upper(const Centreline& centreline, bool clamped) const;
 
  protected:
-  explicit Knot(KnotDescription about) : about_(std::move(about)) {}
-
- private:
-  KnotDescription about_;
+  KnotDescription about_;  ///< set by the constructor of a knot
 };
 
 /// All knots there are, in the order in which messages name them; the first is the default.
 const std::vector<const Knot*>& knots();
 const Knot& knot_of(KnotKind kind);
 inline const Knot& knot_of(const SpecimenOptions& specimen) { return knot_of(specimen.knot); }
-/// Whether the type of its knot is followed (KnotWatch): of one rod with both ends held, or of a loop. How free ends
-/// lie would decide how any other is closed.
+/// Whether the type of its knot is followed (KnotWatch): of one rod with both ends held, or of a loop. To close any
+/// other rod into a knot, one would have to decide how its free ends lie.
 bool type_is_followed(const SpecimenOptions& specimen);
-/// Strands that bear the load side by side: two of a loop, and as many as ends that both grips hold.
+/// Number of strands that bear the load side by side: two of a loop, else as many ends as each grip holds.
 int bearing_strands(const SpecimenOptions& specimen);
 /// Throws InvalidInput ("specimen.knot") where no knot has this name.
 KnotKind knot_named(const std::string& name);
@@ -117,7 +114,7 @@ std::string knots_that_can_be_tied();
 /// F_p on each overhand of a loop [N]: that of the specimen, else default_preload of its material.
 double tying_load(const SpecimenOptions& specimen, const Material& material);
 
-/// What all weights on a knot from a file come to [N].
+/// Sum of the weights that hang on a knot from a file [N].
 double hung_weight(const SpecimenOptions& specimen, const Material& material);
 
 /// T1 of a capstan [N]; `specimen.tail_load: auto` is k_b/h^2, but at most k_s/100.

@@ -10,16 +10,15 @@
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 
-/// Where the knot is: what its file reads of it, what of its tails is left outside it, and what the two knots of a loop
-/// touch.
+/// Where the knot is: the lengths that its file asks for, its tails, and what the two knots of a loop touch.
 namespace knot_utm {
 
-/// What a knot's file reads of the knot. Its lengths are those of the rod at rest.
+/// The lengths of the knot that its file asks for, measured along the rod at rest.
 ///
-/// Two places of the rod touch where the polylines through its nodes are nearer to each other than 1.05 times both
-/// radii together, and more than 3 pi/2 radii of rod lie between them. Strands that press on each other are nearer by a
-/// clear margin, so that a touch does not come and go with the force of a contact, and the place at which strands begin
-/// to touch moves along the rod as smoothly as the strands do. Posts do not count.
+/// Two places of the rod touch if the polylines through its nodes are nearer to each other than 1.05 times the sum of
+/// both radii, and more than 3 pi/2 radii of rod lie between them. Strands that press on each other are clearly nearer,
+/// so that a touch does not come and go with the contact force, and the place at which strands begin to touch moves as
+/// smoothly along the rod as the strands do. Posts do not count.
 class KnotReadings {
  public:
   KnotReadings(const Centreline& centreline, const RodProperties& rod);
@@ -28,7 +27,7 @@ class KnotReadings {
   PerKnot at(const Points& position) const;
 
  private:
-  /// Edges in the order of their height, of which those near a place are neighbours.
+  /// A shape with its edges sorted by height, so that the edges near a place are found quickly.
   struct Shape {
     const Points& position;
     Points middle;                // of the edges [m]
@@ -45,17 +44,17 @@ class KnotReadings {
   Eigen::VectorXd radius_;     // of the edges [m]; 0: it is cut
 };
 
-/// The tails of a knot: how much of each free end is left outside it. A tail ends where, from its end on, its rope has
-/// borne a twentieth of all normal force of strands on the rope. This place moves along the rod smoothly, which that of
-/// the first contact does not. Posts do not count: that of a hitch bears most where the load comes in, so that a
-/// twentieth of its force is borne by turns in the middle of the rope, and further along the more the load grows. Only
-/// of a rope that is wound around posts, and whose strands have never touched, they are all that there is.
+/// The tails of a knot: the length of each free end outside it. The normal forces between strands are summed along the
+/// rope from its free end; the tail ends where the sum reaches a twentieth of the whole. Unlike the place of the first
+/// contact, this place moves smoothly along the rod. Forces of posts do not count: the post of a hitch presses most
+/// where the load comes in, so that the place would lie further along the more the load grows. They count only as long
+/// as strands have never touched, as those of a rope that is merely wound around posts.
 class FreeEnds {
  public:
   FreeEnds(const Centreline& centreline, const RodProperties& rod);
 
-  /// Of each free end, in the order along the rod [m]; unknown where its rope touches nothing that counts, or no rope
-  /// of several touches another.
+  /// Of each free end, in the order along the rod [m]; unknown if its rope touches nothing that counts, or if there are
+  /// several ropes and none touches another.
   PerKnot lengths(const StepReadings& readings) const;
   /// After an accepted step: whether strands touch.
   void follow(bool touch) { touched_ |= touch; }
@@ -79,9 +78,9 @@ class FreeEnds {
 /// Contact of the two overhands of a loop with each other and with the rollers.
 ///
 /// A knot's coil is its own strand from the outermost point, where it turns back, to the cut of its tail
-/// (OverhandStrand); the other knot's strand, which runs through it, is no part of it. The knots touch each other where
-/// one coil touches the other. A knot or its tail lies on a roller where the strand from that outermost point to the
-/// tail's end does. Where a strand no longer turns back and forth, its coil is taken where it was last found.
+/// (OverhandStrand), without the other knot's strand that runs through it. The knots touch each other if their coils
+/// do. A knot or its tail lies on a roller if its strand does, between the outermost point and the end of the tail. If
+/// a strand no longer turns back and forth, its coil stays where it was last found.
 class KnotTouch {
  public:
   /// `standing`: as LoopTopology takes them, lower knot first. `radius`: of the rod [m]. `windings`: of each tail.

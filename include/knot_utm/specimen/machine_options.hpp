@@ -37,11 +37,11 @@ struct MachineOptions {
   double travel = 1.0;                                         ///< the crosshead's reach; a test ends there [m]
 };
 
-/// Whether two rollers hold the specimen, as they do a loop. Else nodes are held, and clamps also hold their
-/// neighbours.
+/// Whether two rollers hold the specimen, which is then a loop. Other grips hold nodes, and clamps their neighbours,
+/// too.
 bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
 bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
-/// Whether the upper grip is a clamp that can be turned about the load axis: on strands of no loop.
+/// Whether the upper grip is a clamp that can be turned about the load axis; that of a loop cannot.
 bool clamp_turns(const SpecimenOptions& specimen, const MachineOptions& machine);
 
 }  // namespace knot_utm

@@ -27,7 +27,7 @@ struct Material : RodMaterial {
   LawOptions<BreakingLaw> breaking;         ///< breaking.law and the keys of that law
   std::string load_cell;                    ///< name of the load cell that suits it
   std::string notes;
-  std::shared_ptr<const Material> other;  ///< of the ropes behind the first one, `other_material`; null: of this, too
+  std::shared_ptr<const Material> other;  ///< `other_material`, of all ropes but the first; null: they have this one
 };
 
 /// Radius of the thickest rope, the unit of a drawing, and of the thinnest one [m].

@@ -30,8 +30,8 @@ struct SpecimenOptions {
   double natural_curvature = 0.0;              ///< kappa_0 (centreline.hpp) [1/m]
   double edge_length = 0.0032;                 ///< discretisation [m]
   std::optional<double> refinement;            ///< edges between and within knots are shorter by this; unset: auto
-  bool to_be_tied =
-      false;  ///< the program ties it (not a key): e is that of the tied knots, and the knots are drawn closer
+  /// Not a key: the program ties it. e is then that of the tied knots, and the knots are sketched closer.
+  bool to_be_tied = false;
 };
 
 }  // namespace knot_utm

@@ -36,18 +36,18 @@ Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vec
 /// which lies `apart` [m] away along it, or further. Arclengths [m]; empty: nowhere.
 std::optional<std::pair<double, double>> part_near_itself(const Points& points, double near, double apart);
 
-/// Two places of a polyline, and how far apart they are [m].
+/// Two places of a polyline.
 struct NearestPlaces {
-  double distance = 0.0;
-  double thinner = 0.0;              ///< by which both radii together are less than those of the thickest rope [m]
+  double distance = 0.0;             ///< infinite where there are none [m]
+  double radius_deficit = 0.0;       ///< twice the radius of the thickest rope, less the radii of both [m]
   double first = 0.0, second = 0.0;  ///< arclengths [m]
   Vec3 middle = Vec3::Zero();        ///< half-way between them [m]
 };
 
-/// The two places of a polyline that are nearest to each other among those at least `exclusion` [m] apart along it;
-/// their distance is infinite where there are none. What lies on different sides of one of its `cuts` is always far
-/// enough apart. `radii`: of the ropes between the cuts [m]; none: all are alike. What counts then is the distance of
-/// their surfaces, and the exclusion, that of the thickest one, is in proportion to the radius.
+/// The two places of a polyline with the least distance among those at least `exclusion` [m] apart along it. Places on
+/// different sides of one of its `cuts` always count. `radii`: of the ropes between the cuts [m]; none: all are alike.
+/// Where they differ, the places whose surfaces have the least distance are found, and a rope's exclusion is
+/// `exclusion` times its radius over the largest one.
 NearestPlaces nearest_places(const Points& points, double exclusion, const std::vector<int>& cuts = {},
                              const std::vector<double>& radii = {});
 

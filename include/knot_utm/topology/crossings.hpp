@@ -15,7 +15,7 @@ struct Crossing {
 };
 
 /// Crossings of a closed polygon with itself and of two with each other, in any order. The third row of `rotation` is
-/// the viewing direction. Boxes around ever longer pieces leave out pieces that cannot meet.
+/// the viewing direction. A hierarchy of bounding boxes leaves out segments that cannot meet.
 std::vector<Crossing> crossings_of(const Points& polygon, const Mat3& rotation);
 std::vector<Crossing> crossings_between(const Points& first, const Points& second, const Mat3& rotation);
 
@@ -23,18 +23,18 @@ std::vector<Crossing> crossings_between(const Points& first, const Points& secon
 /// strand rises to the coil's outermost point, falls to its innermost and rises again as the tail. "High" means
 /// outwards, away from the other knot.
 ///
-/// A coil of n windings falls from one winding to the next. As it tightens, its windings may lie aslant, and the strand
-/// then rises and falls again within each of them. So up to `own_rises` rises that end below the coil's outermost point
-/// plus h belong to the coil. The tail is the first rise that ends higher, or the last rise there is. A rise of the
-/// coil may even end higher: a caller who knows the knot can have rises passed over however high they are. A single
-/// winding has no other one to lie aslant on. It has no rises of its own, because otherwise a tail that turns back low
-/// would be followed too far; but the whole coil may lie aslant, and then a caller has one rise passed over.
+/// A coil of n windings falls from one winding to the next. As it tightens, its windings may lie aslant, so that the
+/// strand rises and falls again within each of them. Up to `own_rises` rises that end below the coil's outermost point
+/// plus h therefore belong to the coil. The tail is the first rise that ends higher, or else the last rise. A single
+/// winding has no rises of its own, because otherwise a tail that turns back low would be followed too far. Even so,
+/// rises of a coil may end higher, and a single winding may lie aslant: a caller that knows the knot can have a number
+/// of rises passed over, however high they are.
 struct OverhandStrand {
-  Eigen::Index begin = 0;   ///< node of the standing part from which it was followed: on this side of the roller
-  Eigen::Index top = 0;     ///< node of the coil's outermost point, where the strand turns back
-  Eigen::Index cut = 0;     ///< node of the tail level with that plus h, or where the tail turns back before
-  Eigen::Index end = 0;     ///< node of the tail's end
-  double level = 0.0;       ///< height of the coil's outermost point plus h, or of the cut where that is higher [m]
+  Eigen::Index begin = 0;  ///< node of the standing part from which the strand was followed, on this side of the roller
+  Eigen::Index top = 0;    ///< node of the coil's outermost point, where the strand turns back
+  Eigen::Index cut = 0;    ///< node of the tail at the height of `top` plus h, or where the tail turns back before
+  Eigen::Index end = 0;    ///< node of the tail's end
+  double level = 0.0;      ///< height of the coil's outermost point plus h, or of the cut where that is higher [m]
   bool coil_found = false;  ///< the strand turns back and forth as an overhand's does
 
   static int own_rises(int windings) { return windings > 1 ? windings : 0; }
@@ -42,7 +42,7 @@ struct OverhandStrand {
   /// `standing`: a node in the standing part of the lower knot (k = 0), tied into the rod's first end, or of the upper
   /// (k = 1), tied into its last. That node may have gone around the roller behind the other knot; the strand is then
   /// followed down from it to where it rises again. `axis`: unit, from the lower grip to the upper one. `radius`: h
-  /// [m]. `windings`: n. `passed_over`: number of rises that belong to the coil in any case.
+  /// [m]. `windings`: n. `passed_over`: number of rises that belong to the coil, however high they are.
   static OverhandStrand follow(const Points& points, std::size_t k, Eigen::Index standing, const Vec3& axis,
                                double radius, int windings = 1, int passed_over = 0);
 };

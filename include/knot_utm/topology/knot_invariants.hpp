@@ -33,15 +33,13 @@ int linking_number(const Points& first, const Points& second);
 /// joined far away. For overhands between clamps, `axis` runs from the first end to the last.
 Points closed_far_away(const Points& open, const Vec3& axis);
 
-/// The topology of a fisherman's loop, with a closure that swinging tails do not change.
+/// The topology of a fisherman's loop, with a closure that swinging tails do not change (doc/model.md, section 12).
 ///
-/// Each knot's own strand is followed from its standing part outwards (OverhandStrand), and its tail is cut level with
-/// the coil's outermost point plus h, or where the tail turns back before; what lies beyond can be pulled in without
-/// passing anything. From the cut the closure runs on along the load axis to that level; around the threaded strand
-/// back to the direction away from the loop's far side (angle 0), by the angle theta that the cut has gone around; and
-/// straight out to far away, where the closures of both tails meet. theta is followed from one reading to the next, so
-/// a tail may go around the strand any number of times: read often enough that it gains less than half a turn in
-/// between. A tail whose end slips out of its coil leaves no turn to be followed, and the knot is lost.
+/// Each tail is cut level with its coil's outermost point plus h, or where it turns back before (OverhandStrand). From
+/// the cut the closure runs on along the load axis, around the threaded strand by the angle theta that the cut has gone
+/// around, and straight out to far away, where both closures meet. theta is followed from one reading to the next, so a
+/// tail may go around the strand any number of times, if it gains less than half a turn in between. A tail whose end
+/// slips out of its coil leaves no turn to be followed, and the knot is lost.
 ///
 /// Source: knots of open chains by their closure, e.g. Tubiana, Orlandini, Micheletti 2011; here the closure is fixed
 /// to the strands rather than averaged over directions.
@@ -64,8 +62,11 @@ class LoopTopology {
   /// and of the upper, tied into its last; `radius`: of the rod [m]; `windings`: of each tail (OverhandStrand).
   LoopTopology(Eigen::Index lower_standing, Eigen::Index upper_standing, double radius, int windings = 1);
 
+  /// Rises of each strand that are its coil's own (OverhandStrand).
+  using PassedOver = std::array<int, 2>;
+
   /// Reads the rod as it is now. `load_axis`: from the lower grip to the upper one, of any length.
-  Reading read(const Points& points, const Vec3& load_axis);
+  Reading read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over = {});
 
   /// The same for a rod that was the knot `known`. Where the overhands are still the same and the whole is not, a tail
   /// may have gone around further than could be followed, as when a knot springs open; a free end can do so without
@@ -77,11 +78,8 @@ class LoopTopology {
   void state(Archive& archive) { archive(angle_[0], angle_[1]); }
 
  private:
-  /// Rises of each strand that are its coil's own (OverhandStrand).
-  using PassedOver = std::array<int, 2>;
   OverhandStrand follow(const Points& points, const Vec3& axis, std::size_t k, int passed_over) const;
-  Reading read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over);
-  /// The numbers of rises with which each overhand is the known one; 0 where no number makes it that.
+  /// For each overhand, the number of rises to be passed over so that it is the known one; 0 if no number does.
   PassedOver passed_over(const Reading& known, const Reading& found, const Points& points, const Vec3& axis) const;
 
   std::array<Eigen::Index, 2> standing_;

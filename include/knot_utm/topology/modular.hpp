@@ -13,7 +13,7 @@ std::uint64_t subtract(std::uint64_t a, std::uint64_t b);
 std::uint64_t multiply(std::uint64_t a, std::uint64_t b);
 std::uint64_t inverse(std::uint64_t a);
 
-/// What a sparse row holds in a column.
+/// A nonzero element of a sparse row.
 struct Entry {
   std::size_t column;
   std::uint64_t value;

@@ -12,19 +12,18 @@
 
 namespace knot_utm {
 
-/// Takes up the slack of a loop that was just put on its rollers, and stops where the loop has become taut, that is
-/// where it bears a small load. This is judged after every time step, so that it does not depend on the period of the
-/// commands.
+/// Takes up the slack of a loop that was just put on its rollers, and stops once the loop is taut, that is once it
+/// bears a small load. This is judged after every time step, so that it does not depend on the period of the commands.
 ///
-/// The crosshead moves outwards at its speed while the loop bears next to nothing, and then at a fraction of it. A loop
-/// that bears more than that load when it is put on is slackened first. Each time that the crosshead reverses it moves
-/// more slowly. A force that does not fall however far the crosshead goes back does not come from the slack; the
-/// crosshead then stops. It also stops where the knots slide before the load is reached.
-class TakeUp {
+/// The crosshead moves outwards at its speed while the loop bears next to nothing, and then at a fraction of the speed.
+/// A loop that bears more than the taut load as it is put on is slackened first. At each reversal the crosshead becomes
+/// slower. It also stops if the load does not fall however far it goes back, because the load then has another cause,
+/// and if the knots slide before the loop is taut.
+class TakeUpSlack {
  public:
-  TakeUp() = default;
+  TakeUpSlack() = default;
   /// `taut_load`: load of a taut loop [N]; radius of the rod [m].
-  TakeUp(double taut_load, double radius) : taut_(taut_load), radius_(radius) {}
+  TakeUpSlack(double taut_load, double radius) : taut_(taut_load), radius_(radius) {}
 
   void begin(double load, double displacement, double knot_distance);
 
@@ -48,14 +47,12 @@ class TakeUp {
   bool done_ = false;
 };
 
-struct Material;
-
-/// e to which a step of the program sets the knots of a loop that it ties [m]; 0: none does.
+/// The knot distance e to which mounting sets the knots of a loop that the program ties [m]; 0: it does not.
 double marks_of(const SpecimenOptions& specimen, const Program& program);
 
-/// A loop on the machine with its two knots. The rig ties and releases them, the loop is put on the grips, its slack is
-/// taken up, and the knots are read. As it is put on, the knots are set to their marks (doc/model.md, section 9). Where
-/// the program ties nothing, the rig is idle, and the knots are read as well.
+/// Ties and mounts a loop, and reads its two knots. The rig ties and releases the knots, the loop is put on the grips,
+/// and its slack is taken up. Then the knots are set to their marks: e and L get the values of the method
+/// (doc/model.md, section 9). Where the program ties nothing, the rig is idle, and the knots are read all the same.
 class TiedLoop final : public Tying {
  public:
   /// `creep_speed`: speed with which nodes of a rod at rest may creep under its friction [m/s]. `stepper` and `grips`
@@ -69,7 +66,7 @@ class TiedLoop final : public Tying {
   void hold(Boundary& boundary, double from, double to) const override;
   double extra_drag(double to) const override { return rig_.extra_drag(to); }
   double left_to_put_on(double time) const override { return rig_.left_to_put_on(time); }
-  /// None off the rollers, and all of it once they have taken the loop.
+  /// None before the loop is put on the rollers, and all once it is.
   double weight_borne(double time) const override {
     return rig_.has_been_put_on() ? 1.0 - rig_.left_to_put_on(time) : 0.0;
   }
@@ -87,7 +84,7 @@ class TiedLoop final : public Tying {
   bool set_to_marks(const Place& now);
   bool setting() const { return set_end_ > 0.0; }
   void follow_mounting(const Place& now, bool puts_on);
-  void begin_to_take_up(const Place& now);
+  void begin_on_slack(const Place& now);
   double load_on_both() const;
   double knot_distance() const;
 
@@ -95,17 +92,17 @@ class TiedLoop final : public Tying {
   Grips& grips_;
   double radius_;
   bool sets_to_marks_;
-  double knot_distance_, end_to_end_;   // e and L as the pull is to begin [m]
-  double set_end_ = 0.0;                // when a taut loop is at its marks; 0: nothing is being set [s]
-  double set_speed_ = 0.0;              // of the crosshead meanwhile [m/s]
-  double apart_ = 0.0, further_ = 0.0;  // by which e and L are to grow until then [m]
+  double knot_distance_, end_to_end_;   // e and L with which the pull is to begin: the marks [m]
+  double set_end_ = 0.0;                // time at which the present setting to the marks ends; 0: there is none [s]
+  double set_speed_ = 0.0;              // of the crosshead until then [m/s]
+  double apart_ = 0.0, further_ = 0.0;  // growth of e and L that is left until then [m]
   double speed_ = 0.0;                  // of the step that mounts [m/s]
   double tied_distance_ = 0.0;          // e as the loop is put on [m]
-  int sets_ = 0;                        // of the taut loop
-  bool at_marks_ = false;               // as near as it comes
+  int sets_ = 0;                        // number of settings so far
+  bool at_marks_ = false;               // the loop is taut, and e and L are as near to the marks as they come
   TyingRig rig_;
   KnotTouch touch_;
-  TakeUp take_up_;
+  TakeUpSlack slack_;
   std::string not_mounted_;
 };
 

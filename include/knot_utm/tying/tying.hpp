@@ -11,15 +11,14 @@
 namespace knot_utm {
 
 struct Centreline;
-struct Command;
 class Grips;
 struct Material;
 struct Sample;
 struct SpecimenOptions;
 class TimeStep;
 
-/// What ties a specimen on the machine, and holds it until the grips do. Each kind of specimen that can be tied has its
-/// own; what a specimen does not need does nothing.
+/// Ties a specimen on the machine, and holds it until the grips do. There is one class for loops and one for knots that
+/// are tied by their ends; by default, a member does nothing.
 class Tying {
  public:
   virtual ~Tying() = default;
@@ -35,15 +34,16 @@ class Tying {
   virtual void enter(const Command& command, const Place& now) = 0;
   /// To be called after an accepted time step of length `dt` [s].
   virtual void follow(Phase phase, const Place& now, double dt) = 0;
-  /// To be called after a command: releases what the program no longer holds.
+  /// To be called after a command: lets go of what the program no longer holds.
   virtual void leave(Phase /*phase*/, const Place& /*now*/) {}
 
-  /// Adds its holders to a step between two times [s], or replaces those that the grips have put into the boundary.
+  /// Adds its clamps, grips and forces to the boundary of a step between two times [s], or puts them in place of those
+  /// of the machine's grips.
   virtual void hold(Boundary& boundary, double from, double to) const = 0;
   /// Drag beside that of the method, in a step until this time [N s/m^2].
   virtual double extra_drag(double /*to*/) const { return 0.0; }
 
-  /// Of a loop that is put on the rollers: the fraction of that time which is left.
+  /// Fraction of the time for putting a loop on the rollers that is left.
   virtual double left_to_put_on(double /*time*/) const { return 0.0; }
   /// Fraction of its weight that the specimen has at a time.
   virtual double weight_borne(double /*time*/) const { return 1.0; }
@@ -60,13 +60,13 @@ class Tying {
 
   /// For KnotWatch: the standing nodes of a loop's knots.
   virtual std::vector<int> standing_nodes() const { return {}; }
-  /// Fills the fields of a sample that concern its knots.
+  /// Reads its knots into the fields of a sample.
   virtual void read(Sample& /*sample*/) const {}
 
   virtual void state(Archive& archive) = 0;
 };
 
-/// Empty where the specimen is none that is tied. `creep_speed`: speed with which nodes of a rod at rest may creep
+/// Null if the specimen is not tied. `creep_speed`: speed with which nodes of a rod at rest may creep
 /// under its friction [m/s]. `stepper` and `grips` must outlive it.
 std::unique_ptr<Tying> make_tying(const SpecimenOptions& specimen, const Material& material,
                                   const Centreline& centreline, double creep_speed, TimeStep& stepper, Grips& grips);

@@ -11,26 +11,19 @@
 
 namespace knot_utm {
 
-/// Ties the overhands of a loop: holds the standing part and the threaded strand of each, and pulls its tail outwards
-/// by a grip that moves at a set speed and slips at the pre-load. The end is reached by displacement against a slipping
-/// grip, and only once everything is at rest, so the tied state does not depend on drag, step or speed.
+/// Ties the overhands of a loop off the rollers (doc/model.md, section 9): holds the standing part and the threaded
+/// strand of each, and pulls its tail outwards by a grip that slips at the pre-load (TailGrips). Before, the sketched
+/// shape settles. The loop is held by the straight part of its far side; its half circles and the side with the knots
+/// are free. The clamps stand at set distances from the knots, on straight strands.
 ///
-/// Before it pulls, the drawn shape settles.
-///
-/// All this happens off the rollers. The loop is held by the straight part of its far side; its half circles and the
-/// side with the knots are free. The clamps stand at set distances from the knots, on straight strands.
-///
-/// Release: the tails' pull goes to zero linearly and everything comes to rest. Then each clamp is replaced by its
-/// reaction, which goes to zero linearly, and everything comes to rest again. Guides stay on the strands beyond the
-/// knots and let them move along themselves only. If rest does not come in time, as where a knot creeps open, the test
-/// goes on and `not_equilibrated` says so.
-///
-/// Letting go, where a knot is pulled without a release: the tails' pull and the clamps' reactions go to zero linearly,
+/// Release: the tails' pull goes to zero linearly and everything comes to rest; then the same with the reactions of the
+/// clamps. Guides stay on the strands beyond the knots, which can then move along themselves only. If rest does not
+/// come in time, the test goes on (RestWatch). Letting go, if the program pulls without a release: both go to zero
 /// together and within a third of a second, without waiting for rest.
 ///
-/// Putting on: within a third of a second the far side is let go while the rollers take the loop. The tails lie beside
-/// the rollers. The guides stay until the slack is taken up, because otherwise a slack strand that bends around a
-/// roller would move a knot near it.
+/// Putting on: within a third of a second the rollers take the loop while the far side is let go. The tails lie beside
+/// the rollers. The guides stay until the slack is taken up; without them a slack strand that bends around a roller
+/// would move a knot near it.
 class TyingRig {
  public:
   struct Options {
@@ -39,7 +32,7 @@ class TyingRig {
     RestWatch::Options rest;
     TailGrips::Patience patience;
   };
-  /// A ramp is followed by the next one in this list, letting go by kReleased.
+  /// The end of a ramp leads to the next stage of this list, the end of kLettingGo to kReleased.
   enum class Stage {
     kIdle,
     kSettling,
@@ -82,20 +75,20 @@ class TyingRig {
   bool off_rollers() const { return stage_ != Stage::kIdle && stage_ < Stage::kPuttingOn; }
   /// Whether the rollers have it, or begin to take it.
   bool has_been_put_on() const { return stage_ >= Stage::kPuttingOn; }
-  /// What had not come to rest when the test went on; empty: nothing.
+  /// Message about what had not come to rest when the test went on; empty: nothing.
   const std::string& not_equilibrated() const { return rest_.not_equilibrated(); }
   /// Why the knots cannot be tied; empty: they can.
   const std::string& not_tied() const { return not_tied_; }
 
-  /// A rod as if it had been drawn otherwise.
+  /// A rod with other lengths of its straight strands.
   struct Laid {
     Eigen::VectorXd rest_length;  ///< [m]
     Points position;              ///< [m]
   };
-  /// A loop whose two strands between the knots are longer by `apart`, as far as they can be, and whose rod beyond both
-  /// knots is longer by `beyond` [m]. Where a strand is to be shorter than it can be, its knots stay apart. Lengths
-  /// change where strands run straight, or around the rollers. Knots and tails move along z as they are, and the rod
-  /// beyond them along its own way, so that little is stretched.
+  /// The loop with both strands between the knots longer by `apart` and the rod beyond the knots longer by `beyond`
+  /// [m]; negative: shorter, as far as the edges allow. Only edges that run straight, or around the rollers, change.
+  /// The knots and their tails move along z as they are, and the rod beyond them along itself, so that little is
+  /// stretched.
   Laid longer(double apart, double beyond, const RodProperties& rod, const RodState& state) const;
 
   /// Fraction of the time of putting the loop on that is left.
@@ -110,8 +103,8 @@ class TyingRig {
 
   double tail_force(int knot) const { return tail_force_[static_cast<std::size_t>(knot)]; }  ///< [N]
 
-  /// Rod length hidden in a knot [m]: that from the clamp of its standing part to the end of its tail, less the
-  /// distance of these.
+  /// Excess length of a knot [m]: length of rod from the clamp of its standing part to the end of its tail, less the
+  /// distance of both.
   double excess_length(int knot, const RodState& state) const;
   /// Middle of a knot: the centroid of the bending energy of its own strand, from standing part to tail.
   Vec3 knot_middle(int knot, const RodProperties& rod, const RodState& state) const;
@@ -123,7 +116,7 @@ class TyingRig {
     int node;
     Vec3 position;
     Vec3 reaction;
-    bool guides;  // the strand along which the knot slides, once it is released
+    bool guides;  // becomes a guide once the knot is released
   };
   struct Knot {
     Vec3 outwards;
@@ -132,7 +125,7 @@ class TyingRig {
     double reach;  ///< largest reach outwards from its middle once it is tight [m]
   };
   void attach_grips();
-  /// Nodes of the guides that stand furthest out, from the one at the second knot to the one at the first.
+  /// From the outermost guide at the second knot to the outermost one at the first.
   NodeRange beyond_knots() const;
   /// The outermost node of a knot from which its tail runs on.
   int tail_begin(int knot, const TimeStep& stepper) const;
@@ -142,7 +135,7 @@ class TyingRig {
 
   Options options_;
   double radius_;         // h [m]
-  double shortest_edge_;  // that setting to the marks leaves [m]
+  double shortest_edge_;  // least length of an edge after longer() [m]
   Settling settling_;
   double putting_on_drag_;  // [N s/m^2]
   std::vector<Knot> knots_;
