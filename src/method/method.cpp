@@ -44,7 +44,7 @@ constexpr double kLeastCapacity = 1e-3, kLargestCapacity = 1e8;  // [N]
 double largest(const Program& program, const std::string& unit) {
   double out = 0.0;
   for (const ProgramStep& step : program)
-    for (const KeyUnit& number : step_numbers(step, ""))
+    for (const MethodKey& number : step_keys(step, ""))
       if (number.unit == unit) out = std::max(out, std::abs(number.value.value_or(0.0)));
   return out;
 }

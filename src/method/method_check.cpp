@@ -110,7 +110,7 @@ void check_program(const Method& m) {
   for (; place.index < m.program.size(); ++place.index) {
     const ProgramStep& step = m.program[place.index];
     step->check(place);
-    for (const KeyUnit& number : step_numbers(step, place.key()))
+    for (const MethodKey& number : step_keys(step, place.key()))
       if (number.unit == "N") check_load(number.key, number.value.value_or(0.0), m.machine.load_cell.capacity);
     if (const PullStep* pull = step.as<PullStep>()) check_pull(m, *pull, place.key());
   }

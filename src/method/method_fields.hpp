@@ -76,7 +76,8 @@ inline void specimen(Fields& f, SpecimenOptions& o) {
   f.says("post diameter", "12 radii").scaled_number("post_diameter", o.post_diameter, Range{1e-5, 5.0, "m"});
   f.says("tail load; dead, from the first instant", "k_b/h², at most k_s/100")
       .optional_number("tail_load", o.tail_load, Range{1e-9, 1e8, "N"}, "auto");
-  f.says("natural curvature; from the reel").number("natural_curvature", o.natural_curvature, Range{-1e4, 1e4, "1/m"});
+  f.says("natural curvature; from the reel; experimental")
+      .number("natural_curvature", o.natural_curvature, Range{-1e4, 1e4, "1/m"});
   f.says("edge length of the mesh", "1.01 radii; straight, file, capstan at most 1.57")
       .scaled_number("edge_length", o.edge_length, Range{1e-6, 0.1, "m"});
   f.says(
@@ -146,7 +147,7 @@ inline void load_cell(Fields& f, LoadCellOptions& o) {
   f.says("noise of the cell, standard deviation").number("noise", o.noise, Range{0.0, 1e5, "N"});
   f.says("seed; of the systematic error and the noise")
       .integer("seed", o.seed, 0u, std::numeric_limits<unsigned>::max());
-  f.integer("noise_run", o.noise_run, 0u, std::numeric_limits<unsigned>::max());
+  f.says("noise run; experimental").integer("noise_run", o.noise_run, 0u, std::numeric_limits<unsigned>::max());
   f.text("notes", o.notes);
 }
 
@@ -167,7 +168,7 @@ inline void machine(Fields& f, MachineOptions& o) {
 inline void ends(Fields& f, EndOptions& o) {
   f.says("load", "the cell's capacity").optional_number("load", o.load, Range{1e-6, 1e8, "N"}, "auto");
   f.optional_number("time", o.time, Range{1e-3, 1e8, "s"}, "none");
-  f.says("break at no more than; the load has fallen to this, after 2 % of the cell's capacity")
+  f.says("break at no more than; the load has fallen to this, after 2 % of the cell's capacity; experimental")
       .optional_number("break_at_fraction_of_peak", o.break_at_fraction_of_peak, Range{0.0, 0.99, "of the peak"},
                        "none");
 }

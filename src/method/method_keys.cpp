@@ -1,7 +1,6 @@
 #include "knot_utm/method/method_keys.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <regex>
 #include <utility>
@@ -38,6 +37,10 @@ class KeyWalk : public Fields {
   KeyWalk(std::string path, std::vector<MethodKey>& found) : path_(std::move(path)), found_(found) {}
 
   Fields& says(std::string_view meaning, std::string_view otherwise, std::string_view with) override {
+    constexpr std::string_view kMark = "; experimental";
+    const std::size_t end = meaning.size() - std::min(kMark.size(), meaning.size());
+    said_.experimental = meaning.substr(end) == kMark;
+    if (said_.experimental) meaning.remove_suffix(kMark.size());
     const std::size_t label = std::min(meaning.find("; "), meaning.size());
     said_.label = meaning.substr(0, label);
     said_.note = meaning.substr(std::min(label + 2, meaning.size()));
@@ -133,33 +136,24 @@ std::vector<MethodKey> walked_keys(const Method& method) {
   return found;
 }
 
-/// The experimental keys, by their last part.
-constexpr std::array kExperimental{"natural_curvature", "hardening", "noise_run", "load_rate",
-                                   "break_at_fraction_of_peak"};
-
 }  // namespace
 
-bool is_experimental(const std::string& key) {
-  const std::string last = key.substr(key.rfind('.') + 1);
-  return std::find(kExperimental.begin(), kExperimental.end(), last) != kExperimental.end();
-}
-
-std::vector<KeyUnit> key_units(const Method& method) {
-  std::vector<KeyUnit> found;
-  for (const MethodKey& one : walked_keys(method))
-    if (one.number) found.push_back(one);
+std::vector<MethodKey> numbers_of(const Method& method) {
+  std::vector<MethodKey> found = walked_keys(method);
+  found.erase(std::remove_if(found.begin(), found.end(), [](const MethodKey& one) { return !one.number; }),
+              found.end());
   return found;
 }
 
-std::vector<KeyUnit> step_numbers(ProgramStep step, const std::string& path) {
+std::vector<MethodKey> step_keys(ProgramStep step, const std::string& path) {
   std::vector<MethodKey> found;
   KeyWalk walk(path + ".", found);
   step->keys(walk, 0.0);
-  return {found.begin(), found.end()};
+  return found;
 }
 
 std::string unit_of_key(const Method& method, const std::string& key) {
-  for (const KeyUnit& one : key_units(method))
+  for (const MethodKey& one : numbers_of(method))
     if (one.key == key) return one.unit;
   return "";
 }
@@ -185,7 +179,7 @@ std::vector<MethodKey> method_keys() {
 std::string method_keys_csv() {
   std::string all = "key,label,unit,experimental,note,otherwise,allowed,with\n";
   for (const MethodKey& one : method_keys())
-    all += one.key + ",\"" + one.label + "\"," + one.unit + (is_experimental(one.key) ? ",yes,\"" : ",,\"") + one.note +
+    all += one.key + ",\"" + one.label + "\"," + one.unit + (one.experimental ? ",yes,\"" : ",,\"") + one.note +
            "\",\"" + one.otherwise + "\",\"" + one.allowed + "\",\"" + one.with + "\"\n";
   return all;
 }

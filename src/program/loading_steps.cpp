@@ -39,7 +39,7 @@ void MountStep::steer(const Sample& now, CrossheadCourse& course) { course.move(
 void PreloadStep::keys(fields::Fields& f, double) {
   f.required_number("load", load, {1e-6, 1e8, "N"});
   speed_key(f);
-  f.optional_number("load_rate", load_rate, kLoadRates, "none");
+  f.says("load rate; experimental").optional_number("load_rate", load_rate, kLoadRates, "none");
   f.flag("balance", balance);
 }
 
@@ -63,7 +63,7 @@ double BalanceStep::usual_duration(const CrossheadCourse& course) const { return
 
 void PullStep::keys(fields::Fields& f, double way) {
   speed_key(f);
-  f.optional_number("load_rate", load_rate, kLoadRates, "none");
+  f.says("load rate; experimental").optional_number("load_rate", load_rate, kLoadRates, "none");
   f.section("until", [&](fields::Fields& u) {
     u.says(
          "extension; `auto`: 37.8 radii, or 0.7 `knot_distance` if more; overhand `length`/10; straight `length`/25; "

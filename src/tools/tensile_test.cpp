@@ -224,8 +224,8 @@ int check(const Method& method, Readings readings) {
 
 int list_keys(const Method& method) {
   std::puts("key,unit,experimental");
-  for (const KeyUnit& one : key_units(method))
-    std::printf("%s,%s,%s\n", one.key.c_str(), one.unit.c_str(), is_experimental(one.key) ? "yes" : "");
+  for (const MethodKey& one : numbers_of(method))
+    std::printf("%s,%s,%s\n", one.key.c_str(), one.unit.c_str(), one.experimental ? "yes" : "");
   return kDone;
 }
 

@@ -45,8 +45,7 @@ class Warnings {
           " s, while it was pulled, so there is no sliding force");
     if (results_.knot_type == KnotType::kChanged && !results_.untangled_at)
       say("with its two ends joined, the rod is another knot than at the start; as it still bears the load, nothing "
-          "came "
-          "undone");
+          "came undone");
   }
 
   /// What the cell cannot tell: forces below its floor.

@@ -20,7 +20,7 @@ namespace knot_utm {
 struct PlasticBending {
   static constexpr const char* kName = "plastic";
   static constexpr LawKey kHardening{
-      "hardening", 0.01, 1.0, "-", LawDefault::kPlain, 0.1, "share of the bending stiffness that does not yield"};
+      "hardening", 0.01, 1.0, "-", LawDefault::kPlain, 0.1, "share of stiffness that does not yield; experimental"};
   static constexpr std::array kKeys{kHardening};
   static constexpr bool kStudied = false;
   static constexpr bool kRemembers = true;

@@ -37,9 +37,9 @@ class Fields {
   virtual ~Fields() = default;
 
   /// What is said of the key that comes next, on the page of the keys (doc/method.md) and in a report. `meaning`: in
-  /// words, by which a report calls it; what follows a semicolon stands on the page alone. `otherwise`: what it is
-  /// where a method does not give it, if that is more than a value. `with`: what alone has it, knots or laws; empty:
-  /// all.
+  /// words, by which a report calls it; what follows a semicolon stands on the page alone; "; experimental" ends it
+  /// where no shipped method uses it. `otherwise`: what it is where a method does not give it, if that is more than a
+  /// value. `with`: what alone has it, knots or laws; empty: all.
   virtual Fields& says(std::string_view /*meaning*/, std::string_view /*otherwise*/ = {},
                        std::string_view /*with*/ = {}) {
     return *this;
