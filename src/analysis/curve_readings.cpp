@@ -52,20 +52,20 @@ std::pair<double, double> extremes(const Pull& pull, const Range& range) {
   return {low, high};
 }
 
-/// The last point within `way` of point i, at least the next one, as far as s = `end`.
-std::size_t last_within(const Pull& pull, std::size_t i, double way, double end) {
+/// The last point within `interval` of point i, at least the next one, as far as s = `end`.
+std::size_t last_within(const Pull& pull, std::size_t i, double interval, double end) {
   std::size_t last = i;
   while (last + 1 < pull.size() && pull[last + 1].extension <= end &&
-         (last == i || pull[last + 1].extension - pull[i].extension <= way))
+         (last == i || pull[last + 1].extension - pull[i].extension <= interval))
     ++last;
   return last;
 }
 
 double sudden(const Pull& pull, double end) { return kSudden * (end - pull.front().extension); }
 
-/// The largest fall of F between two points of a range that are no further apart than `way`. As a record may have a
-/// million readings, `low` holds only the points ahead that can still become the lowest one, in order, with rising F.
-std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double way) {
+/// The largest fall of F between two points of a range that are no further apart than `interval`. As a record may have
+/// a million readings, `low` holds only the points ahead that can still become the lowest one, in order, with rising F.
+std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double interval) {
   std::optional<Drop> out;
   std::deque<std::size_t> low;
   std::size_t seen = 0;  // up to there points have been put into `low`
@@ -73,7 +73,7 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
     if (pull[i].extension < range.low) continue;
     const auto within = [&](std::size_t j) {
       return j < pull.size() && pull[j].extension <= range.high &&
-             (j == i + 1 || pull[j].extension - pull[i].extension <= way);
+             (j == i + 1 || pull[j].extension - pull[i].extension <= interval);
     };
     for (seen = std::max(seen, i); within(seen + 1);) {
       ++seen;
@@ -89,12 +89,12 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
   return out;
 }
 
-/// The least excess length of each knot from each point on over `way`. A knot that opens keeps the rod that it takes
-/// in; one that a tail whips past gives it back.
-HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double way, std::size_t begin) {
+/// The least excess length of each knot from each point on over `interval`. A knot that opens keeps the rod that it
+/// takes in; one that a tail whips past gives it back.
+HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double interval, std::size_t begin) {
   HiddenRod out = hidden;
   for (std::size_t i = begin; i < out.size(); ++i)
-    for (std::size_t j = i, last = last_within(pull, i, way, pull.back().extension); j <= last; ++j)
+    for (std::size_t j = i, last = last_within(pull, i, interval, pull.back().extension); j <= last; ++j)
       for (std::size_t k = 0; k < out[i].size(); ++k) out[i][k] = std::min(out[i][k], hidden[j].at(k));
   return out;
 }
@@ -122,12 +122,12 @@ double opened(const Pull& pull, const PullPoint& from, const PullPoint& to, doub
   return std::isfinite(known) ? known : let_out(pull, from, to, sliding) / kLetOut;
 }
 
-/// For every point from `begin` on: the point with the smallest F within `way` after it.
-std::vector<std::size_t> lowest_behind(const Pull& pull, double way, std::size_t begin) {
+/// For every point from `begin` on: the point with the smallest F within `interval` after it.
+std::vector<std::size_t> lowest_behind(const Pull& pull, double interval, std::size_t begin) {
   std::vector<std::size_t> out(pull.size());
   for (std::size_t i = begin; i < pull.size(); ++i) {
     out[i] = i;
-    for (std::size_t j = i + 1, last = last_within(pull, i, way, pull.back().extension); j <= last; ++j)
+    for (std::size_t j = i + 1, last = last_within(pull, i, interval, pull.back().extension); j <= last; ++j)
       if (pull[j].force < pull[out[i]].force) out[i] = j;
   }
   return out;
@@ -169,17 +169,17 @@ std::string why_not_level(const Plateau& level) {
 }
 
 std::optional<double> lock_by_load(const Pull& pull) {
-  const WayToPeak way(pull);
-  const double length = way.end() - way.start();
-  const double earliest = way.start() + kEarliestLock * (pull.back().extension - way.start());
+  const PullToPeak rise(pull);
+  const double length = rise.end() - rise.start();
+  const double earliest = rise.start() + kEarliestLock * (pull.back().extension - rise.start());
   // Each step goes back by a share of the way, unless F is about proportional to s and has no lock.
   constexpr int kMostSteps = 1000;
-  double lock = way.end();
+  double lock = rise.end();
   for (int step = 0; step < kMostSteps && lock > earliest; ++step) {
-    const double mean = way.mean_force(plateau_range(pull, lock));
+    const double mean = rise.mean_force(plateau_range(pull, lock));
     if (!(mean > 0.0)) return std::nullopt;
-    const double next = std::min(lock, way.last_rise_through(kLockedLoad * mean));
-    if (next >= way.end()) return std::nullopt;
+    const double next = std::min(lock, rise.last_rise_through(kLockedLoad * mean));
+    if (next >= rise.end()) return std::nullopt;
     if (lock - next <= 1e-9 * length) return next;
     lock = next;
   }
@@ -238,17 +238,17 @@ std::optional<Drop> largest_drop(const Pull& pull, double end) {
 
 double rigid_sliding(bool on_rollers) { return on_rollers ? -2.0 : -1.0; }
 
-double jump_way(const Pull& pull) { return 0.5 * kSudden * pull.front().knot_distance; }
+double jump_interval(const Pull& pull) { return 0.5 * kSudden * pull.front().knot_distance; }
 
 std::optional<Drop> jump(const Pull& pull, bool on_rollers, const HiddenRod& hidden, std::size_t begin) {
   if (pull.empty() || !may_have_jumped(hidden, begin)) return std::nullopt;
-  const double way = jump_way(pull);
-  const HiddenRod kept = as_kept(pull, hidden, way, begin);
-  const std::vector<std::size_t> lowest = lowest_behind(pull, way, begin);
+  const double interval = jump_interval(pull);
+  const HiddenRod kept = as_kept(pull, hidden, interval, begin);
+  const std::vector<std::size_t> lowest = lowest_behind(pull, interval, begin);
   double most = 1.0;
   std::optional<Drop> out;
   for (std::size_t i = begin; i < pull.size(); ++i) {
-    const std::size_t last = last_within(pull, i, way, pull.back().extension);
+    const std::size_t last = last_within(pull, i, interval, pull.back().extension);
     std::size_t highest = i;
     for (std::size_t j = i + 1; j <= last; ++j) {
       if (pull[j - 1].force > pull[highest].force) highest = j - 1;
@@ -319,8 +319,8 @@ std::string why_no_lock(const Pull& borne, const CurveReadings& found) {
   if (!found.no_plateau.empty()) return "there is no plateau";
   if (!found.rises_at) return "the load does not stay above twice the mean of its plateau";
   const auto after = first_from(borne.begin() + 1, borne.end() - 1, *found.rises_at);
-  const double way = *found.rises_at - borne.front().extension;
-  const double apart = (after->extension - (after - 1)->extension) / way;
+  const double slid = *found.rises_at - borne.front().extension;
+  const double apart = (after->extension - (after - 1)->extension) / slid;
   if (apart <= kSudden) return {};
   return text("the readings around it are %.2g of the way apart, where %.2g is close enough", apart, kSudden);
 }

@@ -14,7 +14,7 @@ constexpr double kWindow = 0.03;            // of the first knot distance
 constexpr double kTurnover = 0.5;           // de/ds between sliding and stretching, over that of rigid sliding
 constexpr double kLeastSliding = 0.15;      // of all extension
 constexpr double kMuchSliding = 1.0 / 3.0;  // of all extension: knots that slid so far slide, whatever the load does
-constexpr double kLoadLevel = 2.0;          // highest load while knots slide, over its mean there
+constexpr double kLoadLevel = 2.0;          // load at the end of a slide over its mean, at most
 constexpr double kGone = 0.05;              // load over the largest one below which a knot is lost
 constexpr double kVanished = 0.25;          // excess length over the tied one below which a knot is lost
 constexpr double kOpened = 0.05;            // approach over e from which a knot opened as the loop was mounted
@@ -136,12 +136,12 @@ void MotionPatternTracker::add_pulled(const Sample& sample) {
 void MotionPatternTracker::follow_jumps() {
   constexpr double kWhole = 3.0;   // length that is searched, over that of a jump: before, in and behind it
   constexpr double kOften = 0.25;  // extension between two searches, over that of a jump: saves time in short steps
-  const double way = jump_way(pull_), here = pull_.back().extension;
-  if (jumped_ || !(way > 0.0) || here - jump_looked_for_ < kOften * way) return;
+  const double interval = jump_interval(pull_), here = pull_.back().extension;
+  if (jumped_ || !(interval > 0.0) || here - jump_looked_for_ < kOften * interval) return;
   jump_looked_for_ = here;
-  while (here - pull_[jump_begin_].extension > kWhole * way) ++jump_begin_;
+  while (here - pull_[jump_begin_].extension > kWhole * interval) ++jump_begin_;
   const std::optional<Drop> found = jump(pull_, on_rollers_, hidden_, jump_begin_);
-  jumped_ = found && here - pull_[found->to].extension > way;
+  jumped_ = found && here - pull_[found->to].extension > interval;
 }
 
 /// Follows de/ds over the last window, and how far and where the knots slid.
@@ -205,8 +205,8 @@ const PullPoint& MotionPatternTracker::point_at(double extension) const {
 
 /// The mean load between two points of the pull [N].
 double MotionPatternTracker::mean_between(const PullPoint& first, const PullPoint& last) const {
-  const Integrals way = integrate(pull_, {first.extension, last.extension});
-  return way.width > 0.0 ? way.force / way.width : first.force;
+  const Integrals part = integrate(pull_, {first.extension, last.extension});
+  return part.width > 0.0 ? part.force / part.width : first.force;
 }
 
 MotionPattern MotionPatternTracker::pattern() const {

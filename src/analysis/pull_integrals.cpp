@@ -42,7 +42,7 @@ std::size_t peak_of(const Pull& pull) {
   return static_cast<std::size_t>(std::max_element(pull.begin(), pull.end(), less) - pull.begin());
 }
 
-WayToPeak::WayToPeak(const Pull& pull)
+PullToPeak::PullToPeak(const Pull& pull)
     : pull_(pull), peak_(peak_of(pull)), sums_(peak_ + 1, {0.0, 0.0}), least_(peak_ + 1) {
   for (std::size_t i = 1; i <= peak_; ++i) {
     const PullPoint &a = pull[i - 1], &b = pull[i];
@@ -54,7 +54,7 @@ WayToPeak::WayToPeak(const Pull& pull)
   for (std::size_t i = peak_; i-- > 0;) least_[i] = std::min(least_[i + 1], pull[i].force);
 }
 
-double WayToPeak::last_rise_through(double force) const {
+double PullToPeak::last_rise_through(double force) const {
   // The least F from a point on only grows from point to point.
   const auto above = std::upper_bound(least_.begin(), least_.end(), force);
   if (above == least_.end()) return end();
@@ -64,13 +64,13 @@ double WayToPeak::last_rise_through(double force) const {
   return a.extension + (force - a.force) / (b.force - a.force) * (b.extension - a.extension);
 }
 
-double WayToPeak::slope(const Range& range) const {
+double PullToPeak::slope(const Range& range) const {
   const Sums low = sums_to(range.low), high = sums_to(range.high);
   const double length = range.high - range.low, arm = 0.5 * (range.low + range.high) - start();
   return 12.0 * (high.moment - low.moment - arm * (high.work - low.work)) / (length * length * length);
 }
 
-WayToPeak::Sums WayToPeak::sums_to(double extension) const {
+PullToPeak::Sums PullToPeak::sums_to(double extension) const {
   const std::size_t next = next_point(pull_, peak_, extension);
   const Piece piece(pull_[next - 1], pull_[next], {pull_[next - 1].extension, extension});
   const double arm = pull_[next - 1].extension - start();

@@ -63,9 +63,9 @@ std::size_t peak_of(const Pull& pull);
 
 /// The part of a pull up to its peak, prepared for many queries. The pull must have a point, and must outlive this
 /// object.
-class WayToPeak {
+class PullToPeak {
  public:
-  explicit WayToPeak(const Pull& pull);
+  explicit PullToPeak(const Pull& pull);
 
   double start() const { return pull_.front().extension; }
   double end() const { return pull_[peak_].extension; }

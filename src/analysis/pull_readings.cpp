@@ -20,7 +20,7 @@ double energy(const Pull& pull) {
   return pull.empty() ? 0.0 : integrate(pull, {pull.front().extension, pull.back().extension}).force;
 }
 
-double energy_to_peak(const Pull& pull) { return pull.empty() ? 0.0 : WayToPeak(pull).work(); }
+double energy_to_peak(const Pull& pull) { return pull.empty() ? 0.0 : PullToPeak(pull).work(); }
 
 std::optional<double> peak_extension(const Pull& pull) {
   if (pull.empty()) return std::nullopt;
@@ -40,10 +40,10 @@ std::optional<double> steady_force(const Pull& pull) {
 
 std::optional<double> chord_stiffness(const Pull& pull) {
   if (pull.empty()) return std::nullopt;
-  const WayToPeak way(pull);
+  const PullToPeak part(pull);
   const double begin = kChordBegin * peak_force(pull), end = kChordEnd * peak_force(pull);
-  const double length = way.last_rise_through(end) - way.last_rise_through(begin);
-  if (!(length > 0.0) || !way.is_below(begin)) return std::nullopt;
+  const double length = part.last_rise_through(end) - part.last_rise_through(begin);
+  if (!(length > 0.0) || !part.is_below(begin)) return std::nullopt;
   return (end - begin) / length;
 }
 
@@ -57,10 +57,10 @@ std::optional<double> tangent_stiffness(const Pull& pull) {
   const std::size_t peak = peak_of(pull);
   if (pull.empty() || peak == 0) return std::nullopt;
   const double end = pull[peak].extension, window = kTangentWindow * (end - pull[0].extension);
-  const WayToPeak way(pull);
-  double steepest = way.slope({end - window, end});
+  const PullToPeak part(pull);
+  double steepest = part.slope({end - window, end});
   for (std::size_t i = 0; pull[i].extension + window < end; ++i)
-    steepest = std::max(steepest, way.slope({pull[i].extension, pull[i].extension + window}));
+    steepest = std::max(steepest, part.slope({pull[i].extension, pull[i].extension + window}));
   return steepest;
 }
 
@@ -80,13 +80,13 @@ double range_of(const Path& path, std::size_t begin, std::size_t end, double Pat
 /// Turning points of the crosshead, with the beginning and the end of the path.
 std::vector<std::size_t> turning_points(const Path& path) {
   std::vector<std::size_t> turns;
-  double before = 0.0;  // the last way of the crosshead
+  double before = 0.0;  // sense of the last motion of the crosshead
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const double way = path[i].crosshead - path[i - 1].crosshead;
-    if (way == 0.0) continue;  // the crosshead may stand still before it turns
+    const double moved = path[i].crosshead - path[i - 1].crosshead;
+    if (moved == 0.0) continue;  // the crosshead may stand still before it turns
     if (turns.empty()) turns.push_back(0);
-    if (way * before < 0.0) turns.push_back(i - 1);
-    before = way > 0.0 ? 1.0 : -1.0;
+    if (moved * before < 0.0) turns.push_back(i - 1);
+    before = moved > 0.0 ? 1.0 : -1.0;
   }
   if (!turns.empty()) turns.push_back(path.size() - 1);
   return turns;

@@ -41,20 +41,20 @@ double mean_force(const std::vector<const Sample*>& pull) {
 /// Median of |change of `energy`|/|change of s|, weighted by the change of s [N].
 double median_force(const std::vector<const Sample*>& pull, double (*energy)(const Sample&)) {
   struct Piece {
-    double force, way;
+    double force, extension;
   };
   std::vector<Piece> pieces;
   double whole = 0.0;
   for (std::size_t i = 1; i < pull.size(); ++i) {
-    const double way = std::abs(pull[i]->extension - pull[i - 1]->extension);
-    if (!(way > 0.0)) continue;
-    pieces.push_back({std::abs(energy(*pull[i]) - energy(*pull[i - 1])) / way, way});
-    whole += way;
+    const double extension = std::abs(pull[i]->extension - pull[i - 1]->extension);
+    if (!(extension > 0.0)) continue;
+    pieces.push_back({std::abs(energy(*pull[i]) - energy(*pull[i - 1])) / extension, extension});
+    whole += extension;
   }
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.force < b.force; });
   double passed = 0.0;
   for (const Piece& piece : pieces) {
-    passed += piece.way;
+    passed += piece.extension;
     if (passed >= 0.5 * whole) return piece.force;
   }
   return 0.0;
@@ -64,14 +64,14 @@ constexpr double kLeft = 0.9;      // force after a snap over that before, at mo
 constexpr double kGivenUp = 0.02;  // energy given up over the stored one, at least
 constexpr double kPutIn = 0.5;     // work of the grips over the energy given up, at most
 
-struct Moment {
+struct Instant {
   double extension, force, stored, work;
 };
 
 /// Time steps of pulls that reach a new largest extension, up to a break, one list for each motion outwards: if the
 /// crosshead went back or stood in between, the load may have fallen then.
-std::vector<std::vector<Moment>> pulled(const std::vector<Sample>& samples) {
-  std::vector<std::vector<Moment>> out;
+std::vector<std::vector<Instant>> pulled(const std::vector<Sample>& samples) {
+  std::vector<std::vector<Instant>> out;
   double furthest = -std::numeric_limits<double>::infinity();
   bool goes_on = false;
   const Sample* before = nullptr;
@@ -88,15 +88,15 @@ std::vector<std::vector<Moment>> pulled(const std::vector<Sample>& samples) {
   return out;
 }
 
-bool snaps(const Moment& start, const Moment& before, const Moment& after) {
+bool snaps(const Instant& start, const Instant& before, const Instant& after) {
   const double given_up = before.stored - after.stored;
   return after.force <= kLeft * before.force && given_up >= kGivenUp * before.stored &&
          after.work - before.work <= kPutIn * given_up && after.stored >= start.stored;
 }
 
-void keep_larger_snap(const std::vector<Moment>& pull, std::optional<Snap>& out) {
+void keep_larger_snap(const std::vector<Instant>& pull, std::optional<Snap>& out) {
   for (std::size_t i = 0; i < pull.size(); ++i) {
-    const Moment& before = pull[i];
+    const Instant& before = pull[i];
     if (!(before.force > 0.0)) continue;
     // A snap gives up at most the energy above that at the start.
     const double most = kPutIn * (before.stored - pull.front().stored);
@@ -134,7 +134,7 @@ RateShares rate_shares(const std::vector<Sample>& samples, std::optional<double>
 
 std::optional<Snap> snap(const std::vector<Sample>& samples) {
   std::optional<Snap> out;
-  for (const std::vector<Moment>& pull : pulled(samples)) keep_larger_snap(pull, out);
+  for (const std::vector<Instant>& pull : pulled(samples)) keep_larger_snap(pull, out);
   return out;
 }
 

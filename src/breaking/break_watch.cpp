@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/sim/time_step.hpp"
 

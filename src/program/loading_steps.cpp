@@ -61,14 +61,14 @@ void BalanceStep::begin(const Sample&, CrossheadCourse& course) { course.balance
 
 double BalanceStep::usual_duration(const CrossheadCourse& course) const { return course.period(); }
 
-void PullStep::keys(fields::Fields& f, double way) {
+void PullStep::keys(fields::Fields& f, double usual_extension) {
   speed_key(f);
   f.says("load rate; experimental").optional_number("load_rate", load_rate, kLoadRates, "none");
   f.section("until", [&](fields::Fields& u) {
     u.says(
          "extension; `auto`: 37.8 radii, or 0.7 `knot_distance` if more; overhand `length`/10; straight `length`/25; "
          "file 12.6 radii; capstan 1.5 radii of its bend")
-        .optional_number("extension", until.extension, {1e-6, 100.0, "m"}, "none", way);
+        .optional_number("extension", until.extension, {1e-6, 100.0, "m"}, "none", usual_extension);
     u.optional_number("load", until.load, {1e-6, 1e8, "N"}, "none");
     u.optional_number("time", until.time, {1e-3, 1e6, "s"}, "none");
     u.flag("break", until.broken);
@@ -237,14 +237,14 @@ void FollowStep::check(const StepPlace& place) const {
 }
 
 void FollowStep::steer(const Sample& now, CrossheadCourse& course) {
-  course.move(now, (way(course.time(1)) - way(course.time())) / course.period());
+  course.move(now, (travel(course.time(1)) - travel(course.time())) / course.period());
 }
 
 EndedBy FollowStep::ended(const Sample&, CrossheadCourse& course) {
   return course.over(recorded.back().time) ? EndedBy::kProgram : EndedBy::kNotYet;
 }
 
-double FollowStep::way(double time) const {
+double FollowStep::travel(double time) const {
   const auto after = std::lower_bound(recorded.begin(), recorded.end(), time,
                                       [](const RecordedPlace& row, double at) { return row.time < at; });
   if (after == recorded.begin()) return 0.0;

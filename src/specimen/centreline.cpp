@@ -26,14 +26,14 @@ constexpr double kMostEdges = 2e4;  // of a shape from a file: each is compared 
 constexpr double kNearItself = 8.0, kAwayAlong = 20.0;  // [h]
 
 /// Nodes along a polyline, with finer edges where it comes near itself.
-Points graded(const Points& way, double radius, double edge_length, double refinement) {
-  if (refinement == 1.0) return resample_evenly(way, edge_length);
-  const Points even = resample_evenly(way, edge_length);
+Points graded(const Points& polyline, double radius, double edge_length, double refinement) {
+  if (refinement == 1.0) return resample_evenly(polyline, edge_length);
+  const Points even = resample_evenly(polyline, edge_length);
   const auto tangled = part_near_itself(even, kNearItself * radius, kAwayAlong * radius);
-  if (!tangled) return resample_evenly(way, edge_length / refinement);
-  const double longer = arclengths(way).back() / arclengths(even).back();
+  if (!tangled) return resample_evenly(polyline, edge_length / refinement);
+  const double longer = arclengths(polyline).back() / arclengths(even).back();
   return resample_graded(
-      way, {edge_length, {{tangled->first * longer, tangled->second * longer, edge_length / refinement}}});
+      polyline, {edge_length, {{tangled->first * longer, tangled->second * longer, edge_length / refinement}}});
 }
 
 }  // namespace

@@ -255,15 +255,15 @@ double runs_out(int windings, double looseness, double h) {
   return M_PI * (looseness - tight) * h * (windings - 1);
 }
 
-/// `middle`: where the knot's own strand begins, which leads to its tail along the rod (`way` 1) or against it (-1).
+/// `middle`: where the knot's own strand begins, which leads to its tail along the rod (`sense` 1) or against it (-1).
 /// `threaded`: where this knot's coil holds the other end's strand. Arclengths of the path [m].
 KnotLandmarks landmarks_of(const FishermanShape& shape, const Resampled& rod, const KnotMarks& marks, double middle,
-                           double way, double tail_end, double threaded) {
+                           double sense, double tail_end, double threaded) {
   KnotLandmarks out{};
   out.tail_end = rod(tail_end);
-  out.tail_exit = rod(middle + way * marks.tail_exit);
-  out.coil_middle = rod(middle + way * marks.coil_middle);
-  out.standing_begin = rod(middle + way * marks.standing_begin);
+  out.tail_exit = rod(middle + sense * marks.tail_exit);
+  out.coil_middle = rod(middle + sense * marks.coil_middle);
+  out.standing_begin = rod(middle + sense * marks.standing_begin);
   out.threaded = rod(threaded);
   out.windings = shape.windings;
   out.longer = longer_coil(shape.windings, shape.radius);

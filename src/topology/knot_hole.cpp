@@ -6,6 +6,7 @@
 #include <limits>
 #include <queue>
 
+#include "knot_utm/rod/frames.hpp"
 #include "knot_utm/topology/crossings.hpp"
 
 namespace knot_utm {

@@ -58,16 +58,16 @@ void TailGrips::begin_with(int node, double force, const Points& position) {
   grip.place = grip.direction.dot(position.col(node)) + std::min(force, grip.slip_force) / grip.stiffness;
 }
 
-void TailGrips::add_to(Boundary& boundary, double way) const {
+void TailGrips::add_to(Boundary& boundary, double travel) const {
   for (SlippingGrip grip : grips_) {
-    grip.place += way;
+    grip.place += travel;
     boundary.grips.push_back(grip);
   }
 }
 
-void TailGrips::move(const Points& position, double way) {
+void TailGrips::move(const Points& position, double travel) {
   for (SlippingGrip& grip : grips_) {
-    grip.place += way;
+    grip.place += travel;
     const double slipped = grip.direction.dot(position.col(grip.node)) + grip.slip_force / grip.stiffness;
     grip.place = std::min(grip.place, slipped);
   }
@@ -97,8 +97,8 @@ bool TailGrips::pull_is_over(const Points& position, double time, RestWatch& res
 }
 
 std::string TailGrips::lost_patience(const Patience& patience, const Points& position, double elapsed,
-                                     double way_in_radii) const {
-  if (reached_ >= 0.0 || elapsed <= patience.time || way_in_radii <= patience.way) return "";
+                                     double travel_in_radii) const {
+  if (reached_ >= 0.0 || elapsed <= patience.time || travel_in_radii <= patience.travel) return "";
   std::ostringstream message;
   message << "not tied: after " << elapsed << " s the ends that tie it are pulled with";
   for (std::size_t i = 0; i < grips_.size(); ++i)

@@ -10,6 +10,7 @@
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "machine/overhand_specimen.hpp"

@@ -129,11 +129,11 @@ TEST_F(KnotFile, SaysWhatIsReadOfTheKnot) {
   EXPECT_EQ(knot->landmarks[1].name, "hook");
   EXPECT_EQ(knot->landmarks[1].strand, 1u);
   EXPECT_EQ(knot->landmarks[1].point, 3u);
-  ASSERT_EQ(knot->read.size(), 3u);
-  EXPECT_EQ(knot->read[0].kind, KnotReading::Kind::kLoop);
-  EXPECT_EQ(knot->read[1].kind, KnotReading::Kind::kBetween);
-  EXPECT_EQ(knot->read[1].second, 2u);
-  EXPECT_EQ(knot->read[2].kind, KnotReading::Kind::kDistance);
+  ASSERT_EQ(knot->readings.size(), 3u);
+  EXPECT_EQ(knot->readings[0].kind, KnotReading::Kind::kLoop);
+  EXPECT_EQ(knot->readings[1].kind, KnotReading::Kind::kBetween);
+  EXPECT_EQ(knot->readings[1].second, 2u);
+  EXPECT_EQ(knot->readings[2].kind, KnotReading::Kind::kDistance);
 }
 
 TEST_F(KnotFile, MayBeNamedFromTheFolderOfTheMethod) {

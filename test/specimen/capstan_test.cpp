@@ -13,7 +13,6 @@
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
-#include "knot_utm/words/invalid_input.hpp"
 #include "reference.hpp"
 #include "rod/materials.hpp"
 

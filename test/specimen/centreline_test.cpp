@@ -5,8 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
 #include <string>
 

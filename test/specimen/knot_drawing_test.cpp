@@ -13,7 +13,6 @@
 #include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
-#include "knot_utm/specimen/polyline.hpp"
 #include "knot_utm/topology/crossings.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
 #include "knot_utm/tying/tying_rig.hpp"

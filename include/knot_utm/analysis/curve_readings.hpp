@@ -90,20 +90,20 @@ std::optional<Drop> largest_drop(const Pull& pull, double end);
 /// A knot that jumped open, as the fall of F that goes with it. Empty where no knot jumped open, and where the pull
 /// does not have the readings by which this could be told.
 ///
-/// A knot jumps open if it takes in rod within jump_way() and F falls; how much of both is asked for, with and without
-/// known excess lengths, stands in doc/model.md, section 10, "A jump". Without them the rest of the knots' approach
-/// that rigid_sliding() does not explain was 6 to 65 % of e_0 in simulations of knots that jumped open, and at most 4 %
-/// for others, whose knots nested into each other. Stretchy strands come nearer by up to 15 % as a knot slips, but F
-/// then falls little.
+/// A knot jumps open if it takes in rod within jump_interval() and F falls; how much of both is asked for, with and
+/// without known excess lengths, stands in doc/model.md, section 10, "A jump". Without them the rest of the knots'
+/// approach that rigid_sliding() does not explain was 6 to 65 % of e_0 in simulations of knots that jumped open, and at
+/// most 4 % for others, whose knots nested into each other. Stretchy strands come nearer by up to 15 % as a knot slips,
+/// but F then falls little.
 ///
-/// The result reaches from the largest F of the jump to the smallest F within another jump_way() after it. No lock is
-/// required, because a load that rises to its breakaway and then falls shows a false lock. Only points from the index
-/// `begin` on are looked at.
+/// The result reaches from the largest F of the jump to the smallest F within another jump_interval() after it. No lock
+/// is required, because a load that rises to its breakaway and then falls shows a false lock. Only points from the
+/// index `begin` on are looked at.
 std::optional<Drop> jump(const Pull& pull, bool on_rollers, const HiddenRod& hidden, std::size_t begin = 0);
 
 /// The extension within which a knot jumps open: e_0/40, where e_0 is the first knot distance. That is a twentieth of
 /// e_0/2, the extension by which knots that slide on rollers have met [m]. NaN where there are no two knots.
-double jump_way(const Pull& pull);
+double jump_interval(const Pull& pull);
 
 /// The part of F(s) in which the locked knots carry the load. It consists of the peak and of the points before it, from
 /// s = `from` on, back to the first that is below half of the peak. It has at least three points, even if some of them

@@ -8,10 +8,12 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/ended_by.hpp"
-#include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/sim/contact_force.hpp"
 
 namespace knot_utm {
+
+struct RodProperties;
+class TimeStep;
 
 /// How near a rod is to parting, and at which edge. It parts there when the fraction reaches 1.
 struct Exposure {
@@ -58,8 +60,6 @@ class RopeStrengths {
 
 /// Whether another strand lies against an edge, nearer than 1.1 (h_a + h_b) to it and further than 5 h along the rod.
 bool lies_in_knot(const RodProperties& rod, const Points& position, int edge);
-
-class TimeStep;
 
 /// Judges time steps of a rod that can part. A step should end just when the rod parts. A step that leads to a multiple
 /// of the strength is too long, or wrong: it is refused and tried again at half its length. A run whose shortest step

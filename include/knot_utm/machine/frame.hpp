@@ -1,7 +1,5 @@
 #pragma once
 
-#include "knot_utm/specimen/machine_options.hpp"
-
 namespace knot_utm {
 
 class Archive;

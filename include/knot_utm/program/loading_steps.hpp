@@ -24,7 +24,7 @@ struct PullStep : Step {
   Until until;
 
   PullStep() : Step("pull", kMoves | kLoads | kPulls | kCanBreak, "at the first of `until`") {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double usual_extension) override;
   void check(const StepPlace& place) const override;
   void begin(const Sample& now, CrossheadCourse& course) override;
   void steer(const Sample& now, CrossheadCourse& course) override;
@@ -38,7 +38,7 @@ struct HoldStep : Step {
   std::optional<double> held_load;  ///< at this load [N]; unset: at that of the step's beginning
 
   HoldStep() : Step("hold", kRests | kCanBreak, "when the time is over") {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double usual_extension) override;
   void check(const StepPlace& place) const override;
   bool loads() const override { return hold_load && held_load.value_or(0.0) > 0.0; }
   void begin(const Sample& now, CrossheadCourse& course) override;
@@ -56,7 +56,7 @@ struct CycleStep : Step {
   std::optional<double> time;                ///< [s]
 
   CycleStep() : Step("cycle", kMoves | kLoads | kPulls | kCanBreak, "after `count` cycles or `time`") {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double usual_extension) override;
   void check(const StepPlace& place) const override;
   void begin(const Sample& now, CrossheadCourse& course) override;
   void steer(const Sample& now, CrossheadCourse& course) override;
@@ -77,7 +77,7 @@ struct ReturnStep : Step {
   std::optional<double> load;  ///< [N]
 
   ReturnStep() : Step("return", kMoves, "at the first of both, inwards") {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double usual_extension) override;
   void steer(const Sample& now, CrossheadCourse& course) override;
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;
   double usual_duration(const CrossheadCourse& course) const override;
@@ -93,7 +93,7 @@ struct TwistStep : Step {
   bool hold_load = false;        ///< the load, not the crosshead
 
   TwistStep() : Step("twist", kMoves, "at the first of both") {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double usual_extension) override;
   void check(const StepPlace& place) const override;
   void steer(const Sample& now, CrossheadCourse& course) override;
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;
@@ -123,7 +123,7 @@ struct FollowStep : Step {
   double usual_duration(const CrossheadCourse&) const override { return recorded.empty() ? 0.0 : recorded.back().time; }
 
  private:
-  double way(double time) const;  ///< of the crosshead in the record, linear between two rows [m]
+  double travel(double time) const;  ///< of the crosshead in the record, linear between two rows [m]
 };
 
 }  // namespace knot_utm

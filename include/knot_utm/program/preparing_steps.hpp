@@ -57,7 +57,7 @@ struct PreloadStep : Step {
   bool balance = true;
 
   PreloadStep() : Step("preload", kPrepares | kMoves | kLoads | kCanBreak, "at the load") {}
-  void keys(fields::Fields& f, double way) override;
+  void keys(fields::Fields& f, double usual_extension) override;
   void begin(const Sample&, CrossheadCourse&) override { balancing_ = false; }
   void steer(const Sample& now, CrossheadCourse& course) override;
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;

@@ -64,8 +64,8 @@ class Step {
   const char* ends_when() const { return ends_; }  ///< for the page of the keys
   Phase phase() const { return phase_named(name_).value_or(Phase::kIdle); }
 
-  /// Its keys in a method. `way`: extension that the knot's pull has by default [m].
-  virtual void keys(fields::Fields&, double /*way*/) {}
+  /// Its keys in a method. `usual_extension`: that which the knot's pull has by default [m].
+  virtual void keys(fields::Fields&, double /*usual_extension*/) {}
   /// Throws InvalidInput where it cannot stand at its place, or its keys do not go together.
   virtual void check(const StepPlace&) const {}
   /// Whether it puts a load on the specimen.

@@ -29,8 +29,8 @@ struct SketchedLoop {
   double far_end = 0.0;
 };
 
-/// An end of a rope in a grip other than a roller: the node at which the specimen's length begins or ends, and its
-/// neighbour, which a clamp holds as well.
+/// A node in a grip other than a roller, at which the specimen's length begins or ends, and its neighbour, which a
+/// clamp holds as well.
 struct HeldNode {
   int node = 0, next = 0;
   int edge() const { return node < next ? node : next; }  ///< between the two

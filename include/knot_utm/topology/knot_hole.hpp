@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/rod/frames.hpp"
 
 namespace knot_utm {
 

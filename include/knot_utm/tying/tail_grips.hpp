@@ -78,23 +78,23 @@ class TailGrips {
   /// Places the grip at a node so that it pulls with this force, or with the force at which it slips if that is less.
   void begin_with(int node, double force, const Points& position);
 
-  /// Adds the grips to the boundary of a step in which they move by `way` [m].
-  void add_to(Boundary& boundary, double way) const;
-  /// Follows an accepted step in which they moved by `way`: those that pull with more than their load slip.
-  void move(const Points& position, double way);
+  /// Adds the grips to the boundary of a step in which they move by `travel` [m].
+  void add_to(Boundary& boundary, double travel) const;
+  /// Follows an accepted step in which they moved by `travel`: those that pull with more than their load slip.
+  void move(const Points& position, double travel);
 
   /// A pull is over once all grips slip at the same time and everything is at rest. If one sticks again after that
   /// time, it is waited for at most as long as for rest.
   void begin_pull() { reached_ = -1.0; }
   bool pull_is_over(const Points& position, double time, RestWatch& rest);
-  /// A pull in which not all grips have slipped may go on for this time, and at least for this way.
+  /// A pull in which not all grips have slipped may go on for this time, and at least for this travel.
   struct Patience {
-    double time = 90.0;  ///< [s]
-    double way = 300.0;  ///< [h]
+    double time = 90.0;     ///< [s]
+    double travel = 300.0;  ///< [h]
   };
   /// Message about a pull that has gone on for longer; empty: it has not, or all have slipped.
   std::string lost_patience(const Patience& patience, const Points& position, double elapsed,
-                            double way_in_radii) const;
+                            double travel_in_radii) const;
 
   std::size_t size() const { return grips_.size(); }
   double force(std::size_t grip, const Points& position) const;  ///< [N]
