@@ -40,7 +40,7 @@ constexpr std::array<Column, 9> kColumns{
 
 /// A line with a cell for each column.
 template <class Cell>
-std::string line_of(bool compliant_frame, const Cell& cell) {
+std::string row_text(bool compliant_frame, const Cell& cell) {
   std::string line;
   for (const Column& column : kColumns)
     if (&column != &kColumns.back() || compliant_frame) line += (line.empty() ? "" : ",") + std::string(cell(column));
@@ -84,13 +84,13 @@ std::optional<std::size_t> place(const std::string& file, const std::vector<std:
 CurveWriter::CurveWriter(const std::string& file, bool compliant_frame)
     : file_(file), compliant_frame_(compliant_frame) {
   open(out_, file);
-  out_ << line_of(compliant_frame, [](const Column& column) { return column.name; })
-       << line_of(compliant_frame, [](const Column& column) { return column.unit; }) << std::flush;
+  out_ << row_text(compliant_frame, [](const Column& column) { return column.name; })
+       << row_text(compliant_frame, [](const Column& column) { return column.unit; }) << std::flush;
 }
 
 void CurveWriter::write(const CurveRow& row) {
   // Adding zero turns -0 into 0.
-  out_ << line_of(compliant_frame_, [&](const Column& column) {
+  out_ << row_text(compliant_frame_, [&](const Column& column) {
     return column.value ? format_number(row.*column.value + 0.0) : phase_name(row.phase);
   }) << std::flush;
   if (!out_) throw CannotWrite(file_);

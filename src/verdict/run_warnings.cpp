@@ -20,8 +20,7 @@ namespace {
 
 constexpr double kHardlyAny = 1e-6;  // accelerated mass, by choice: a smaller one helps no more [own mass]
 
-/// A node that is so many times as fast as the pull snaps. While shipped knots slide, nodes are 11 to 42 times as fast
-/// as the pull; where a strand or a frame lets go, 200 to 500 times.
+/// A node that is so many times as fast as the pull snaps.
 constexpr double kSnaps = 100.0;
 
 std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
@@ -213,8 +212,7 @@ class Warnings {
   const RunFacts& facts_;
 };
 
-/// From here on L has no effect on a sliding force: with F_p = 50 N, e = 0.2 m and L = 0.25 m, which is 15.7 h more,
-/// polypropylene slides at 5.06 N, and with a longer loop at 6.60 N.
+/// From here on L has no effect on a sliding force.
 constexpr double kClearOfRollers = 19.0;  // L - e [h]
 
 /// Warns of a loop whose knots are tied near its rollers.

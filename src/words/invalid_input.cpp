@@ -80,13 +80,13 @@ std::string nearest_name(const std::string& given, const std::vector<std::string
 }
 
 std::string shown(const std::string& text) {
-  constexpr std::size_t kLongest = 500;
-  std::string line = text.substr(0, kLongest);
+  constexpr std::size_t kLongestLine = 500;
+  std::string line = text.substr(0, kLongestLine);
   for (char& c : line) {
     const auto code = static_cast<unsigned char>(c);
     if (code < 0x20 || code == 0x7f) c = ' ';
   }
-  return text.size() > kLongest ? line + "..." : line;
+  return text.size() > kLongestLine ? line + "..." : line;
 }
 
 std::string reason_of(int error) {
