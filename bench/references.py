@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from table import Gate, Table
 
-NUMBERED = re.compile(r"(?:.*/)?([KR]\d+)")
+NUMBERED = re.compile(r"(?:.*/)?([KRX]\d+)")
 PROPERTY = "reference: "  # of a test's report, written by test/reference.hpp
 
 

@@ -192,10 +192,10 @@ void drop_rolling(const std::string& section, const Source& by, Material& materi
 }  // namespace
 
 void check_other_material(const Method& m) {
-  const bool two = m.material.other != nullptr, mean = m.physics.pair_rule == PairRule::kMean;
+  const bool two = m.material.other != nullptr;
+  const auto rule = [](PairRule which) { return std::string(kPairRules[static_cast<std::size_t>(which)]); };
   has_effect(two, "physics.friction.pair", m.physics.pair_friction.value_or(-1.0), -1.0, "with other_material");
-  has_effect(two, "physics.friction.pair", std::string(mean ? "mean" : "smaller"), std::string("smaller"),
-             "with other_material");
+  has_effect(two, "physics.friction.pair", rule(m.physics.pair_rule), rule(PairRule::kSmaller), "with other_material");
   if (!two) return;
   const Material &own = m.material, &other = *m.material.other;
   has_effect(m.specimen.drawing && m.specimen.drawing->strands.size() > 1, "other_material", other.name, std::string(),

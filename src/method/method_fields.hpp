@@ -186,8 +186,8 @@ inline void physics(Fields& f, PhysicsOptions& o) {
     friction.says("at; strands roll at the `surface` only")
         .choice("at", o.friction_at, std::array{"surface", "centreline"});
     law_keys<FrictionRegistry>(friction, o.friction);
-    friction.says("friction of two materials; or their `mean`")
-        .number_or_word("pair", o.pair_friction, Range{0.0, 5.0, "-"}, o.pair_rule, std::array{"smaller", "mean"});
+    friction.says("friction of two materials; or what it is of their coefficients")
+        .number_or_word("pair", o.pair_friction, Range{0.0, 5.0, "-"}, o.pair_rule, kPairRules);
   });
   f.section("contact", [&o](Fields& contact) {
     enum class Law { kSmooth } only = Law::kSmooth;

@@ -1,6 +1,7 @@
 #include "knot_utm/settings/step_settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/settings/accuracy.hpp"
@@ -54,8 +55,18 @@ NormalLaw normal_law(const Material& material, double tolerance) {
 
 double pair_friction(const Material& material, const PhysicsOptions& physics) {
   const double own = material.friction_coefficient, other = material.other->friction_coefficient;
-  const double by_rule = physics.pair_rule == PairRule::kMean ? 0.5 * (own + other) : std::min(own, other);
-  return physics.pair_friction.value_or(by_rule);
+  if (physics.pair_friction) return *physics.pair_friction;
+  switch (physics.pair_rule) {
+    case PairRule::kMean:
+      return 0.5 * (own + other);
+    case PairRule::kProduct:
+      return own * other;
+    case PairRule::kRootOfProduct:
+      return std::sqrt(own * other);
+    case PairRule::kSmaller:
+      break;
+  }
+  return std::min(own, other);
 }
 
 NormalLaw normal_law_between(const Material& a, const Material& b, double tolerance) {

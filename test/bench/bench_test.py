@@ -11,6 +11,7 @@ ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 sys.path.insert(0, os.path.join(ROOT, "bench"))
 
 import bends  # noqa: E402
+import exam  # noqa: E402
 import front  # noqa: E402
 import measured  # noqa: E402
 import references  # noqa: E402
@@ -78,6 +79,23 @@ class References(unittest.TestCase):
         self.assertGreaterEqual(listed, {"K7"} | {f"R{n}" for n in (*range(1, 10), 11)})
         line, = references.table_of([references.row_of("R2 test", "1 1 0")], {"R9"}).failed()
         self.assertIn("R9: no test left a value", line)
+
+
+class Exam(unittest.TestCase):
+    facts = runs.read_yaml(exam.FACTS)
+
+    def test_every_scene_needs_a_value_and_every_experiment_is_named(self):
+        self.assertEqual(len(exam.report([], self.facts).failed()), len(self.facts["theirs"]))
+        self.assertEqual([int(name.split()[0]) for name, _ in self.facts["experiments"]], list(range(1, 15)))
+        self.assertLessEqual(exam.numbers(self.facts), references.numbers_in(os.path.join(ROOT, "doc/references.md")))
+
+    def test_two_scenes_are_run_beside_the_results_of_others(self):
+        tool = os.path.join(os.environ.get("KNOT_UTM_TOOLS_DIR", ""), "validation_tests")
+        if not os.path.exists(tool):
+            self.skipTest("validation_tests: not built")
+        rows = references.run(tool, {"X3", "X4"}, max(os.sched_getaffinity(0)))
+        self.assertEqual(len(exam.report(rows, self.facts).failed()), len(self.facts["theirs"]) - len(rows))
+        self.assertEqual(len(rows), 2)
 
 
 if __name__ == "__main__":

@@ -158,7 +158,7 @@ class Documents(unittest.TestCase):
         suites = set()
         for file in files("test", "_test.cpp"):
             suites.update(re.findall(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),", text(file), re.MULTILINE))
-        for name in re.findall(r"`((?:R\d+|K\d+)\w+|StencilAt|StretchingLaw|IsotropicBendingBy|SmoothContactJacobian)",
+        for name in re.findall(r"`((?:[RKX]\d+)\w+|StencilAt|StretchingLaw|IsotropicBendingBy|SmoothContactJacobian)",
                                text("doc/references.md")):
             self.assertTrue(name in suites, name)
 

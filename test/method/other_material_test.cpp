@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "knot_utm/breaking/break_watch.hpp"
 #include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/grips/grips.hpp"
@@ -73,6 +75,13 @@ TEST(OtherMaterial, FrictionOfThePairIsTheSmallerOneUnlessItIsGiven) {
   const Method mean = sheet_bend({slippery[0], slippery[1], "physics.friction.pair=mean"});
   EXPECT_EQ(pair_friction(mean.material, mean.physics), 0.5 * (0.1 + mean.material.friction_coefficient));
   EXPECT_THAT(method_yaml(mean), HasSubstr("pair: mean"));
+  const double own = mean.material.friction_coefficient;
+  for (const auto& [rule, friction] : {std::pair("product", 0.1 * own), {"root_of_product", std::sqrt(0.1 * own)}}) {
+    const Method method = sheet_bend({slippery[0], slippery[1], std::string("physics.friction.pair=") + rule});
+    EXPECT_DOUBLE_EQ(pair_friction(method.material, method.physics), friction);
+    EXPECT_THAT(method_yaml(method), HasSubstr(std::string("pair: ") + rule));
+    EXPECT_THROW(sheet_bend({std::string("physics.friction.pair=") + rule}), InvalidInput);
+  }
   given.push_back("physics.friction.pair=0.3");
   const Method set = sheet_bend(given);
   const StepSettings settings = step_settings(set.specimen, set.material, set.machine, set.physics);
