@@ -1,5 +1,5 @@
 # What writes and reads bags is a library of its own: a tool that has no more to do with ROS loads no more of it.
-set(bag_sources bag_writer color_scale conversions curve_bag machine_frames markers run_bag)
+set(bag_sources color_scale conversions curve_bag markers run_bag)
 list(TRANSFORM bag_sources REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/ros/\\1.cpp")
 add_library(knot_utm_bags ${bag_sources})
 target_link_options(knot_utm_bags PUBLIC LINKER:--as-needed)

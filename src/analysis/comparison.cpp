@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kMoved = 0.01;   // of the largest growth: extension at which the pull has begun
 constexpr double kStill = 0.001;  // of the largest growth: extensions that differ by less are the same
+constexpr double kSlip = 0.05;    // of the peak: the load falls
 
 std::vector<CurveRow> pulled(const std::vector<CurveRow>& rows) {
   std::vector<CurveRow> out;
@@ -205,7 +206,7 @@ Comparison compare(const Pull& first, const Pull& second) {
       for (PullPoint& point : *pull) point.borne = Sample::kNone;
   // A curve does not say what holds a loop. Between held nodes it would have no plateau in any case.
   constexpr bool kOnRollers = true;
-  return {curve_readings(a, kOnRollers), curve_readings(b, kOnRollers), curve_difference(a, b), std::nullopt};
+  return {curve_readings(a, kOnRollers), curve_readings(b, kOnRollers), curve_difference(a, b), {}, {}};
 }
 
 std::string comparison_yaml(const Comparison& comparison, const std::string& file_a, const std::string& file_b) {
@@ -227,6 +228,11 @@ std::string comparison_yaml(const Comparison& comparison, const std::string& fil
   }
   for (const Reading& reading : kReadings)
     lines.word(reading.name, flow(comparison.a.*reading.value, comparison.b.*reading.value));
+  if (comparison.over_time) {
+    const OverTime &a = (*comparison.over_time)[0], &b = (*comparison.over_time)[1];
+    lines.word("peak_time", flow(a.peak_time, b.peak_time));
+    lines.word("slips", flow(a.slips, b.slips));
+  }
   return lines.all();
 }
 
@@ -329,9 +335,44 @@ class Side {
   std::optional<RawZero> given_;
 };
 
+bool has_travel(const CurveOfFile& curve) {
+  const std::vector<CurveRow> rows = pulled(curve.rows);
+  return rows.empty() || std::isfinite(rows.front().extension);
+}
+
+OverTime read_over_time(const CurveOfFile& curve, CurveReadings& readings, const Tell& tell) {
+  const std::vector<CurveRow> rows = pulled(curve.rows);
+  const auto less = [](const CurveRow& a, const CurveRow& b) { return a.load < b.load; };
+  const auto peak = std::max_element(rows.begin(), rows.end(), less);
+  if (peak == rows.end() || !std::isfinite(peak->load))
+    throw InvalidInput::sentence("load", "nothing is pulled, or the first reading has no load").in_file(curve.file);
+  if (!has_travel(curve)) tell(curve.file + ": it has no travel: loads are read over time alone, as recorded");
+  OverTime out{peak->time - rows.front().time};
+  double high = rows.front().load, low = high, largest = 0.0;  // of a rise, and of the fall behind it
+  for (auto row = rows.begin(); row <= peak; ++row) {
+    low = std::min(low, row->load);
+    const bool fell = high - low > kSlip * peak->load, rises = row->load - low > kSlip * peak->load;
+    if (fell ? !rises : row->load <= high) continue;
+    out.slips += fell;
+    if (fell) largest = std::max(largest, high - low);
+    high = low = row->load;
+  }
+  readings.peak_force = peak->load;
+  readings.largest_drop = largest;
+  return out;
+}
+
+ComparedCurves compared_over_time(const CurveOfFile& a, const CurveOfFile& b, const Tell& tell) {
+  ComparedCurves out;
+  const OverTime first = read_over_time(a, out.comparison.a, tell);
+  out.comparison.over_time = {first, read_over_time(b, out.comparison.b, tell)};
+  return out;
+}
+
 }  // namespace
 
 ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, bool balances_raw_data, const Tell& tell) {
+  if (!has_travel(a) || !has_travel(b)) return compared_over_time(a, b, tell);
   Side side_a(std::move(a), tell), side_b(std::move(b), tell);
   const bool balances = balances_raw_data && !(side_a.has_zero() && side_b.has_zero());
   if (balances) {

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "knot_utm/ros/base_marker.hpp"
+#include <iterator>
 
 namespace knot_utm {
 namespace {
@@ -14,25 +13,25 @@ constexpr double kSharpestBend = 1.0;   // radius of the rod over that of its cu
 constexpr double kCompression = 1e-3;   // where blue ends: a thin rod buckles before [of `full`]
 constexpr int kColors = 128;            // of the bar
 
-/// Linear interpolation between two colours.
-std_msgs::ColorRGBA mixed(const std_msgs::ColorRGBA& from, const std_msgs::ColorRGBA& to, double fraction) {
-  const auto mix = [fraction](float a, float b) {
-    return (1.0 - fraction) * static_cast<double>(a) + fraction * static_cast<double>(b);
-  };
-  return color(mix(from.r, to.r), mix(from.g, to.g), mix(from.b, to.b));
-}
+struct Stop {
+  double place, red, green, blue;
+};
+/// Blue below zero, light grey at zero, and green, yellow and red above. Ropes that lock at a thousand times the
+/// sliding force slide in the green range, which must look neither like zero nor like locking.
+constexpr Stop kStops[] = {{-1.0, 0.15, 0.35, 0.95},
+                           {0.0, 0.85, 0.85, 0.85},
+                           {0.2, 0.45, 0.8, 0.35},
+                           {0.5, 1.0, 0.8, 0.1},
+                           {1.0, 0.85, 0.05, 0.1}};
 
-/// The colour of a place on a scale from -1 to 1: blue below zero, light grey at zero, and green, yellow and red above.
-std_msgs::ColorRGBA tension_color(double place) {
-  const std_msgs::ColorRGBA grey = color(0.85, 0.85, 0.85), yellow = color(1.0, 0.8, 0.1);
-  // Ropes that lock at a thousand times the sliding force slide in the green range. It must look neither like zero nor
-  // like locking.
-  constexpr double kGreenAt = 0.2, kYellowAt = 0.5;
-  const std_msgs::ColorRGBA green = color(0.45, 0.8, 0.35);
-  if (place < 0.0) return mixed(grey, color(0.15, 0.35, 0.95), -place);
-  if (place < kGreenAt) return mixed(grey, green, place / kGreenAt);
-  if (place < kYellowAt) return mixed(green, yellow, (place - kGreenAt) / (kYellowAt - kGreenAt));
-  return mixed(yellow, color(0.85, 0.05, 0.1), (place - kYellowAt) / (1.0 - kYellowAt));
+/// The colour of a place on a scale from -1 to 1.
+std_msgs::ColorRGBA color_at(double place) {
+  const Stop* high = std::find_if(std::begin(kStops) + 1, std::end(kStops) - 1,
+                                  [place](const Stop& stop) { return place < stop.place; });
+  const Stop& low = high[-1];
+  const double fraction = (place - low.place) / (high->place - low.place);
+  const auto mixed = [&](double Stop::*part) { return (1.0 - fraction) * low.*part + fraction * high->*part; };
+  return color(mixed(&Stop::red), mixed(&Stop::green), mixed(&Stop::blue));
 }
 
 /// 1, 2 or 5 times a power of ten, no less than `value`.
@@ -44,6 +43,15 @@ double rounded_up(double value) {
 }
 
 }  // namespace
+
+std_msgs::ColorRGBA color(double red, double green, double blue) {
+  std_msgs::ColorRGBA c;
+  c.r = static_cast<float>(red);
+  c.g = static_cast<float>(green);
+  c.b = static_cast<float>(blue);
+  c.a = 1.0f;
+  return c;
+}
 
 ColorScale ColorScale::of_tension(const Material& material, const LoadCellOptions& cell) {
   const double stretched = std::min(kLargestStrain * material.stretching_stiffness, cell.capacity);
@@ -61,10 +69,10 @@ double ColorScale::place(double value) const {
 
 double ColorScale::lowest() const { return what_ == ColorBy::kTension ? place(-kCompression * full_) : 0.0; }
 
-std_msgs::ColorRGBA ColorScale::color(double value) const {
-  const double x = place(value);
-  if (x >= 0.0) return tension_color(x);
-  return tension_color(std::max(x / std::abs(place(-kCompression * full_)), -1.0));
+std_msgs::ColorRGBA ColorScale::color(double value) const { return at(place(value)); }
+
+std_msgs::ColorRGBA ColorScale::at(double place) const {
+  return color_at(place < 0.0 ? std::max(place / std::abs(lowest()), -1.0) : place);
 }
 
 ColorBar ColorScale::bar() const {
@@ -78,10 +86,7 @@ ColorBar ColorScale::bar() const {
     bar.ticks = {0.0, 0.25 * full_, 0.5 * full_, 0.75 * full_, full_};
   }
   for (const double tick : bar.ticks) bar.places.push_back((place(tick) - lowest()) / (1.0 - lowest()));
-  for (int i = 0; i < kColors; ++i) {
-    const double x = lowest() + (1.0 - lowest()) * i / (kColors - 1);
-    bar.colors.push_back(tension_color(x < 0.0 ? x / -lowest() : x));
-  }
+  for (int i = 0; i < kColors; ++i) bar.colors.push_back(at(lowest() + (1.0 - lowest()) * i / (kColors - 1)));
   return bar;
 }
 

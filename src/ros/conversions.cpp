@@ -1,14 +1,18 @@
 #include "knot_utm/ros/conversions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 
+#include "knot_utm/grips/grips.hpp"
 #include "knot_utm/program/phases.hpp"
+#include "knot_utm/program/program.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {
@@ -25,6 +29,11 @@ static_assert(static_cast<int>(BenchStatus::kPhaseDone) == KnotState::PHASE_DONE
 static_assert(static_cast<int>(BenchStatus::kNotEquilibrated) == KnotState::NOT_EQUILIBRATED);
 static_assert(static_cast<int>(BenchStatus::kBroken) == KnotState::BROKEN);
 static_assert(static_cast<int>(BenchStatus::kFailed) == KnotState::FAILED);
+
+Phase phase_from_name(const std::string& name) {
+  if (const std::optional<Phase> phase = phase_named(name)) return *phase;
+  throw std::invalid_argument("\"" + name + "\" is not a phase");
+}
 
 /// What a command and its message call by the same name, there or back.
 template <class From, class To>
@@ -73,16 +82,54 @@ void take(const From& from, PerKnot& to, const char* name) {
   to = PerKnot::of(from);
 }
 
+geometry_msgs::TransformStamped transform(const char* parent, const char* child, const Vec3& translation,
+                                          const ros::Time& stamp) {
+  geometry_msgs::TransformStamped t;
+  t.header.stamp = stamp;
+  t.header.frame_id = parent;
+  t.child_frame_id = child;
+  t.transform.translation.x = translation.x();
+  t.transform.translation.y = translation.y();
+  t.transform.translation.z = translation.z();
+  t.transform.rotation.w = 1.0;
+  return t;
+}
+
+std::string text(const Vec3& v) {
+  return format_number(v.x()) + " " + format_number(v.y()) + " " + format_number(v.z());
+}
+
+/// How a cylinder, which stands along z, is turned to lie along an axis: about y, and then about z.
+Vec3 turn_to(const Vec3& axis) {
+  return {0.0, std::acos(std::clamp(axis.z(), -1.0, 1.0)), std::atan2(axis.y(), axis.x())};
+}
+
+std::string visual(const GripBody& body, double radius) {
+  const bool box = body.cylinder_radius == 0.0;
+  const std::string shape = box ? "<box size=\"" + text(2.0 * body.half_box(radius)) + "\"/>"
+                                : "<cylinder radius=\"" + format_number(body.cylinder_radius) + "\" length=\"" +
+                                      format_number(2.0 * body.half_length(radius)) + "\"/>";
+  return "    <visual>\n      <origin xyz=\"" + text(body.from_grip) + "\" rpy=\"" +
+         text(box ? Vec3(Vec3::Zero()) : turn_to(body.axis)) + "\"/>\n      <geometry>" + shape +
+         "</geometry>\n    </visual>\n";
+}
+
+std::string link(const char* name, const std::string& visuals = "") {
+  return std::string("  <link name=\"") + name + "\">\n" + visuals + "  </link>\n";
+}
+
+std::string joint(const char* name, const char* type, const char* parent, const char* child, const Vec3& at,
+                  const std::string& more = "") {
+  return std::string("  <joint name=\"") + name + "\" type=\"" + type + "\">\n    <parent link=\"" + parent +
+         "\"/>\n    <child link=\"" + child + "\"/>\n    <origin xyz=\"" + text(at) + "\" rpy=\"0 0 0\"/>\n" + more +
+         "  </joint>\n";
+}
+
 }  // namespace
 
 ros::Time test_stamp(double start, double time) {
   // The start is worked out from a stamp, and may come out a little before the clock's, which no ros::Time can hold.
   return std::max(ros::Time(std::max(start + time, 0.0)), ros::TIME_MIN);
-}
-
-Phase phase_from_name(const std::string& name) {
-  if (const std::optional<Phase> phase = phase_named(name)) return *phase;
-  throw std::invalid_argument("\"" + name + "\" is not a phase");
 }
 
 Crosshead to_message(const Command& command, std::uint32_t run, const ros::Time& stamp) {
@@ -122,6 +169,14 @@ void put_motion(const MotionPatternTracker& motion, KnotState& message) {
   message.locked = static_cast<std::uint8_t>(motion.lock_extension().has_value());
 }
 
+geometry_msgs::Point to_point(const Vec3& place) {
+  geometry_msgs::Point point;
+  point.x = place.x();
+  point.y = place.y();
+  point.z = place.z();
+  return point;
+}
+
 KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius, const Crosshead& command) {
   KnotShape m;
   m.header.stamp = command.header.stamp;
@@ -129,13 +184,8 @@ KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, doubl
   m.run = command.run;
   m.sequence = command.sequence;
   m.radius = radius;
-  m.points.resize(static_cast<std::size_t>(points.cols()));
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    geometry_msgs::Point& point = m.points[static_cast<std::size_t>(i)];
-    point.x = points(0, i);
-    point.y = points(1, i);
-    point.z = points(2, i);
-  }
+  m.points.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) m.points.push_back(to_point(points.col(i)));
   m.tension.assign(tension.data(), tension.data() + tension.size());
   return m;
 }
@@ -175,6 +225,37 @@ sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sam
   m.velocity = {command.velocity};
   m.effort = {sample.load};
   return m;
+}
+
+Transforms fixed_frames(const Vec3& lower_grip, const ros::Time& stamp) {
+  return {transform(names::kWorldFrame, names::kBaseFrame, Vec3::Zero(), stamp),
+          transform(names::kBaseFrame, names::kLowerGripFrame, lower_grip, stamp),
+          transform(names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero(), stamp)};
+}
+
+Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const ros::Time& stamp) {
+  const Vec3 now = crosshead + Vec3(0.0, 0.0, displacement);
+  return {transform(names::kBaseFrame, names::kCrossheadFrame, now, stamp),
+          transform(names::kCrossheadFrame, names::kUpperGripFrame, upper_grip - now, stamp)};
+}
+
+std::string machine_urdf(const Method& method, const Vec3& lower_grip, const Vec3& upper_grip) {
+  const MachineOptions& machine = method.machine;
+  std::string lower, upper;
+  for (const GripBody& body : grip_bodies(method.specimen, machine, method.material))
+    (body.goes_up ? upper : lower) += visual(body, thickest(method.material));
+  const std::string moves = "    <axis xyz=\"0 0 1\"/>\n    <limit lower=\"" + format_number(-machine.travel) +
+                            "\" upper=\"" + format_number(machine.travel) + "\" velocity=\"" +
+                            format_number(kFastestCrosshead) + "\" effort=\"" +
+                            format_number(machine.load_cell.capacity) + "\"/>\n";
+  const Vec3 crosshead = lower_grip + Vec3(0.0, 0.0, method.specimen.end_to_end);
+  return "<?xml version=\"1.0\"?>\n<robot name=\"knot_utm\">\n" + link(names::kWorldFrame) + link(names::kBaseFrame) +
+         link(names::kLowerGripFrame, lower) + link(names::kCrossheadFrame) + link(names::kUpperGripFrame, upper) +
+         link(names::kLoadCellFrame) + joint("base", "fixed", names::kWorldFrame, names::kBaseFrame, Vec3::Zero()) +
+         joint("lower_grip", "fixed", names::kBaseFrame, names::kLowerGripFrame, lower_grip) +
+         joint(names::kCrossheadJoint, "prismatic", names::kBaseFrame, names::kCrossheadFrame, crosshead, moves) +
+         joint("upper_grip", "fixed", names::kCrossheadFrame, names::kUpperGripFrame, upper_grip - crosshead) +
+         joint("load_cell", "fixed", names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero()) + "</robot>\n";
 }
 
 }  // namespace knot_utm

@@ -12,23 +12,17 @@
 #include <system_error>
 #include <utility>
 
-#include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/run_bag.hpp"
 #include "knot_utm/words/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {
 
-/// The error for a file that rosbag cannot open.
-InvalidInput no_bag(const std::string& file, const std::string& why) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return InvalidInput::cannot_read(file);
-  return InvalidInput::sentence("bag", "the file is no bag that can be read: " + shown(why)).in_file(file);
-}
-
-/// The name in the bag of one of the package's topics, in whatever namespace. Empty where the bag does not have it.
-std::string topic_named(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
+/// The name in the bag of one of the package's topics, in whatever namespace. Empty where the bag does not have it, and
+/// need not.
+std::string topic_named(const rosbag::Bag& bag, const std::string& name, bool required) {
   const std::string end = "/" + name;
   std::string found;
   rosbag::View all(bag);
@@ -38,97 +32,78 @@ std::string topic_named(const rosbag::Bag& bag, const std::string& file, const s
     if (!ends || topic == found) continue;
     if (!found.empty())
       throw InvalidInput::sentence("topic " + name, "the bag has two topics " + name + ", " + shown(found) + " and " +
-                                                        shown(topic) + ", but must have one")
-          .in_file(file);
+                                                        shown(topic) + ", but must have one");
     found = topic;
   }
+  if (required && found.empty())
+    throw InvalidInput::sentence("topic " + name, "the bag has no topic " + name + ", so it is not that of a test");
   return found;
-}
-
-std::string required_topic(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
-  std::string topic = topic_named(bag, file, name);
-  if (topic.empty())
-    throw InvalidInput::sentence("topic " + name, "the bag has no topic " + name + ", so it is not that of a test")
-        .in_file(file);
-  return topic;
 }
 
 /// Calls `take` with every message of a topic. Throws InvalidInput where one is of another type, or of another version
 /// of this type.
 template <typename Message, typename Take>
-void for_each(const rosbag::Bag& bag, const std::string& file, const std::string& topic, Take take) {
+void for_each(const rosbag::Bag& bag, const std::string& topic, Take take) {
   if (topic.empty()) return;
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
     const boost::shared_ptr<Message> message = instance.instantiate<Message>();
     if (!message)
       throw InvalidInput(
-          file, "the type of topic " + topic, instance.getDataType() + " " + instance.getMD5Sum(),
+          "the type of topic " + topic, instance.getDataType() + " " + instance.getMD5Sum(),
           std::string(ros::message_traits::datatype<Message>()) + " " + ros::message_traits::md5sum<Message>());
     take(*message);
   }
 }
 
-/// A reading and the test that it belongs to, as its command numbers them.
-struct Reading {
-  CurveRow row;
-  std::uint32_t run = 0;
-};
-
 /// The readings of each test, one after the other. Tests of one number differ in that their time begins anew.
-std::vector<std::vector<CurveRow>> tests_of(const std::vector<Reading>& readings) {
-  std::vector<std::vector<CurveRow>> out;
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const bool goes_on = i > 0 && readings[i].run == readings[i - 1].run &&
-                         (out.back().size() < 2 || readings[i].row.time > out.back().front().time);
-    if (!goes_on) out.emplace_back();
-    out.back().push_back(readings[i].row);
-  }
-  return out;
-}
-
-std::vector<Reading> readings_of(const rosbag::Bag& bag, const std::string& file) {
-  const std::string load_cell = required_topic(bag, file, names::kLoadCell);
-  const std::string crosshead = required_topic(bag, file, names::kCrosshead);
-  const std::string state = topic_named(bag, file, names::kKnotState);
-  std::map<ros::Time, Reading> at;
-  for_each<Crosshead>(bag, file, crosshead, [&](const Crosshead& message) {
+std::vector<std::vector<CurveRow>> tests_in(const rosbag::Bag& bag) {
+  const std::string load_cell = topic_named(bag, names::kLoadCell, true);
+  const std::string crosshead = topic_named(bag, names::kCrosshead, true);
+  struct Place {
+    CurveRow row;
+    std::uint32_t run = 0;
+  };
+  std::map<ros::Time, Place> at;
+  for_each<Crosshead>(bag, crosshead, [&](const Crosshead& message) {
     const Command command = from_message(message);
-    Reading& reading = at[message.header.stamp];
-    reading.run = message.run;
-    CurveRow& row = reading.row;
+    CurveRow row;
     row.time = command.time;
     row.extension = command.displacement;
     row.phase = command.phase;
     row.end_to_end = row.load_lower = Sample::kNone;
+    at[message.header.stamp] = {row, message.run};
   });
-  for_each<KnotState>(bag, file, state, [&](const KnotState& message) {
+  for_each<KnotState>(bag, topic_named(bag, names::kKnotState, false), [&](const KnotState& message) {
     at[message.header.stamp] = {curve_row(from_message(message)), message.run};
   });
-  std::vector<Reading> out;
-  for_each<geometry_msgs::WrenchStamped>(bag, file, load_cell, [&](const geometry_msgs::WrenchStamped& message) {
+  std::vector<std::vector<CurveRow>> tests;
+  std::uint32_t run = 0;
+  for_each<geometry_msgs::WrenchStamped>(bag, load_cell, [&](const geometry_msgs::WrenchStamped& message) {
     const auto found = at.find(message.header.stamp);
     if (found == at.end())
       throw InvalidInput::sentence(
-          "topic " + load_cell, "a reading on topic " + shown(load_cell) + " has no command with the same time stamp")
-          .in_file(file);
-    out.push_back(found->second);
-    out.back().row.load = message.wrench.force.z;
+          "topic " + load_cell, "a reading on topic " + shown(load_cell) + " has no command with the same time stamp");
+    Place reading = found->second;
+    reading.row.load = message.wrench.force.z;
+    const bool goes_on = !tests.empty() && reading.run == run &&
+                         (tests.back().size() < 2 || reading.row.time > tests.back().front().time);
+    if (!goes_on) tests.emplace_back();
+    tests.back().push_back(reading.row);
+    run = reading.run;
   });
-  return out;
+  return tests;
 }
 
-std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file, int wanted) {
-  std::vector<std::vector<CurveRow>> tests = tests_of(readings_of(bag, file));
+std::vector<CurveRow> rows_of(const rosbag::Bag& bag, int wanted) {
+  std::vector<std::vector<CurveRow>> tests = tests_in(bag);
   if (tests.empty() && wanted <= 1) return {};
   const std::string all = std::to_string(tests.size());
   if (wanted == 0 && tests.size() > 1)
-    throw InvalidInput::sentence("tests", "the bag holds " + all + " tests: choose one by --specimen 1 to " + all)
-        .in_file(file);
+    throw InvalidInput::sentence("tests", "the bag holds " + all + " tests: choose one by --specimen 1 to " + all);
   const std::size_t index = wanted == 0 ? 0 : static_cast<std::size_t>(wanted - 1);
   if (index >= tests.size())
     throw InvalidInput::sentence("tests", "--specimen is " + std::to_string(wanted) + ", but the bag holds " + all +
-                                              (tests.size() == 1 ? " test" : " tests"))
-        .in_file(file);
+                                              (tests.size() == 1 ? " test" : " tests"));
   return std::move(tests[index]);
 }
 
@@ -136,10 +111,13 @@ std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file, i
 
 std::vector<CurveRow> read_curve_bag(const std::string& file, int test) {
   try {
-    const rosbag::Bag bag(file, rosbag::bagmode::Read);
-    return rows_of(bag, file, test);
+    return rows_of(rosbag::Bag(file, rosbag::bagmode::Read), test);
+  } catch (const InvalidInput& invalid) {
+    throw invalid.in_file(file);
   } catch (const ros::Exception& error) {
-    throw no_bag(file, error.what());
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(file, none)) throw InvalidInput::cannot_read(file);
+    throw InvalidInput::sentence("bag", "the file is no bag that can be read: " + shown(error.what())).in_file(file);
   } catch (const std::invalid_argument& error) {
     throw InvalidInput::sentence("message", "a message is not that of a test: " + shown(error.what())).in_file(file);
   }

@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
 #include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
-#include "knot_utm/ros/base_marker.hpp"
+#include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
@@ -37,9 +37,29 @@ constexpr double kLongestForce = 6.0;   // half of the line of a contact force a
 constexpr double kSphereDistance = 1.3;  // beyond which one is put between two [radius]
 constexpr int kMostBetween = 4;          // on an edge
 
+const std_msgs::ColorRGBA kWhite = color(1.0, 1.0, 1.0);  // of what has a colour for each of its points
 const std_msgs::ColorRGBA kInk = color(0.12, 0.12, 0.15);
 const std_msgs::ColorRGBA kUnknown = color(0.58, 0.6, 0.63);  // of what has no known value
 const std_msgs::ColorRGBA kContactColor = color(0.25, 0.85, 0.95);
+const std_msgs::ColorRGBA kBodyColor = color(0.45, 0.47, 0.52);
+
+/// A marker for rviz that is still without content. `ns`: its namespace, within which `id` is unique.
+Marker marker_of(const char* ns, int id, int type, const Vec3& size, const std_msgs::ColorRGBA& c) {
+  Marker m;
+  m.header.frame_id = names::kBaseFrame;
+  m.ns = ns;
+  m.id = id;
+  m.type = type;
+  m.action = Marker::ADD;
+  m.pose.orientation.w = 1.0;
+  m.scale.x = size.x();
+  m.scale.y = size.y();
+  m.scale.z = size.z();
+  m.color = c;
+  return m;
+}
+
+Marker triangles(const char* ns) { return marker_of(ns, 0, Marker::TRIANGLE_LIST, Vec3::Ones(), kWhite); }
 
 /// One ring of the tube at a node.
 struct Ring {
@@ -66,9 +86,10 @@ std::vector<Ring> rings_of(const Points& points) {
 
 Marker body_marker(int id, const GripBody& body, const Vec3& grip, double radius) {
   const bool cylinder = body.cylinder_radius > 0.0;
-  Marker m = base_marker(names::kBaseFrame, "grips", id, cylinder ? Marker::CYLINDER : Marker::CUBE);
+  const Vec3 half =
+      cylinder ? Vec3(body.cylinder_radius, body.cylinder_radius, body.half_length(radius)) : body.half_box(radius);
+  Marker m = marker_of("grips", id, cylinder ? Marker::CYLINDER : Marker::CUBE, 2.0 * half, kBodyColor);
   m.pose.position = to_point(grip + body.from_grip);
-  Vec3 size = 2.0 * body.half_box(radius);
   if (cylinder) {
     // A marker's cylinder stands along z.
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), body.axis);
@@ -76,69 +97,43 @@ Marker body_marker(int id, const GripBody& body, const Vec3& grip, double radius
     m.pose.orientation.x = turn.x();
     m.pose.orientation.y = turn.y();
     m.pose.orientation.z = turn.z();
-    size = 2.0 * Vec3(body.cylinder_radius, body.cylinder_radius, body.half_length(radius));
   }
-  m.scale.x = size.x();
-  m.scale.y = size.y();
-  m.scale.z = size.z();
-  m.color = color(0.45, 0.47, 0.52);
   return m;
 }
 
-/// What one ring of triangles to the next is made of.
-class Tube {
- public:
-  Tube(Marker& marker, const Points& points, double radius, int sides)
-      : marker_(marker), rings_(rings_of(points)), radius_(radius), sides_(sides) {}
-
-  template <class ColorAt>
-  void draw(ColorAt color_at) {
-    for (std::size_t i = 0; i + 1 < rings_.size(); ++i) {
-      const std_msgs::ColorRGBA low = color_at(i), high = color_at(i + 1);
-      for (int side = 0; side < sides_; ++side) {
-        surface(i, side, low), surface(i, side + 1, low), surface(i + 1, side + 1, high);
-        surface(i, side, low), surface(i + 1, side + 1, high), surface(i + 1, side, high);
-      }
+/// Adds a tube around a centreline to a list of triangles. `color_at`: the colour of a node.
+template <class ColorAt>
+void add_tube(Marker& m, const Points& points, double radius, ColorAt color_at) {
+  const std::vector<Ring> rings = rings_of(points);
+  const auto outwards = [&](const Ring& ring, int side) -> Vec3 {
+    const double angle = 2.0 * kPi * side / kTubeSides;
+    return std::cos(angle) * ring.normal + std::sin(angle) * ring.binormal;
+  };
+  const auto add = [&](const Vec3& point, const std_msgs::ColorRGBA& c) {
+    m.points.push_back(to_point(point));
+    m.colors.push_back(c);
+  };
+  const auto add_side = [&](std::size_t i, int side) {
+    const Vec3 normal = outwards(rings[i], side);
+    add(rings[i].center + radius * normal, lit(color_at(i), normal));
+  };
+  for (std::size_t i = 0; i + 1 < rings.size(); ++i)
+    for (int side = 0; side < kTubeSides; ++side) {
+      add_side(i, side), add_side(i, side + 1), add_side(i + 1, side + 1);
+      add_side(i, side), add_side(i + 1, side + 1), add_side(i + 1, side);
     }
-    for (int side = 0; side < sides_; ++side) {
-      end_cap(0, side + 1, side, color_at(0));
-      end_cap(rings_.size() - 1, side, side + 1, color_at(rings_.size() - 1));
+  const auto add_end = [&](std::size_t i, double direction) {
+    const Ring& ring = rings[i];
+    const std_msgs::ColorRGBA shade = lit(color_at(i), direction * ring.normal.cross(ring.binormal));
+    for (int side = 0; side < kTubeSides; ++side) {
+      const int from = direction > 0.0 ? side : side + 1, to = direction > 0.0 ? side + 1 : side;
+      add(ring.center, shade);
+      add(ring.center + radius * outwards(ring, from), shade);
+      add(ring.center + radius * outwards(ring, to), shade);
     }
-  }
-
- private:
-  Vec3 outwards(std::size_t ring, int side) const {
-    const double angle = 2.0 * kPi * side / sides_;
-    return std::cos(angle) * rings_[ring].normal + std::sin(angle) * rings_[ring].binormal;
-  }
-  void add(const Vec3& point, const std_msgs::ColorRGBA& c) {
-    marker_.points.push_back(to_point(point));
-    marker_.colors.push_back(c);
-  }
-  void surface(std::size_t ring, int side, const std_msgs::ColorRGBA& c) {
-    const Vec3 normal = outwards(ring, side);
-    add(rings_[ring].center + radius_ * normal, lit(c, normal));
-  }
-  void end_cap(std::size_t ring, int from, int to, const std_msgs::ColorRGBA& c) {
-    const Ring& r = rings_[ring];
-    const double direction = to > from ? 1.0 : -1.0;
-    const std_msgs::ColorRGBA shade = lit(c, direction * r.normal.cross(r.binormal));
-    add(r.center, shade);
-    add(r.center + radius_ * outwards(ring, from), shade);
-    add(r.center + radius_ * outwards(ring, to), shade);
-  }
-
-  Marker& marker_;
-  std::vector<Ring> rings_;
-  double radius_;
-  int sides_;
-};
-
-Marker triangles(const char* ns) {
-  Marker m = base_marker(names::kBaseFrame, ns, 0, Marker::TRIANGLE_LIST);
-  m.scale.x = m.scale.y = m.scale.z = 1.0;
-  m.color = color(1.0, 1.0, 1.0);
-  return m;
+  };
+  add_end(0, -1.0);
+  add_end(rings.size() - 1, 1.0);
 }
 
 /// Dark bands on the rod, each along the edges beside its node.
@@ -153,7 +148,7 @@ Marker gauge_marker(const Points& points, const std::vector<Eigen::Index>& nodes
     };
     Points band(3, 3);
     band << towards(node - 1), here, towards(node + 1);
-    Tube(m, band, kAboveTheRod * radius(node), TubeOptions().sides).draw([](std::size_t) { return kInk; });
+    add_tube(m, band, kAboveTheRod * radius(node), [](std::size_t) { return kInk; });
   }
   return m;
 }
@@ -191,44 +186,44 @@ Eigen::VectorXd curvature_at_nodes(const Points& points, const RopeRadii& radius
   return out;
 }
 
-Marker tube_marker(const Points& points, const Colors& colors, const RopeRadii& radius, const TubeOptions& options) {
+Marker tube_marker(const Points& points, const Colors& colors, const RopeRadii& radius,
+                   const std::vector<int>& missing) {
   Marker m = triangles("rod");
-  if (points.cols() < 2) return m;
-  const std::size_t corners = 6 * static_cast<std::size_t>(options.sides) * static_cast<std::size_t>(points.cols());
+  const std::size_t corners = 6 * static_cast<std::size_t>(kTubeSides) * static_cast<std::size_t>(points.cols());
   m.points.reserve(corners);
   m.colors.reserve(corners);
-  for (const Piece& piece : pieces_between(points.cols(), options.missing)) {
-    if (piece.nodes() < 2) continue;
-    Tube(m, points.middleCols(piece.begin, piece.nodes()), radius(piece.begin), options.sides)
-        .draw([&](std::size_t node) { return colors[static_cast<std::size_t>(piece.begin) + node]; });
-  }
+  for (const Piece& piece : pieces_between(points.cols(), missing))
+    if (piece.nodes() > 1)
+      add_tube(m, points.middleCols(piece.begin, piece.nodes()), radius(piece.begin),
+               [&](std::size_t node) { return colors[static_cast<std::size_t>(piece.begin) + node]; });
   return m;
 }
 
-Marker spheres_marker(const Points& points, const Colors& colors, double radius, const std::vector<int>& missing,
-                      const NodesOfRopes& nodes) {
-  Marker m = base_marker(names::kBaseFrame, "rod", 0, Marker::SPHERE_LIST);
-  m.scale.x = m.scale.y = m.scale.z = 2.0 * radius;
-  m.color = color(1.0, 1.0, 1.0);
-  for (Eigen::Index i = nodes.begin; i < std::min(nodes.end, points.cols()); ++i) {
-    const std_msgs::ColorRGBA& here = colors[static_cast<std::size_t>(i)];
-    m.points.push_back(to_point(points.col(i)));
-    m.colors.push_back(here);
-    if (i + 1 == points.cols() || std::binary_search(missing.begin(), missing.end(), i)) continue;
-    const Vec3 edge = points.col(i + 1) - points.col(i);
-    const int between = std::min(static_cast<int>(edge.norm() / (kSphereDistance * radius)), kMostBetween);
-    for (int k = 1; k <= between; ++k) {
-      m.points.push_back(to_point(points.col(i) + edge * k / (between + 1)));
-      m.colors.push_back(here);
+std::vector<Marker> sphere_markers(const Points& points, const Colors& colors, const RopeRadii& radius,
+                                   const std::vector<int>& missing) {
+  std::vector<Marker> lists;
+  for (const Piece& piece : pieces_between(points.cols(), missing)) {
+    const double r = radius(piece.begin);
+    if (lists.empty() || piece.begin == radius.first_of_others)
+      lists.push_back(
+          marker_of("rod", static_cast<int>(lists.size()), Marker::SPHERE_LIST, {2 * r, 2 * r, 2 * r}, kWhite));
+    const auto add = [&](const Vec3& place, Eigen::Index node) {
+      lists.back().points.push_back(to_point(place));
+      lists.back().colors.push_back(colors[static_cast<std::size_t>(node)]);
+    };
+    for (Eigen::Index i = piece.begin; i < piece.end; ++i) {
+      add(points.col(i), i);
+      if (i + 1 == piece.end) break;
+      const Vec3 edge = points.col(i + 1) - points.col(i);
+      const int between = std::min(static_cast<int>(edge.norm() / (kSphereDistance * r)), kMostBetween);
+      for (int k = 1; k <= between; ++k) add(points.col(i) + edge * k / (between + 1), i);
     }
   }
-  return m;
+  return lists;
 }
 
 Marker contact_marker(const std::vector<ContactForce>& forces, double radius, const ColorScale& scale, double longest) {
-  Marker m = base_marker(names::kBaseFrame, "contact_forces", 0, Marker::LINE_LIST);
-  m.scale.x = 0.35 * radius;
-  m.color = kContactColor;
+  Marker m = marker_of("contact_forces", 0, Marker::LINE_LIST, {0.35 * radius, 0.0, 0.0}, kContactColor);
   m.points.reserve(2 * forces.size());
   for (const ContactForce& contact : forces) {
     const double size = contact.force.norm();
@@ -261,51 +256,34 @@ void ScenePicture::begin(const Points& points, const std::vector<int>& cuts) {
   }
 }
 
-Eigen::Index ScenePicture::parted_edge(const SceneView& view) const {
-  if (std::isnan(view.sample.break_arclength)) return -1;
-  const double* end = arclength_.data() + arclength_.size();
-  const Eigen::Index edge =
-      std::upper_bound(arclength_.data(), end, view.sample.break_arclength) - arclength_.data() - 1;
-  return std::min(edge, view.points.cols() - 2);
-}
-
-std::vector<int> ScenePicture::missing(Eigen::Index parted) const {
-  std::vector<int> out = cuts_;
-  if (parted >= 0) out.insert(std::upper_bound(out.begin(), out.end(), parted), static_cast<int>(parted));
-  return out;
-}
-
-Colors ScenePicture::colors(const SceneView& view, Eigen::Index parted) const {
+ScenePicture::Rod ScenePicture::rod_of(const SceneView& view) const {
   const bool by_tension = color_by_ == ColorBy::kTension;
   Eigen::VectorXd value =
       by_tension ? tension_at_nodes(view.tension, cuts_) : curvature_at_nodes(view.points, radii_, cuts_);
   value.conservativeResizeLike(Eigen::VectorXd::Constant(view.points.cols(), Sample::kNone));
-  if (parted >= 0 && by_tension) value.setConstant(Sample::kNone);
-  if (parted >= 0 && !by_tension) value.segment(parted, 2).setZero();  // no bend is there any more
-  Colors out;
-  out.reserve(static_cast<std::size_t>(value.size()));
-  for (const double x : value) out.push_back(std::isfinite(x) ? scale().color(x) : kUnknown);
-  return out;
+  Rod rod{{}, cuts_};
+  if (!std::isnan(view.sample.break_arclength)) {
+    const double* begin = arclength_.data();
+    const Eigen::Index beyond = std::upper_bound(begin, begin + arclength_.size(), view.sample.break_arclength) - begin;
+    const Eigen::Index parted = std::min(beyond - 1, view.points.cols() - 2);
+    rod.missing.insert(std::upper_bound(rod.missing.begin(), rod.missing.end(), parted), static_cast<int>(parted));
+    if (by_tension) {
+      value.setConstant(Sample::kNone);
+    } else {
+      value.segment(parted, 2).setZero();  // no bend is there any more
+    }
+  }
+  rod.colors.reserve(static_cast<std::size_t>(value.size()));
+  for (const double x : value) rod.colors.push_back(std::isfinite(x) ? scale().color(x) : kUnknown);
+  return rod;
 }
 
-Marker ScenePicture::rod_marker(const SceneView& view) const {
-  const Eigen::Index parted = parted_edge(view);
-  TubeOptions tube;
-  tube.missing = missing(parted);
-  return tube_marker(view.points, colors(view, parted), radii_, tube);
-}
-
-void ScenePicture::add_bodies(const SceneView& view, std::vector<Marker>& markers) const {
+visualization_msgs::MarkerArray ScenePicture::with_bodies(std::vector<Marker> markers, const SceneView& view) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     markers.push_back(body_marker(static_cast<int>(i), bodies_[i],
                                   bodies_[i].goes_up ? view.upper_grip : view.lower_grip, thickest(material_)));
-}
-
-namespace {
-
-visualization_msgs::MarkerArray stamped(std::vector<Marker> markers, const ros::Time& stamp) {
   for (Marker& marker : markers) {
-    marker.header.stamp = stamp;
+    marker.header.stamp = view.stamp;
     const bool a_list = marker.type == Marker::TRIANGLE_LIST || marker.type == Marker::LINE_LIST;
     if (a_list && marker.points.empty()) marker.action = Marker::DELETE;  // rviz takes an empty list for an error
   }
@@ -314,31 +292,20 @@ visualization_msgs::MarkerArray stamped(std::vector<Marker> markers, const ros::
   return array;
 }
 
-}  // namespace
-
 visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view) const {
-  std::vector<Marker> markers{rod_marker(view), gauge_marker(view.points, gauge_, radii_),
-                              contact_marker(show_contacts_ ? view.contacts : std::vector<ContactForce>(), radii_.first,
-                                             tension_, kLongestForce * radii_.first)};
-  add_bodies(view, markers);
-  return stamped(std::move(markers), view.stamp);
+  const Rod rod = rod_of(view);
+  const std::vector<ContactForce> contacts = show_contacts_ ? view.contacts : std::vector<ContactForce>();
+  return with_bodies(
+      {tube_marker(view.points, rod.colors, radii_, rod.missing), gauge_marker(view.points, gauge_, radii_),
+       contact_marker(contacts, radii_.first, tension_, kLongestForce * radii_.first)},
+      view);
 }
 
 visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view) const {
-  const Eigen::Index parted = parted_edge(view);
-  Colors shown = colors(view, parted);
+  Rod rod = rod_of(view);
   for (const Eigen::Index node : gauge_)
-    if (node < view.points.cols()) shown[static_cast<std::size_t>(node)] = kInk;
-  const auto row = [&](double radius, const NodesOfRopes& nodes) {
-    return spheres_marker(view.points, shown, radius, missing(parted), nodes);
-  };
-  std::vector<Marker> markers{row(radii_.first, {0, radii_.first_of_others})};
-  if (radii_.first_of_others < view.points.cols()) {
-    markers.push_back(row(radii_.others, {radii_.first_of_others}));
-    markers.back().id = 1;
-  }
-  add_bodies(view, markers);
-  return stamped(std::move(markers), view.stamp);
+    if (node < view.points.cols()) rod.colors[static_cast<std::size_t>(node)] = kInk;
+  return with_bodies(sphere_markers(view.points, rod.colors, radii_, rod.missing), view);
 }
 
 }  // namespace knot_utm

@@ -12,22 +12,14 @@
 #include "knot_utm/tying/tied_loop.hpp"
 
 namespace knot_utm {
-namespace {
 
-/// The bag holds one test, whatever number it had in the life of the node that ran it.
-constexpr std::uint32_t kRun = 1;
-
-constexpr char kTf[] = "tf";
-
-}  // namespace
-
-RunBag::RunBag(const std::string& file, const Method& method, const Centreline& drawn)
+RunBag::RunBag(const std::string& file, const Method& method, const Centreline& centreline)
     : bag_(file),
       method_(method_yaml(method)),
       radius_(method.material.radius),
-      cuts_(drawn.cuts),
-      grips_(method.specimen, method.machine, drawn, method.material),
-      frames_(grips_.lower(), method.specimen.end_to_end),
+      cuts_(centreline.cuts),
+      grips_(method.specimen, method.machine, centreline, method.material),
+      crosshead_(grips_.lower() + Vec3(0.0, 0.0, method.specimen.end_to_end)),
       picture_(method.specimen, method.machine, method.material),
       motion_(rollers_hold(method.specimen, method.machine), 0.0, marks_of(method.specimen, method.program)) {}
 
@@ -45,7 +37,14 @@ void RunBag::add(const Record& record) {
   bag_.write(names::kKnotState, stamp, state);
   if (shape_is_due(command, sample) && record.shape.cols() > 0) {
     bag_.write(names::kKnotShape, stamp, to_message(record.shape, record.tension, radius_, crosshead));
-    if (!begun_) begin(stamp, record.shape);
+    if (!begun_) {
+      picture_.begin(record.shape, cuts_);
+      std_msgs::String text;
+      text.data = method_;
+      bag_.write_latched(names::kMethod, stamp, text);
+      bag_.write_latched(names::kColors, stamp, picture_.scale().bar());
+    }
+    begun_ = true;
     add_status(record, stamp);
     add_picture(record, stamp);
   }
@@ -59,15 +58,6 @@ void RunBag::add_reading(const Sample& reading, const ros::Time& answered) {
   const ros::Time stamp = parted ? test_stamp(0.0, reading.time) : answered;
   if (parted) bag_.write(names::kKnotState, stamp, to_message(reading, kRun, stamp));
   bag_.write(names::kLoadCell, stamp, to_wrench(reading, stamp));
-}
-
-void RunBag::begin(const ros::Time& stamp, const Points& shape) {
-  begun_ = true;
-  picture_.begin(shape, cuts_);
-  std_msgs::String text;
-  text.data = method_;
-  bag_.write_latched(names::kMethod, stamp, text);
-  bag_.write_latched(names::kColors, stamp, picture_.scale().bar());
 }
 
 void RunBag::add_status(const Record& record, const ros::Time& stamp) {
@@ -87,9 +77,10 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   // On a compliant frame the grip goes less far than the crosshead.
   const Vec3 upper_grip = grips_.upper(sample.end_to_end - grips_.end_to_end(0.0));
   tf2_msgs::TFMessage frames;
-  for (const Transforms& some : {frames_.fixed(stamp), frames_.moving(stamp, sample.displacement, upper_grip)})
+  for (const Transforms& some :
+       {fixed_frames(grips_.lower(), stamp), moving_frames(crosshead_, sample.displacement, upper_grip, stamp)})
     frames.transforms.insert(frames.transforms.end(), some.begin(), some.end());
-  bag_.write(kTf, stamp, frames);
+  bag_.write("tf", stamp, frames);
   const SceneView view{record.shape, record.tension, {}, grips_.lower(), upper_grip, sample, stamp};
   bag_.write(names::kMarkers, stamp, picture_.draw_small(view));
 }

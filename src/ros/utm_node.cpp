@@ -6,19 +6,19 @@
 #include <std_msgs/String.h>
 
 #include <algorithm>
-#include <limits>
+#include <cstdio>
+#include <map>
 #include <stdexcept>
 
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
-#include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/process.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
-#include "knot_utm/run/summary.hpp"
 #include "knot_utm/settings/accuracy.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
-#include "wall_time.hpp"
+#include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
 namespace {
@@ -26,11 +26,17 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 using std::chrono::steady_clock;
 
-constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
-constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
-constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
-constexpr double kGapBetweenTests = 1.0;    // on /clock [s]
+// How the machine publishes /clock and its health [s of the wall clock]
+constexpr double kClockPeriod = 0.002;    // shortest time between two messages of the clock
+constexpr double kIdleClockPeriod = 0.1;  // longest time between them
+constexpr double kHealthPeriod = 1.0;
+constexpr double kGoodbye = 0.3;  // for the last messages to leave before the node ends
+
+constexpr double kCatchUp = 0.1;           // wall time that is made up for after a slow step [s]
+constexpr double kLongestPause = 86400.0;  // between two commands, however slow the pace asked for [s]
+constexpr double kGapBetweenTests = 1.0;   // on /clock [s]
 constexpr std::uint32_t kJointStates = 1000;
+constexpr char kNoTest[] = "no test is running", kNotPaused[] = "the test is not paused";
 
 steady_clock::duration to_duration(double seconds) {
   return std::chrono::duration_cast<steady_clock::duration>(Seconds(seconds));
@@ -43,17 +49,55 @@ const char* without_timer(const ros::NodeHandle& node) {
   return names::kRunTest;
 }
 
+constexpr char kUtmNodeHelp[] =
+    R"(The machine: runs the test program against the physics of knot_node, one command at a time.
+It is a part of: roslaunch knot_utm tighten.launch. It reads the test from the parameters test/..., which the launch
+file sets (doc/ros.md).
+
+  _real_time_factor:=NUMBER   simulated time over wall-clock time; 1: as on the bench; 0: as fast as possible [1]
+  _autostart:=FLAG            starts the test when knot_node is there; false: utm/start_test starts it [true]
+  _record:=FLAG               waits for recorder_node [false]
+  _exit_at_end:=FLAG          ends when the test has ended, and the launch with it [false]
+)";
+
+constexpr int kInvalidInput = 2;
+
+void require_pace(double factor, const std::string& text) {
+  if (!(factor >= 0.0))  // not-a-number is none either
+    throw InvalidInput("real_time_factor", text, "0 (as fast as possible) or more");
+}
+
+/// For launch/check, before there is a master: utm_node --check NAME:=VALUE..., with arguments of the launch file.
+int check(int argc, char** argv) {
+  std::map<std::string, std::string> given;
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::size_t end = word.find(":=");
+    if (end != std::string::npos) given[word.substr(0, end)] = word.substr(end + 2);
+  }
+  try {
+    const std::string factor = given["real_time_factor"];
+    require_pace(parse_number(factor).value_or(-1.0), factor);
+    set_up(read_words([&](const std::string& name) { return given[name]; }));
+  } catch (const InvalidInput& invalid) {
+    std::fprintf(stderr, "utm_node: %s\n", invalid.what());
+    return kInvalidInput;
+  }
+  return 0;
+}
+
 }  // namespace
 
 UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options)
     : node_(node),
       launched_(launched.words),
       options_(options),
-      progress_(std::make_unique<ProgressLine>(stderr)),
-      factor_(std::numeric_limits<double>::quiet_NaN()),
       actions_(
           node, without_timer(node), [this](const Actions::GoalHandle& goal) { on_goal(goal); },
-          [this](const Actions::GoalHandle& goal) { on_cancel(goal); }, false),
+          [this](const Actions::GoalHandle& goal) {
+            if (active() && goal_ && *goal_ == goal) program_->stop();
+          },
+          false),
       diagnostics_(node) {
   crosshead_ = advertise_watched<Crosshead>(node_, names::kCrosshead, names::kKnotNode, [this](bool is_there) {
     commands_arrive_ = is_there;
@@ -74,13 +118,14 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
   publish_status();
 }
 
-UtmNode::~UtmNode() = default;
-
 int UtmNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait_time()));
     if (run_ == 0 && missing().empty()) {
-      offer_start();
+      if (!start_) {  // not before: who waits for the service or the action, as ROS has it, may begin a test at once
+        start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
+        actions_.start();
+      }
       if (options_.autostart) {
         const std::string why_not = start({});
         if (!why_not.empty()) throw std::runtime_error(why_not);
@@ -89,13 +134,13 @@ int UtmNode::spin() {
     if (may_advance()) advance();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock(true);
     if (seconds_since(status_published_) > kStatusPeriod && active()) publish_status();
-    if (seconds_since(diagnosed_) > kDiagnosticsPeriod) {
+    if (seconds_since(diagnosed_) > kHealthPeriod) {
       diagnosed_ = steady_clock::now();
       diagnostics_.force_update();
     }
     if (state_ != State::kEnded || !all_is_recorded()) continue;
     finish_goal();
-    if (physics_died_ || options_.exit_at_end) {
+    if (test_.physics_died || options_.exit_at_end) {
       end_launch_of_test();
       break;
     }
@@ -107,11 +152,9 @@ void UtmNode::end_launch_of_test() {
   leaves_ = true;
   write_verdict(options_.verdict, failed() ? 1 : 0, folder_);
   ros::WallDuration(kGoodbye).sleep();
-  if (physics_died_) return end_launch();
+  if (test_.physics_died) return end_launch();
   end_launch_when_rviz_is_closed();
 }
-
-bool UtmNode::failed() const { return recorder_failed_ || physics_died_ || (program_ && program_->failed()); }
 
 std::string UtmNode::missing() const {
   if (specimen_.nodes == 0) return "there is no specimen yet";
@@ -120,13 +163,6 @@ std::string UtmNode::missing() const {
   if (!options_.record) return "";
   if (recorder_failed_) return "the recorder failed";
   return specimen_.records_arrive == 0 ? "the recorder is not connected yet" : "";
-}
-
-void UtmNode::offer_start() {
-  if (start_) return;
-  // Not before: who waits for the service or the action, as ROS has it, may begin a test at once.
-  start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
-  actions_.start();
 }
 
 std::string UtmNode::start(const StartTest::Request& request) {
@@ -144,41 +180,28 @@ std::string UtmNode::start(const StartTest::Request& request) {
     ProgramRunner program = make_program(method, longest_step);
     if (options_.record) require_no_record_in(setup.out, method);
     const std::string folder = options_.record ? free_folder(setup.out) : "";
-    if (!give_order(node_, order_of(method, setup.out))) return "the ROS master does not answer";
-    for (const std::string& line : setup.told) ROS_INFO("%s", line.c_str());
+    if (!give_order(node_, {method, setup.out})) return "the ROS master does not answer";
+    for (const std::string& line : setup.notices) ROS_INFO("%s", line.c_str());
     folder_ = folder;
     method_ = method;
     program_.emplace(std::move(program));
   } catch (const InvalidInput& invalid) {
     return invalid.what();
   }
-  begin();
-  return "";
-}
-
-void UtmNode::begin() {
   publish_method(method_);
   if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
   ++run_;
-  recorder_complete_ = false;
-  physics_died_ = false;
-  single_steps_ = 0;
-  sample_ = Sample();
-  motion_pattern_.clear();
-  max_penetration_ = 0.0;
+  test_ = Test();
   state_ = State::kRunning;
-  due_ = steady_clock::now();
-  run_began_ = due_;
-  factor_measured_ = due_;
-  factor_time_ = 0.0;
   write_verdict(options_.verdict, std::nullopt, folder_);
   send(program_->last());
   publish_status();
+  return "";
 }
 
 double UtmNode::wait_time() const {
-  const bool to_be_paced = state_ == State::kRunning && !waiting_ && options_.real_time_factor > 0.0;
-  const double until_due = to_be_paced ? Seconds(due_ - steady_clock::now()).count() : kIdleClockPeriod;
+  const bool to_be_paced = state_ == State::kRunning && !test_.waiting && options_.real_time_factor > 0.0;
+  const double until_due = to_be_paced ? Seconds(test_.due - steady_clock::now()).count() : kIdleClockPeriod;
   return std::clamp(until_due, 0.0, 0.02);
 }
 
@@ -190,34 +213,35 @@ void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
 }
 
 void UtmNode::physics_died() {
-  physics_died_ = true;
-  sample_.sequence = command_.sequence;
-  sample_.status = BenchStatus::kFailed;
-  sample_.message = kPhysicsDied;
+  test_.physics_died = true;
+  test_.sample.sequence = test_.command.sequence;
+  test_.sample.status = BenchStatus::kFailed;
+  test_.sample.message = kPhysicsDied;
   program_->fail(kPhysicsDied);
   // The last command that there will ever be an answer to.
-  if (waiting_ && command_.sequence > 0) --command_.sequence;
-  waiting_ = false;
+  if (test_.waiting && test_.command.sequence > 0) --test_.command.sequence;
+  test_.waiting = false;
   end();
 }
 
 void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   const KnotState& state = *answer;
-  if (!waiting_ || state.run != run_ || state.sequence != command_.sequence) return;  // of a test that has ended
-  sample_ = from_message(state);
-  motion_pattern_ = state.motion_pattern;
-  max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
-  waiting_ = false;
-  progress_->show(sample_, *program_, seconds_since(run_began_));
+  if (!test_.waiting || state.run != run_ || state.sequence != test_.command.sequence)
+    return;  // of a test that has ended
+  test_.sample = from_message(state);
+  test_.motion_pattern = state.motion_pattern;
+  test_.max_penetration = std::max(test_.max_penetration, test_.sample.max_penetration);
+  test_.waiting = false;
+  progress_.show(test_.sample, *program_, seconds_since(test_.began));
   now_ = state.header.stamp;
   publish_clock(false);
-  if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
+  if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(test_.command, test_.sample, now_));
 }
 
 void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
   const RecorderStatus& status = *recorded;
   if (status.run != run_) return;
-  recorder_complete_ = status.complete != 0;
+  test_.recorder_complete = status.complete != 0;
   folder_ = status.directory;
   if (!status.error.empty()) recorder_failed(status.error);
 }
@@ -230,35 +254,34 @@ void UtmNode::recorder_failed(const std::string& why) {
   program_->stop();
 }
 
-bool UtmNode::all_is_recorded() const { return !options_.record || recorder_complete_ || recorder_failed_; }
-
 bool UtmNode::may_advance() const {
-  if (!active() || waiting_) return false;
+  if (!active() || test_.waiting) return false;
   if (program_->ended()) return true;
-  if (state_ == State::kPaused) return single_steps_ > 0;
-  return options_.real_time_factor <= 0.0 || steady_clock::now() >= due_;
+  if (state_ == State::kPaused) return test_.single_steps > 0;
+  return options_.real_time_factor <= 0.0 || steady_clock::now() >= test_.due;
 }
 
 void UtmNode::advance() {
-  const Command next = program_->next(sample_);
+  const Command next = program_->next(test_.sample);
   if (program_->ended()) return end();
-  if (state_ == State::kPaused) --single_steps_;
+  if (state_ == State::kPaused) --test_.single_steps;
   if (options_.real_time_factor > 0.0) {
-    const auto period = to_duration(std::min((next.time - command_.time) / options_.real_time_factor, kLongestPause));
-    due_ = std::max(due_ + period, steady_clock::now() - to_duration(kCatchUp));
+    const auto period =
+        to_duration(std::min((next.time - test_.command.time) / options_.real_time_factor, kLongestPause));
+    test_.due = std::max(test_.due + period, steady_clock::now() - to_duration(kCatchUp));
   }
   send(next);
 }
 
 void UtmNode::send(const Command& command) {
-  command_ = command;
-  waiting_ = true;
+  test_.command = command;
+  test_.waiting = true;
   crosshead_.publish(to_message(command, run_, test_stamp(run_start_, command.time)));
 }
 
 void UtmNode::end() {
   state_ = State::kEnded;
-  progress_->end();
+  progress_.end();
   if (program_->reason().empty()) {
     ROS_INFO("the test ended by %s", ended_by_name(program_->ended_by()));
   } else {
@@ -283,6 +306,88 @@ void UtmNode::publish_method(const Method& method) {
   std_msgs::String text;
   text.data = method_file_text(method);
   method_text_.publish(text);
+}
+
+bool UtmNode::on_start(StartTest::Request& request, StartTest::Response& response) {
+  const std::string why_not = start(request);
+  response.accepted = static_cast<std::uint8_t>(why_not.empty());
+  response.message = why_not.empty() ? "test " + std::to_string(run_) + " is running" : why_not;
+  if (why_not.empty()) response.folder = folder_;
+  return true;
+}
+
+void UtmNode::on_goal(Actions::GoalHandle goal) {
+  StartTest::Request request;
+  request.method = goal.getGoal()->method;
+  request.material = goal.getGoal()->material;
+  request.preload = goal.getGoal()->preload;
+  request.overrides = goal.getGoal()->overrides;
+  const std::string why_not = start(request);
+  if (!why_not.empty()) return goal.setRejected(RunTestResult(), why_not);
+  goal_ = goal;
+  goal_->setAccepted("the test is running");
+}
+
+void UtmNode::offer_services() {
+  const auto serve = [this](const char* name, bool (UtmNode::*may)() const, const char* why_not, const char* done,
+                            const std::function<void()>& act) {
+    services_.push_back(offer(node_, name, [=](std::string& said) {
+      const bool allowed = (this->*may)();
+      said = allowed ? done : why_not;
+      if (allowed) act();
+      return allowed;
+    }));
+  };
+  serve(names::kStopTest, &UtmNode::active, kNoTest, "the test ends", [this] { program_->stop(); });
+  serve(names::kBalance, &UtmNode::active, kNoTest, "the load cell is balanced with the next command",
+        [this] { program_->balance(); });
+  serve(names::kResume, &UtmNode::paused, kNotPaused, "the test goes on", [this] { pause(false); });
+  serve(names::kStep, &UtmNode::paused, kNotPaused, "the test went on by one command",
+        [this] { ++test_.single_steps; });
+  services_.push_back(offer(node_, names::kPause, [this](std::string& said) {
+    const bool goes_on = paused();
+    said = !active() ? kNoTest : goes_on ? "the test goes on" : "the test is paused";
+    if (active()) pause(!goes_on);
+    return active();
+  }));
+}
+
+void UtmNode::pause(bool paused) {
+  state_ = paused ? State::kPaused : State::kRunning;
+  test_.single_steps = 0;
+  test_.due = steady_clock::now();
+  publish_status();
+}
+
+void UtmNode::set_pace(MachineConfig& wanted) {
+  if (!(wanted.real_time_factor >= 0.0)) {  // not-a-number is none either
+    ROS_WARN("utm_node: real_time_factor: %s is refused: 0 or more is allowed; it stays %s",
+             format_number(wanted.real_time_factor).c_str(), format_number(options_.real_time_factor).c_str());
+    wanted.real_time_factor = options_.real_time_factor;
+  }
+  options_.real_time_factor = wanted.real_time_factor;
+  test_.due = steady_clock::now();
+}
+
+int run_utm_node(int argc, char** argv) {
+  if (argc > 1 && argv[1] == std::string("--check")) return check(argc, argv);
+  UtmOptions options;
+  std::string sim_time_found;
+  const int code = run_node(argc, argv, names::kUtmNode, kUtmNodeHelp, [&] {
+    const ros::NodeHandle node = join_ros(argc, argv, names::kUtmNode);
+    read_parameter(node, names::kSimTimeFound, &sim_time_found, "a text");
+    const ros::NodeHandle own("~");
+    read_parameter(own, "verdict", &options.verdict, "a file");
+    read_parameter(own, "real_time_factor", &options.real_time_factor, "a number, 0 or more");
+    read_parameter(own, "autostart", &options.autostart, "true or false");
+    read_parameter(own, "record", &options.record, "true or false");
+    read_parameter(own, "exit_at_end", &options.exit_at_end, "true or false");
+    require_pace(options.real_time_factor, std::to_string(options.real_time_factor));
+    return UtmNode(node, read_test_setup(node), options).spin();
+  });
+  put_back_sim_time(sim_time_found);
+  if (code == kInvalidInput) write_verdict(options.verdict, code, "");
+  return code;
 }
 
 }  // namespace knot_utm

@@ -2,37 +2,29 @@
 #include <limits>
 
 #include "knot_utm/program/phases.hpp"
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/ros/process.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/words/number.hpp"
-#include "wall_time.hpp"
 
 namespace knot_utm {
-namespace {
-
-using std::chrono::steady_clock;
-
-constexpr double kKeepsPace = 0.9;  // of the pace asked for: below it the machine says so
-
-}  // namespace
 
 void UtmNode::publish_status() {
-  status_published_ = steady_clock::now();
+  status_published_ = Clock::now();
   TestStatus status;
   status.header.stamp = now_;
   status.state = static_cast<std::uint8_t>(state_);
   status.run = run_;
-  status.sequence = command_.sequence;
-  status.time = sample_.time;
+  status.sequence = test_.command.sequence;
+  status.time = test_.sample.time;
   status.phase = phase_name(program_ ? program_->phase() : Phase::kIdle);
   status.time_left = std::numeric_limits<double>::quiet_NaN();
   if (program_) {
-    const double wall = seconds_since(factor_measured_);
+    const double wall = seconds_since(test_.factor_measured);
     if (wall > 0.9 * kStatusPeriod) {
-      factor_ = (sample_.time - factor_time_) / wall;
-      factor_measured_ = steady_clock::now();
-      factor_time_ = sample_.time;
+      factor_ = (test_.sample.time - test_.factor_time) / wall;
+      test_.factor_measured = Clock::now();
+      test_.factor_time = test_.sample.time;
     }
     if (state_ == State::kEnded) {
       status.ended_by = ended_by_name(program_->ended_by());
@@ -50,12 +42,12 @@ void UtmNode::report_to_goal(const TestStatus& status) {
   if (!goal_) return;
   RunTestFeedback feedback;
   feedback.phase = status.phase;
-  feedback.time = sample_.time;
-  feedback.extension = sample_.extension;
-  feedback.force = sample_.force_upper;
-  feedback.load = sample_.load;
-  feedback.knot_distance = sample_.knot_distance;
-  feedback.motion_pattern = motion_pattern_;
+  feedback.time = test_.sample.time;
+  feedback.extension = test_.sample.extension;
+  feedback.force = test_.sample.force_upper;
+  feedback.load = test_.sample.load;
+  feedback.knot_distance = test_.sample.knot_distance;
+  feedback.motion_pattern = test_.motion_pattern;
   feedback.progress = status.progress;
   feedback.real_time_factor = status.real_time_factor;
   feedback.time_left = status.time_left;
@@ -71,13 +63,13 @@ void UtmNode::finish_goal() {
   result.run = run_;
   result.ended_by = ended_by_name(program_->ended_by());
   result.reason = recorder_failed_ ? "the recorder failed" : program_->reason();
-  result.motion_pattern = motion_pattern_;
-  result.time = sample_.time;
-  result.extension = sample_.extension;
+  result.motion_pattern = test_.motion_pattern;
+  result.time = test_.sample.time;
+  result.extension = test_.sample.extension;
   result.peak_force = recorded("peak_force");
   result.true_peak_force = recorded("true_peak_force");
   result.balance_offset = recorded("balance_offset");
-  result.max_penetration = max_penetration_;
+  result.max_penetration = test_.max_penetration;
   result.directory = folder_;
   const std::string text = "ended by " + result.ended_by + (result.reason.empty() ? "" : ": " + result.reason);
   if (failed()) {
@@ -92,6 +84,7 @@ void UtmNode::finish_goal() {
 
 void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
+  constexpr double kKeepsPace = 0.9;  // of the pace asked for: below it the machine says so
   const double asked = options_.real_time_factor;
   const bool late = state_ == State::kRunning && asked > 0.0 && factor_ < kKeepsPace * asked;
   if (recorder_failed_) {
@@ -109,10 +102,10 @@ void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   }
   status.add("test", run_);
   status.add("phase", phase_name(program_ ? program_->phase() : Phase::kIdle));
-  status.add("time [s]", sample_.time);
+  status.add("time [s]", test_.sample.time);
   status.add("real-time factor", factor_);
   status.add("real-time factor asked for", asked);
-  status.add("commands", command_.sequence);
+  status.add("commands", test_.command.sequence);
 }
 
 }  // namespace knot_utm

@@ -278,6 +278,7 @@ std::string comparison_summary(const Comparison& comparison, const std::string& 
   out += compared("lock, by the load", a.lock_extension_by_load, b.lock_extension_by_load, "m");
   out += compared("locked stiffness", a.locked_stiffness, b.locked_stiffness, "N/m");
   out += compared("largest load", a.peak_force, b.peak_force, "N");
+  if (comparison.over_time) out += compared("largest slip", a.largest_drop, b.largest_drop, "N");
   if (!comparison.difference) return out;
   const CurveDifference& d = *comparison.difference;
   const std::string share = d.load > 0.0 ? " (" + with_decimals(100.0 * d.rms / d.load, 2) + " % of A's largest)" : "";

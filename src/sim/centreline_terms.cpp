@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "force_term.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/thinned.hpp"
+#include "knot_utm/sim/force_term.hpp"
 
 namespace knot_utm {
 namespace {
@@ -61,7 +61,7 @@ void CentrelineTerms::begin(const StepStart& start, bool predicts) {
   }
 }
 
-void CentrelineTerms::predict_tensions(const std::vector<Lanes>& change, double factor) {
+void CentrelineTerms::predict(const std::vector<Lanes>& change, double factor) {
   if (!predicts_) return;
   for (std::size_t j = 0; j < predicted_tension_.size(); ++j)
     predicted_tension_[j] = tension_[j] + factor * slope_[j] / rod_.rest_length[static_cast<Eigen::Index>(j)] *

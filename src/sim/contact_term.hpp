@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "force_term.hpp"
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/force_term.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
@@ -24,17 +24,18 @@ namespace knot_utm {
 /// Where friction acts at the surfaces, the couples of surface_contact.hpp on nodes and spins are added. The next
 /// increment is solved with the linear model of every contact, whose force replaces g in the right-hand side.
 template <int D, typename Contacts>
-class ContactTerm {
+class ContactTerm : public ForceTerm {
  public:
   static constexpr bool kOnRollers = std::is_same_v<Contacts, RollerContact>;
 
   explicit ContactTerm(Contacts contacts) : contacts_(std::move(contacts)) {}
 
+  void part(int edge) { contacts_.part(edge); }
   Contacts& contacts() { return contacts_; }
   const Contacts& contacts() const { return contacts_; }
   const std::vector<ContactPoint>& points() const { return contacts_.contacts(); }
 
-  void begin(const StepStart& start) {
+  void begin(const StepStart& start, bool) {
     if constexpr (kOnRollers)
       contacts_.begin(start.boundary.rollers, start.state.position);
     else
@@ -75,7 +76,7 @@ class ContactTerm {
 
   /// Stores for each contact the pressure that its linear model predicts after `factor` times the change of the
   /// unknowns. The next linear system uses this prediction (ContactModel).
-  void predict_pressures(const std::vector<Lanes>& change, double factor) {
+  void predict(const std::vector<Lanes>& change, double factor) {
     std::size_t n = 0;
     for (ContactPoint& contact : contacts_.contacts()) {
       if (!contact.active()) continue;

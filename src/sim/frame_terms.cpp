@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "force_term.hpp"
 #include "knot_utm/numeric/fours.hpp"
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/thinned.hpp"
+#include "knot_utm/sim/force_term.hpp"
 
 namespace knot_utm {
 namespace {
@@ -139,7 +139,7 @@ void FrameTerms::part(int edge) {
   stiffness_[at(edge)] = stiffness_[at(edge + 1)] = 0.0;
 }
 
-void FrameTerms::begin(const StepStart& step) {
+void FrameTerms::begin(const StepStart& step, bool) {
   const RodState& start = step.state;
   start_ = &start;
   curved_ = start.curved_at_rest();
@@ -376,7 +376,7 @@ void FrameTerms::move(const std::vector<Lanes>& change, double factor) {
   for (int j = 0; j < static_cast<int>(rod_.edges()); ++j) angle_[at(j)] += factor * angle_change(change, j);
 }
 
-void FrameTerms::commit(const std::vector<double>& tension, RodState& state) {
+void FrameTerms::write(const std::vector<double>& tension, RodState& state) {
   const int edges = static_cast<int>(rod_.edges());
   if (!curved_) carry_directors();
   for (int j = 0; j < edges; ++j) {

@@ -155,15 +155,12 @@ class ResidualNorm {
 };
 
 /// Takes the place of FrameTerms where the scene does not solve for twist.
-struct NoFrames {
+struct NoFrames : ForceTerm {
   NoFrames(const RodProperties&, const StepSettings&) {}
-  void part(int) {}
-  void take_lengths() {}
-  void begin(const StepStart&) {}
   void add_forces(const StepStart&, const Points&, std::vector<Lanes>&) {}
   void add_stiffness(LinearSystem<3>&) const {}
   void account(const SolvedStep&, StepAccount&) const {}
-  void commit(const std::vector<double>&, RodState&) {}
+  void write(const std::vector<double>&, RodState&) {}
   double largest_factor(const std::vector<Lanes>&) const { return 1.0; }
   void move(const std::vector<Lanes>&, double) {}
   double kinetic_energy(const Eigen::VectorXd&) const { return 0.0; }
@@ -175,9 +172,6 @@ struct NoFrames {
 template <int D>
 struct Equation {
   using Frames = std::conditional_t<D == 4, FrameTerms, NoFrames>;
-  static_assert(kIsForceTerm<D, MotionTerm> && kIsForceTerm<D, CentrelineTerms> && kIsForceTerm<D, Frames> &&
-                kIsForceTerm<D, ContactTerm<D, SmoothContact>> && kIsForceTerm<D, ContactTerm<D, RollerContact>> &&
-                kIsForceTerm<D, GripTerm>);
 
   Equation(const RodProperties& rod_, const RodState& state, const StepSettings& settings_)
       : rod(rod_),
@@ -217,12 +211,15 @@ struct Equation {
       }
   }
 
-  /// From the next step on, the rod is cut at this edge, too.
-  void part(int edge) {
-    centreline.part(edge);
-    frames.part(edge);
-    strands.contacts().part(edge);
-    rollers.contacts().part(edge);
+  /// Calls act(term) for every force term, in the order in which forces are added.
+  template <typename Act>
+  void for_each_term(const Act& act) {
+    act(motion);
+    act(centreline);
+    act(frames);
+    act(strands);
+    act(rollers);
+    act(grips);
   }
 
   const RodProperties& rod;
@@ -260,10 +257,7 @@ class Increment {
   /// long, is soon seen to be out of reach. Otherwise the stiffness uses the tensions of the trial positions.
   Increment(Equation<D>& equation, const StepStart& start, bool predicts)
       : eq_(equation), start_(start), predicts_(predicts) {
-    eq_.centreline.begin(start, predicts);
-    eq_.strands.begin(start);
-    eq_.rollers.begin(start);
-    eq_.frames.begin(start);
+    eq_.for_each_term([&](auto& term) { term.begin(start, predicts); });
     eq_.matrix.begin();
     eq_.x = start.state.position + start.dt * start.state.velocity;
     eq_.held.begin(start, eq_.x);
@@ -272,12 +266,7 @@ class Increment {
   /// Computes f(x), and returns its norm [N].
   double residual() {
     std::fill(eq_.force.begin(), eq_.force.end(), Lanes{0.0, 0.0, 0.0, 0.0});
-    eq_.motion.add_forces(start_, eq_.x, eq_.force);
-    eq_.centreline.add_forces(start_, eq_.x, eq_.force);
-    eq_.frames.add_forces(start_, eq_.x, eq_.force);
-    eq_.strands.add_forces(start_, eq_.x, eq_.force);
-    eq_.rollers.add_forces(start_, eq_.x, eq_.force);
-    eq_.grips.add_forces(start_, eq_.x, eq_.force);
+    eq_.for_each_term([this](auto& term) { term.add_forces(start_, eq_.x, eq_.force); });
     worst_ = worst();
     return worst_.residual;
   }
@@ -293,12 +282,10 @@ class Increment {
     eq_.matrix.set_zero_beyond_band();
     eq_.change = eq_.force;
     LinearSystem<D> system{start_, eq_.x, eq_.matrix, eq_.change, {of_friction, predicts_}, spins()};
-    eq_.centreline.add_stiffness(system);
-    eq_.motion.add_stiffness(system);
-    eq_.frames.add_stiffness(system);
-    eq_.strands.add_stiffness(system);
-    eq_.rollers.add_stiffness(system);
-    eq_.grips.add_stiffness(system);
+    eq_.centreline.add_stiffness(system);  // overwrites its blocks, to which the others add
+    eq_.for_each_term([&](auto& term) {
+      if constexpr (!std::is_same_v<decltype(term), CentrelineTerms&>) term.add_stiffness(system);
+    });
     if constexpr (D == 4)
       eq_.held.prescribe(eq_.frames, eq_.matrix, eq_.change);
     else
@@ -319,10 +306,8 @@ class Increment {
     factor_ = std::min(factor_, wanted * eq_.frames.largest_factor(eq_.change));
     eq_.frames.move(eq_.change, factor_);
     for (int i = 0; i < nodes(); ++i) eq_.x.col(i) += factor_ * to_vec3(eq_.change[static_cast<std::size_t>(i)]);
-    eq_.centreline.predict_tensions(eq_.change, factor_);
+    eq_.for_each_term([this](auto& term) { term.predict(eq_.change, factor_); });
     motion_ = factor_ * longest;
-    eq_.strands.predict_pressures(eq_.change, factor_);
-    eq_.rollers.predict_pressures(eq_.change, factor_);
   }
 
   /// Whether the solution has settled although the residual is above the tolerance of a short step. In the shortest

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "force_term.hpp"
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/force_term.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
@@ -19,7 +19,7 @@ namespace knot_utm {
 ///
 /// Here m_i is the mass, g the gravity, lbar_i the Voronoi length, and c the drag coefficient per length, the sum of
 /// that of the scene and that of the boundary.
-class MotionTerm {
+class MotionTerm : public ForceTerm {
  public:
   /// Both arguments must outlive this object. Gravity and drag in `settings` may change between two steps.
   MotionTerm(const RodProperties& rod, const StepSettings& settings);
@@ -38,7 +38,7 @@ class MotionTerm {
 
 /// Slipping grips, spring holds and given forces, which act on single nodes (scene.hpp): a force term (force_term.hpp).
 /// It keeps no state from step to step.
-struct GripTerm {
+struct GripTerm : ForceTerm {
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force) const {
     for (const SlippingGrip& grip : start.boundary.grips)
       force[at(grip.node)] += to_lanes(grip.force(x.col(grip.node)) * grip.direction);

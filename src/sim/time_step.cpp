@@ -140,40 +140,27 @@ class ImplicitStep final : public TimeStep {
 
  private:
   void take_lengths() override {
-    equation_.centreline.take_lengths();
-    equation_.frames.take_lengths();
+    equation_.for_each_term([](auto& term) { term.take_lengths(); });
   }
 
   void cut(int edge) {
-    equation_.part(edge);
+    equation_.for_each_term([edge](auto& term) { term.part(edge); });
     tunnelling_.part(edge);
   }
 
   void commit(const SolvedStep& step) {
     account(step);
-    equation_.strands.commit(step);
-    equation_.rollers.commit(step);
+    equation_.for_each_term([&](auto& term) { term.commit(step); });
     equation_.matrix.commit();
     state_.velocity = step.increment / step.dt;
-    equation_.frames.commit(equation_.centreline.tensions(), state_);
+    equation_.frames.write(equation_.centreline.tensions(), state_);
     state_.position = step.end;
   }
 
   void account(const SolvedStep& step) {
     StepAccount& account = readings_.begin(step);
-    equation_.grips.account(step, account);
-    equation_.motion.account(step, account);
-    equation_.centreline.account(step, account);
-    equation_.frames.account(step, account);
+    equation_.for_each_term([&](const auto& term) { term.account(step, account); });
     readings_.add_fall_of_elastic_energy();
-    equation_.strands.account(step, account);
-    account_rollers(step, account);
-  }
-
-  /// On its own: within one function the compiler would fuse the products of both sums in another way, to other last
-  /// digits.
-  [[gnu::noinline]] void account_rollers(const SolvedStep& step, StepAccount& account) const {
-    equation_.rollers.account(step, account);
   }
 
   StepDiagnosis diagnose_fastest_node(const SolvedStep& step, double tolerance) {

@@ -31,7 +31,7 @@ constexpr const char* kTool = "compare";
 
 /// How a file that is no curve.csv is to be read, in the words of import_instron.
 struct ReadingWords {
-  std::string columns, units, specimen, invert;
+  std::string columns, units, specimen, invert, join, rate;
 };
 
 struct Arguments {
@@ -106,6 +106,8 @@ CurveOfFile imported(const std::string& file, const ReadingWords& words, int spe
   if (!words.columns.empty()) with.push_back("--columns=" + words.columns);
   if (!words.units.empty()) with.push_back("--units=" + words.units);
   if (!words.invert.empty()) with.push_back("--invert=" + words.invert);
+  if (!words.rate.empty()) with.push_back("--rate=" + words.rate);
+  if (!words.join.empty()) with.emplace_back("--join");
   if (specimen > 0) with.push_back("--specimen=" + std::to_string(specimen));
   with.insert(with.end(), {"--", file, curve});
   const int code = run_python("knot_utm.importing.import_instron", with, said);
@@ -150,6 +152,8 @@ int run(Arguments arguments) {
     note("both curves are of knot_utm, for which " + unused);
   const auto [a, b, comparison] = compare_curves(std::move(first), std::move(second), !arguments.as_it_is, note);
   for (const std::string& line : told) tell(line);
+  if (arguments.report && comparison.over_time)
+    throw InvalidInput("--report", *arguments.report, "left out: a record without travel has no curve");
   const std::string yaml = comparison_yaml(comparison, arguments.a, arguments.b);
   std::string page;
   if (arguments.report) {
@@ -192,6 +196,8 @@ int main(int argc, char** argv) {
                    "columns of raw data by name or number: time=NAME,extension=NAME,load=NAME, or one or two of these");
     app.add_option("--units", arguments.words.units,
                    "units of raw data: time=s,extension=in,load=lbf, or one or two of these");
+    app.add_flag("--join{yes}", arguments.words.join, "raw data: go on where the crosshead was set to zero");
+    app.add_option("--rate", arguments.words.rate, "readings per second of raw data without times");
     app.add_option("--specimen", arguments.words.specimen,
                    "which specimen of raw data, a bag or a batch with several, from 1; N,M for A and B");
     app.add_flag(

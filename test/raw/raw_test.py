@@ -1,9 +1,12 @@
 #!/usr/bin/python3
 """What testing machines export, read by knot_utm.importing. raw_data.txt has files as machines and languages write them, their headers
 found in public programs and manuals, their numbers our own, and those that users had trouble with: each after a line "@ name encoding
-line-end". The texts in here follow what public programs that read such exports say of their form."""
+line-end". The texts in here follow what public programs that read such exports say of their form. The structure is of mts793_blocks that
+of BAMresearch/LebeDigital (specimen.dat), of wavematrix_* elcritch/scilab and scripts that read Test1.Stop.csv, of linescale linescaleGUI
+(tests/inputFiles), of mecmesin blokeley/forcelib (examples), of wintest jpeloquin/postmech (bose_export.TXT)."""
 import math
 import os
+import random
 import subprocess
 import sys
 import tempfile
@@ -72,6 +75,19 @@ CASES = [
     ("swiss.csv", {}, (10, (0, 0, 1000.5), (4.5, 2.25, 1004.5)), "10 readings"),
     ("unicode_minus.csv", {}, (10, (0, 0, -2.875), (4.5, 2.25, 1.625)), "10 readings"),
     ("spike.csv", {}, (60, (0, 0, 0), (6, 10, 14)), "row 20, whose extension of 5.4 mm lies far off"),
+    ("mts793_blocks.dat", {}, (5, (1.25, 0.25, 12), (2.25, 3, 250)), "one test in 2 tables whose time goes on, with their names in rows 14 and 21"),
+    ("mts793_blocks.dat", {}, (5, (1.25, 0.25, 12), (2.25, 3, 250)), "what stands below the names in row 27, such as extremes, is no part"),
+    ("mts793_blocks.dat", {"columns": "time=2,extension=5,load=4"}, (5, (1.25, 0.25, 12), (2.25, 3, 250)), "one test in 2 tables"),
+    ("mts793_padded.dat", {}, (5, (0.1, 5, 1), (0.5, 5.4, 16)), 'extension is column 3 "Axial Displacement"'),
+    ("wavematrix_colon.csv", {}, (4, (0, -76.88, 1.6), (0.03, -76.16, 121.6)), 'load is column 8 "Load(8800 (0,3):Load) (kN)"'),
+    ("wavematrix_colon.csv", {"columns": "time=1,extension=10,load=8"}, (4, (0, -0.03, 1.6), (0.03, -0.027, 121.6)), "4 readings"),
+    ("wavematrix_two_cells.csv", {"columns": "load=6"}, (4, (0, 0, -0.8), (0.3, 0.15, 5.71)), "it begins with cycle 993, as a file"),
+    ("mecmesin.csv", {"specimen": 2}, (3, (0, 0, 0.0601), (6, 0.5, 1.6601)), "3 readings of specimen 2 of 2"),
+    ("testsuite.csv", {}, (3, (0.5, 0.1, 10), (1.5, 0.5, 90)), 'extension is column 2 "Axial Displacement"'),
+    ("wintest.txt", {}, (3, (0, -6.02458, -0.73), (0.01, -5.974601, 0.94)), 'extension is column 2 "Disp" in mm'),
+    ("linescale.csv", {}, (5, (0, NAN, 0), (0.1, NAN, 2 * KILOGRAM)), "--rate 36 takes that"),
+    ("linescale.csv", {"rate": 10.0, "invert": "load"}, (5, (0, NAN, 0), (0.4, NAN, -2 * KILOGRAM)), "its loads are relative to 0.02 kgf"),
+    ("no_time.csv", {"rate": 4.0, "needs_time": True}, (11, (0, 0, 0.125), (2.5, 2.5, 5.125)), "4 of them a second"),
     ("own_names.csv", {"columns": "time=Zeitpunkt,extension=Weg, oben,load=Messwert 2"},
      (2, (0, 1.25, 3.5), (0.5, 2.25, 4.5)), "2 readings")]
 REFUSED = [
@@ -89,6 +105,8 @@ REFUSED = [
     ("cut_off.csv", {}, 'row 8: Load is "", but must be a number with "." before its decimals'),
     ("goes_back.csv", {}, "row 8: Time goes back to 0.3"),
     ("no_names.csv", {}, "no row names the columns extension and load; --columns takes other names, or numbers"),
+    ("wavematrix_two_cells.csv", {}, 'two loads, column 4 "Load(Linear:Load) (N)" from 0 to 0.05 N and column 6 "Load(Linear:Small cell) (N)" from '
+     "-0.8 to 5.71 N: choose one by --columns load=4 or load=6"), ("unit_s_in_lb.csv", {"rate": 2.0}, "but the file has times of its own"),
     ("empty", {}, "the file is empty"), ("not_there.csv", {}, "not_there.csv: no such file")]
 HEAD, ROW = "Time;Extension;Load\ns;mm;N\n", "Time (s),Extension (mm),Load (N)\n"
 TABLE = "Time,Extension,Load\n(s),(mm),(N)\n0,0,0\n"
@@ -122,11 +140,21 @@ TEXTS_REFUSED = [
     ("Time;Extension;Load\ns;mm;N\n0;0;1\n", {"columns": "extension=3,load=3"}, "another column for the extension"),
     ("Seil;3\nZeitpunkt;Kraft;Messweg\ns;N;mm\n0;1;2\n", {}, 'row 2 is "Zeitpunkt;Kraft;Messweg" and does not name time, whose known'),
     ("Time,Stroke,Force\ns,mm,N\n0,1,2\n", {"columns": "load=Cell 3"}, 'load, whose known names are "Cell 3" alone'),
+    (ROW.replace("(N)", "(tonf)") + TWO, {}, "is tonf, which is 8896.44 N (2000 lbf) in one program and 9806.65 N (1000 kgf) in another"),
+    ("Specimen,Maximum Load (N),Extension at Break (mm)\n1,5,2\n", {}, "is the head of a table of results, one row a specimen"),
+    ("Total Time (s),Total Cycles,Load(Linear:Load):Maximum (N),Load(Linear:Load):Minimum (N)\n0,1,2,3\n", {}, "one row a cycle"),
+    ("Total Time (s),Total Cycles,Position(A:Position) (mm),Load(A:Load) (N)\n" + "".join(f"{i},{i},1,{i}\n" for i in range(5)), {},
+     "row 2: from here on there is one row a cycle, as in a file of trends"),
+    ("LabVIEW Measurement\nSeparator\tTab\n***End_of_Header***\nX_Value\tUntitled\tUntitled 1\n0.0\t1.0\t2.0\n", {}, "file of LabVIEW (lvm)"),
+    (HEAD + "0.5;0;1.25\n1;1;01. Mai\n", {}, "its decimals, of which a spreadsheet made something else"),
+    ("6B:6C:05\nLogNo=002\nUnit=kN\nMode=ABS\nSpeed=40\n1.5\nx\n", {}, 'row 7 is "x", but must be a load'),
+    ("6B:6C:05\nLogNo=002\nUnit=MPa\nMode=ABS\nSpeed=40\n1.5\n", {}, "Unit is MPa and Speed is 40, but must be"),
     ("Versuchzeit;Weg;Kraft\ns;mm;N\n0;1;2\n", {}, "whose known names are versuchszeit, time, test time, total time and "),
     *((HEAD + f"0.5;0;{load}\n", {}, "row 3: Load") for load in ("12,34", "0,123", "1234,567", "1,2345", ",123", "1,,234")),
     *((HEAD + row, {}, "may have decimals or thousands") for row in ("1;1;1,234\n", "1,500;1,250;1.201\n", "1;1;1.234\n")),
     *((mark + b"x", {}, words) for mark, words in ((b"\xD0\xCF\x11\xE0", "old workbook (xls)"), (b"%PDF-1.7\n", "a PDF"),
-                                                   (b"\x1F\x8B\x08", "compressed"), (b"<?xml ", "XML or HTML"),
+                                                   (b"\x1F\x8B\x08", "compressed"), (b"TDSm", "of LabVIEW (TDMS), and no text: export"),
+                                                   (b"<?xml ", "XML or HTML"),
                                                    (b"#ROSBAG V2.0\n", "a bag, and no table of text: give the curve.csv of its run")))]
 BELOW = ("ASCII Export File Version:,3\nSample / Slot Number:,2\nRecord,Index,Position,Strain,Time,Force\n,,µm,%,s,N\n"
          "101,0,10,0,0,0.5\n101,1,20,1.5,1,2.5\n\nSample / Slot Number:,5\nRecord,Index,Position,Strain,Time,Force\n,,µm,%,s,N\n"
@@ -154,6 +182,7 @@ def raw_files():
         text = (text.rstrip("\n") + "\n").replace("\n", {"lf": "\n", "crlf": "\r\n"}[end])
         files[name] = (("\ufeff" if mark else "") + text).encode(encoding)
     padded = files.pop("padded.csv")
+    files["wintest.txt"] = files["wintest.txt"].replace(b"~", b"\0")
     return {**files, "ctrl_z.csv": padded + b"\x1a", "nul_end.csv": padded + bytes(512), "cr_only.csv": padded.replace(b"\n", b"\r")}
 
 
@@ -272,8 +301,10 @@ class Raw(unittest.TestCase):
         same = self.of_text("Time;Extension;Position;Load\ns;mm;mm;N\n0;0;250.0;1.5\n1;1.0;251.0;3.5\n2;2;252.0;5.5\n")
         self.assertAlmostEqual(same.columns["extension"][-1], 0.002, 12)
         cells = "Time;Extension;Load 1;Load 2\ns;mm;N;N\n0;0;1;3\n1;1;2;6\n"
-        self.assertIn('column 4 "Load 2" is not read; --columns load=4 would read it', self.of_text(cells).notes[1])
+        self.assertIn("choose one by --columns load=3 or load=4", self.refusal(self.written(cells)))
         self.assertEqual(self.of_text(cells, columns="load=4").columns["load"], [3.0, 6.0])
+        self.assertIn('column 4 "Load 2" is not read; --columns load=4 would read it',
+                      self.of_text(cells.replace("3\n", "1\n").replace("6\n", "2.01\n")).notes[1])
 
     def test_outliers_are_left_out_and_steps_are_not(self):
         """Of ten readings two, with one between them."""
@@ -286,6 +317,59 @@ class Raw(unittest.TestCase):
         self.assertIn("row 24, whose extension of -5000 mm lies far off the readings before and behind it", many.notes[5])
         self.assertIn("395 other rows are left out for the same reason", many.notes[6])
         self.assertEqual(len(of(5 if i % 4 < 2 else 0 for i in range(20)).columns["load"]), 20)
+        self.assertIn("and with it its load of 21 N", many.notes[5])
+
+    def test_spikes_are_found_and_nothing_else_is_touched(self):
+        """Of 20 drawn records: pulls, cycles of many and of few readings, breaks, noise, and coarse encoders."""
+        for seed in range(20):
+            draw = random.Random(seed)
+            s, load = drawn_record(draw)
+            for spiked in (False, True):
+                dirty, far, places = list(s), 12.0 * max(abs(b - a) for a, b in zip(s, s[1:])), set()
+                while spiked and len(places) < 1 + len(s) // 80:
+                    i = draw.randrange(3, len(s) - 4)
+                    if places.isdisjoint(range(i - 3, i + 4)) and abs(load[i + 1] - load[i]) < 0.1 * max(load):
+                        places.add(i)
+                        dirty[i] += draw.choice((-1, 1)) * draw.uniform(1.0, 5.0) * max(far, 0.2 * max(s))
+                rows = [f"{0.1 * i:.1f},{dirty[i]:.6f},{load[i]:.4f}" for i in range(len(s))]
+                read = self.of_text("Time,Extension,Load\ns,mm,N\n" + "\n".join(rows) + "\n")
+                kept = [round(10.0 * time) for time in read.columns["time"]]
+                self.assertEqual(set(range(len(s))) - set(kept), places, (seed, spiked))
+                self.assertEqual(read.columns["load"], [round(load[i], 4) for i in kept], (seed, spiked))
+
+    def test_a_zero_set_within_the_record_is_joined_if_asked(self):
+        """At rest with the load zeroed, too, in motion, and in inches; steps and breaks of a test are none."""
+        rest = [(-14.84 - 0.001 * (i % 3), 3.0 + 0.01 * (i % 2)) for i in range(20)]
+        pull = [(0.05 * i, 5.0 * i) for i in range(100)]
+        moving = [(5.0 + 0.05 * i, 3.0 + 0.5 * i) for i in range(20)] + [(0.05 * i, 13.0 + 0.5 * i) for i in range(100)]
+        for rows, top in ((rest + pull, 495.0), ([(s, 0.0) for s, _ in rest] + pull, 495.0), (moving, 62.5)):
+            text = "Time,Extension,Load\ns,in,N\n" + "".join(f"{0.5 * i},{s:.4f},{load:.3f}\n" for i, (s, load) in enumerate(rows))
+            self.assertIn("row 23: the extension jumps by ", self.refusal(self.written(text)))
+            joined = self.of_text(text, join=True)
+            self.assertLess(max(abs(b - a) for a, b in zip(joined.columns["extension"], joined.columns["extension"][1:])), 0.06 * 0.0254)
+            self.assertEqual((len(joined.columns["load"]), joined.columns["load"][-1]), (120, top))
+            self.assertIn("joined at row 23, where the crosshead was set to zero", "\n".join(joined.notes))
+        for rows in ([(i // 10, i // 10) for i in range(60)], [(5.0 * (i // 10 % 2), 9.0 * (i // 10 % 2) + i // 20) for i in range(60)],
+                     [(0.01 * i, i) for i in range(40)] + [(0.05, 0.0)] * 9):
+            text = "Time,Extension,Load\ns,mm,N\n" + "".join(f"{i},{s},{load}\n" for i, (s, load) in enumerate(rows))
+            self.assertEqual(len(self.of_text(text).columns["load"]), len(rows))
+
+    def test_what_a_spreadsheet_spoilt_is_refused(self):
+        """Of numbers with fixed decimals, with and without zeros behind them; numbers of four digits, of which 524.7 is and 1152, are sound."""
+        def of(cells, mark):
+            return HEAD + "".join(f"{i};{cell.replace(',', '.').replace('.', mark)};1\n" for i, cell in enumerate(cells))
+
+        values = [0.1 + 0.0321 * i for i in range(200)]
+        for mark in ",.":
+            for form in (".4f", ".5f", ".6f"):
+                for cells in ([f"{value:{form}}" for value in values], [f"{value:{form}}".rstrip("0").rstrip(".") for value in values]):
+                    self.assertEqual(len(self.of_text(of(cells, mark)).columns["load"]), 200)
+                    spoilt = [f"{int(cell.replace('.', '')):,}" if cell[0] != "0" and len(cell.partition(".")[2]) > 2 else cell for cell in cells]
+                    said = self.refusal(self.written(of(spoilt, mark)))
+                    self.assertIn("a spreadsheet took decimals for thousands and moved the mark", said)
+                    self.assertIn("row 32: Extension is 1", said)
+            for low, rise in ((0.01, 1.07), (524.7, 1.02), (-43.0, 1.01)):
+                self.assertEqual(len(self.of_text(of([f"{low * rise**i:.4g}" for i in range(140)], mark)).columns["load"]), 140)
 
     def test_options_have_a_form(self):
         for wrong in ("", "Zeit", "zeit=Zeit", "time=", "time=a,time=b", "Weg,time=a"):
@@ -323,6 +407,22 @@ class Raw(unittest.TestCase):
         again = self.imported("curve.csv", "again.csv", "--units", "load=kN")
         self.assertIn("the curve is one of knot_utm, for which --units changes nothing", again.stdout)
         self.assertEqual(self.imported("raw.csv", "curve.csv", "--overwrite", "--quiet").stdout, "")
+
+
+def drawn_record(draw):
+    """Extensions [mm] and loads [N] of a test, with or without cycles, a break, noise and a coarse encoder."""
+    far, step, s = draw.uniform(2.0, 30.0), draw.choice((0.01, 0.05, 0.2)), [0.0] * draw.randrange(5, 60)
+    turns = [far, 0.3 * far] * draw.randrange(4) + [1.2 * far]
+    if draw.random() < 0.3:  # few readings a cycle
+        s += [far * (1.0 - abs(i % 5 / 2.5 - 1.0)) for i in range(60)]
+    for turn in turns:
+        count = max(int(abs(turn - s[-1]) / (step * far)), 1)
+        s += [s[-1] + (turn - s[-1]) * (i + 1) / count for i in range(count)]
+    load = [30.0 * value for value in s]
+    if draw.random() < 0.6:  # the last reading before the fall is far on, and the crosshead springs back
+        s, load = s + [1.22 * far] + [draw.choice((1.0, 1.22)) * far] * 20, load + [1.01 * load[-1]] + [0.5] * 20
+    noise, encoder = draw.choice((0.0, 0.001, 0.008)), draw.choice((1e-6, 0.001, 0.008))
+    return [encoder * round((value + draw.gauss(0.0, noise)) / encoder) for value in s], load
 
 
 def readings_of(record):

@@ -48,7 +48,7 @@ def call(service, kind, **fields):
     return rospy.ServiceProxy(service, kind)(**fields)
 
 
-def drawn(image, colour):
+def shows(image, colour):
     """Whether a picture has this colour, '#rrggbb', anywhere."""
     wanted, pixels = bytes.fromhex(colour[1:]), bytes(image.data)
     return any(pixels[i:i + 3] == wanted for i in range(0, len(pixels), 3))

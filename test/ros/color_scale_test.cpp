@@ -8,20 +8,17 @@
 namespace knot_utm {
 namespace {
 
-Material rope(double breaking_force) {
+ColorScale of_rope(double breaking_force) {
   Material material;
   material.breaking_force = breaking_force;
-  return material;
+  return ColorScale::of_tension(material, LoadCellOptions());
 }
 
 TEST(ColorScale, EndsAtARoundNumberBeyondTheBreakingForce) {
-  EXPECT_DOUBLE_EQ(ColorScale::of_tension(rope(2500.0), LoadCellOptions()).full(), 5000.0);
-  EXPECT_DOUBLE_EQ(ColorScale::of_tension(rope(5000.0), LoadCellOptions()).full(), 5000.0);
-  EXPECT_DOUBLE_EQ(ColorScale::of_tension(rope(0.011), LoadCellOptions()).full(), 0.02);
-}
-
-TEST(ColorScale, OfARodThatDoesNotPartEndsAtHalfItsStiffnessOrItsPreload) {
-  Material material;
+  EXPECT_DOUBLE_EQ(of_rope(2500.0).full(), 5000.0);
+  EXPECT_DOUBLE_EQ(of_rope(5000.0).full(), 5000.0);
+  EXPECT_DOUBLE_EQ(of_rope(0.011).full(), 0.02);
+  Material material;  // of a rod that does not part: half of its stiffness, or its pre-load
   material.stretching_stiffness = 22.15;
   LoadCellOptions cell;
   EXPECT_DOUBLE_EQ(ColorScale::of_tension(material, cell).full(), 20.0);
@@ -33,7 +30,7 @@ TEST(ColorScale, OfARodThatDoesNotPartEndsAtHalfItsStiffnessOrItsPreload) {
 
 /// Equal ratios are equally far apart, and the sliding of a rope that locks at kilonewtons is not lost.
 TEST(ColorScale, TellsDecadesApart) {
-  const ColorScale scale = ColorScale::of_tension(rope(5000.0), LoadCellOptions());
+  const ColorScale scale = of_rope(5000.0);
   EXPECT_DOUBLE_EQ(scale.place(5000.0), 1.0);
   EXPECT_DOUBLE_EQ(scale.place(0.0), 0.0);
   EXPECT_DOUBLE_EQ(scale.place(-20.0), -scale.place(20.0));
@@ -44,7 +41,7 @@ TEST(ColorScale, TellsDecadesApart) {
 
 /// Of a polypropylene rope that slides under 2 N and ends at 5000 N.
 TEST(ColorScale, ShowsSlidingAsNeitherZeroNorLocked) {
-  const ColorScale scale = ColorScale::of_tension(rope(5000.0), LoadCellOptions());
+  const ColorScale scale = of_rope(5000.0);
   const auto saturation = [&scale](double tension) {
     const auto c = scale.color(tension);
     return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b});
@@ -56,8 +53,7 @@ TEST(ColorScale, ShowsSlidingAsNeitherZeroNorLocked) {
 }
 
 TEST(ColorScale, BarHasTheColoursOfItsTicks) {
-  for (const ColorScale& scale :
-       {ColorScale::of_tension(rope(5000.0), LoadCellOptions()), ColorScale::of_curvature()}) {
+  for (const ColorScale& scale : {of_rope(5000.0), ColorScale::of_curvature()}) {
     const ColorBar bar = scale.bar();
     ASSERT_EQ(bar.ticks.size(), bar.places.size());
     EXPECT_DOUBLE_EQ(bar.places.front(), 0.0);

@@ -30,13 +30,28 @@ Points helix(int nodes) {
   return points;
 }
 
+/// Along z from 0 to `length`.
+Points straight(int nodes, double length) {
+  Points points = Points::Zero(3, nodes);
+  points.row(2) = Eigen::RowVectorXd::LinSpaced(nodes, 0.0, length);
+  return points;
+}
+
+/// Straight ropes of 51 nodes and 1 m: the first one along x = 0, the second one along x = 0.5, with the edge 50
+/// between them.
+Points two_ropes() {
+  Points both(3, 102);
+  both << straight(51, 1.0), straight(51, 1.0);
+  both.row(0).tail(51).setConstant(0.5);
+  return both;
+}
+
 TEST(TubeMarker, ClosedSurfaceWindsOutwards) {
+  static_assert(kTubeSides == 12);
   const double radius = 0.002;
   const Points points = helix(400);
   const double length = (points.rightCols(399) - points.leftCols(399)).colwise().norm().sum();
-  TubeOptions options;
-  options.sides = 12;
-  const auto marker = tube_marker(points, Colors(400), radius, options);
+  const auto marker = tube_marker(points, Colors(400), radius);
   // A regular polygon of 12 sides in place of the circle.
   const double area = 6.0 * std::sin(3.14159265358979 / 6.0) * radius * radius;
   EXPECT_NEAR(enclosed_volume(marker), area * length, 0.01 * area * length);
@@ -47,9 +62,8 @@ TEST(TubeMarker, ClosedSurfaceWindsOutwards) {
 /// Where edges are longer than the rod is thick there are spheres between the nodes, but not where it has parted.
 TEST(SpheresMarker, StandCloseTogether) {
   const double radius = 0.002;
-  Points points = Points::Zero(3, 21);
-  points.row(2) = Eigen::RowVectorXd::LinSpaced(21, 0.0, 20.0 * 2.5 * radius);
-  const auto marker = spheres_marker(points, Colors(21), radius, {7});
+  const Points points = straight(21, 20.0 * 2.5 * radius);
+  const auto marker = sphere_markers(points, Colors(21), radius, {7}).front();
   EXPECT_EQ(marker.colors.size(), marker.points.size());
   EXPECT_DOUBLE_EQ(marker.scale.x, 2.0 * radius);
   for (std::size_t i = 1; i < marker.points.size(); ++i) {
@@ -94,14 +108,14 @@ TEST(ContactMarker, LinesAreAsLongAsTheScaleSays) {
 
 class ScenePictureTest : public testing::Test {
  protected:
-  visualization_msgs::MarkerArray draw(const Points& points, double tension = 1.0) {
+  SceneView view(const Points& points, double tension = 1.0) const {
     const Eigen::VectorXd tensions = Eigen::VectorXd::Constant(points.cols() - 1, tension);
-    const SceneView view{points, tensions, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, ros::Time(1.0)};
-    return picture.draw(view);
+    return {points, tensions, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, ros::Time(1.0)};
   }
-  static visualization_msgs::Marker part(const visualization_msgs::MarkerArray& all, const std::string& name) {
-    for (const auto& marker : all.markers)
-      if (marker.ns == name) return marker;
+  /// The marker of this name in a picture.
+  visualization_msgs::Marker marker(const char* name, const Points& points, double tension = 1.0) const {
+    for (const auto& one : picture.draw(view(points, tension)).markers)
+      if (one.ns == name) return one;
     ADD_FAILURE() << name;
     return {};
   }
@@ -123,7 +137,7 @@ TEST_F(ScenePictureTest, GaugeMarksGoWithTheRod) {
   picture.begin(before);
   Points after = before;
   after.row(0).array() += 0.3;
-  const auto marks_before = part(draw(before), "gauge_marks"), marks_after = part(draw(after), "gauge_marks");
+  const auto marks_before = marker("gauge_marks", before), marks_after = marker("gauge_marks", after);
   ASSERT_GT(marks_before.points.size(), 0u);
   ASSERT_EQ(marks_before.points.size(), marks_after.points.size());
   for (std::size_t i = 0; i < marks_before.points.size(); ++i) {
@@ -136,83 +150,70 @@ TEST_F(ScenePictureTest, GaugeMarksGoWithTheRod) {
 /// the scale has that colour. Its bends are known.
 TEST_F(ScenePictureTest, ARodThatPartedHasNoColourOfAForce) {
   picture.begin(helix(50));
-  const auto colours = [&](double tension) { return part(draw(helix(50), tension), "rod").colors; };
+  const auto colours = [&](double tension) { return marker("rod", helix(50), tension).colors; };
   const auto whole = colours(4.0);
   sample.break_arclength = 0.01;
   const auto parted = colours(4.0);
   EXPECT_EQ(parted, colours(400.0));
   EXPECT_EQ(parted, colours(Sample::kNone));
   EXPECT_NE(parted.front(), whole.front());
-  Points straight = Points::Zero(3, 50);
-  straight.row(2) = Eigen::RowVectorXd::LinSpaced(50, 0.0, 0.5);
-  picture.begin(straight);
-  const Eigen::VectorXd tension = Eigen::VectorXd::Constant(49, 4.0);
-  const SceneView view{straight, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, ros::Time(1.0)};
-  const auto small = part(picture.draw_small(view), "rod");
-  for (double force = -500.0; force <= 500.0; force += 0.5)
-    ASSERT_NE(picture.scale().color(force), small.colors.front()) << force;
+  const Points rod = straight(50, 0.5);
+  picture.begin(rod);
+  const auto unknown = picture.draw_small(view(rod, 4.0)).markers.front().colors.front();
+  for (double force = -500.0; force <= 500.0; force += 0.5) ASSERT_NE(picture.scale().color(force), unknown) << force;
   picture.color_by(ColorBy::kCurvature);
-  EXPECT_EQ(part(draw(straight), "rod").colors.front(), part(draw(straight, 9.0), "rod").colors.front());
-  EXPECT_NE(part(draw(straight), "rod").colors.front(), parted.front());
+  EXPECT_EQ(marker("rod", rod).colors.front(), marker("rod", rod, 9.0).colors.front());
+  EXPECT_NE(marker("rod", rod).colors.front(), parted.front());
 }
 
 /// Of the straight rod's 100 edges the one that parted is missing, and the two new ends are closed.
 TEST_F(ScenePictureTest, ARodThatPartedHasAGap) {
-  Points rod = Points::Zero(3, 101);
-  rod.row(2) = Eigen::RowVectorXd::LinSpaced(101, 0.0, 1.0);
+  const Points rod = straight(101, 1.0);
   picture.begin(rod);
-  const double whole = enclosed_volume(part(draw(rod), "rod"));
+  const double whole = enclosed_volume(marker("rod", rod));
   sample.break_arclength = 0.305;
-  const auto marker = part(draw(rod), "rod");
-  EXPECT_NEAR(enclosed_volume(marker), 0.99 * whole, 1e-9 * whole);
-  for (const auto& point : marker.points) EXPECT_FALSE(point.z > 0.3 + 1e-9 && point.z < 0.31 - 1e-9) << point.z;
+  const auto parted = marker("rod", rod);
+  EXPECT_NEAR(enclosed_volume(parted), 0.99 * whole, 1e-9 * whole);
+  for (const auto& point : parted.points) EXPECT_FALSE(point.z > 0.3 + 1e-9 && point.z < 0.31 - 1e-9) << point.z;
 }
 
-/// Two straight ropes side by side, of which one parts: nothing is drawn from one to the other, and they have the
-/// colours of their own tensions to their ends. The place of a break counts along both.
+/// Nothing is drawn from one rope to the other, and they have the colours of their own tensions to their ends. The
+/// place of a break counts along both.
 TEST_F(ScenePictureTest, RopesAreDrawnEachByItself) {
-  Points both = Points::Zero(3, 102);
-  both.row(2) << Eigen::RowVectorXd::LinSpaced(51, 0.0, 1.0), Eigen::RowVectorXd::LinSpaced(51, 0.0, 1.0);
-  both.row(0).tail(51).setConstant(0.5);
+  const Points both = two_ropes();
   picture.begin(both, {50});
-  const auto count = [&](const visualization_msgs::Marker& marker) {
-    for (const auto& point : marker.points) EXPECT_LT(std::min(std::abs(point.x), std::abs(point.x - 0.5)), 0.003);
-    return marker.points.size();
+  const auto count = [](const visualization_msgs::Marker& triangles) {
+    for (const auto& point : triangles.points) EXPECT_LT(std::min(std::abs(point.x), std::abs(point.x - 0.5)), 0.003);
+    return triangles.points.size();
   };
-  EXPECT_EQ(count(part(draw(both), "rod")), 2u * 3u * 12u * 2u * 51u);
-  count(part(draw(both), "gauge_marks"));
+  EXPECT_EQ(count(marker("rod", both)), 2u * 3u * 12u * 2u * 51u);
+  count(marker("gauge_marks", both));
   Eigen::VectorXd tension = Eigen::VectorXd::Constant(101, 3.0);
   tension[50] = 0.0;
   EXPECT_EQ(tension_at_nodes(tension, {50}), Eigen::VectorXd::Constant(102, 3.0));
   EXPECT_EQ(curvature_at_nodes(both, 0.002, {50}).maxCoeff(), 0.0);
   sample.break_arclength = 1.31;
-  const double gap_begin = 0.3, gap_end = 0.32;
-  for (const auto& point : part(draw(both), "rod").points)
-    EXPECT_FALSE(point.x > 0.25 && point.z > gap_begin + 1e-9 && point.z < gap_end - 1e-9);
+  for (const auto& point : marker("rod", both).points)
+    EXPECT_FALSE(point.x > 0.25 && point.z > 0.3 + 1e-9 && point.z < 0.32 - 1e-9);
 }
 
-/// The first rope lies along x = 0, those of another material along x = 0.5.
 TEST_F(ScenePictureTest, RopesOfAnotherMaterialHaveTheirOwnRadius) {
-  Points both = Points::Zero(3, 102);
-  both.row(2) << Eigen::RowVectorXd::LinSpaced(51, 0.0, 1.0), Eigen::RowVectorXd::LinSpaced(51, 0.0, 1.0);
-  both.row(0).tail(51).setConstant(0.5);
+  const Points both = two_ropes();
   Material two = material(), thin = material();
   thin.radius = 0.001;
   two.other = std::make_shared<const Material>(thin);
   picture = ScenePicture(SpecimenOptions(), MachineOptions(), two);
   picture.begin(both, {50});
   double widest[2] = {0.0, 0.0};
-  for (const auto& point : part(draw(both), "rod").points) {
+  for (const auto& point : marker("rod", both).points) {
     double& of = widest[point.x < 0.25 ? 0 : 1];
     of = std::max(of, std::hypot(point.x - (point.x < 0.25 ? 0.0 : 0.5), point.y));
   }
   EXPECT_NEAR(widest[0], 0.002, 1e-12);
   EXPECT_NEAR(widest[1], 0.001, 1e-12);
-  const Eigen::VectorXd tension = Eigen::VectorXd::Constant(101, 1.0);
-  const SceneView view{both, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, ros::Time(1.0)};
   std::vector<std::pair<double, double>> rows;  // diameter, and x of the first sphere
-  for (const auto& marker : picture.draw_small(view).markers)
-    if (marker.ns == "rod") rows.emplace_back(marker.scale.x, marker.points.front().x);
+  for (const auto& row : picture.draw_small(view(both)).markers)
+    if (row.ns == "rod") rows.emplace_back(row.scale.x, row.points.front().x);
   EXPECT_EQ(rows, (std::vector<std::pair<double, double>>{{0.004, 0.0}, {0.002, 0.5}}));
 }
 
@@ -225,7 +226,7 @@ TEST_F(ScenePictureTest, APostIsACylinderWhereTheSpecimenHasIt) {
   machine.grips = GripKind::kNodes;
   picture = ScenePicture(capstan, machine, material());
   picture.begin(helix(50));
-  const auto post = part(draw(helix(50)), "grips");
+  const auto post = marker("grips", helix(50));
   EXPECT_EQ(post.type, visualization_msgs::Marker::CYLINDER);
   EXPECT_EQ(post.scale.x, capstan.post_diameter);
   EXPECT_EQ(post.scale.y, capstan.post_diameter);
@@ -238,9 +239,9 @@ TEST_F(ScenePictureTest, APostIsACylinderWhereTheSpecimenHasIt) {
 TEST_F(ScenePictureTest, ForcesThatAreNotShownAreTakenAway) {
   picture.begin(helix(50));
   contacts = {{Vec3::Zero(), Vec3::UnitX()}};
-  EXPECT_EQ(part(draw(helix(50)), "contact_forces").action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(marker("contact_forces", helix(50)).action, visualization_msgs::Marker::ADD);
   picture.show_contacts(false);
-  EXPECT_EQ(part(draw(helix(50)), "contact_forces").action, visualization_msgs::Marker::DELETE);
+  EXPECT_EQ(marker("contact_forces", helix(50)).action, visualization_msgs::Marker::DELETE);
 }
 
 }  // namespace

@@ -4,31 +4,17 @@
 #include <knot_utm/KnotState.h>
 #include <rosbag/view.h>
 #include <sys/resource.h>
-#include <unistd.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <csignal>
-#include <filesystem>
 #include <set>
 
-#include "knot_utm/run/run_folder.hpp"
+#include "run/own_folder.hpp"
 
 namespace knot_utm {
 namespace {
 
-namespace fs = std::filesystem;
-
-class TestBagTest : public testing::Test {
- protected:
-  TestBagTest() : folder_(fs::path(testing::TempDir()) / ("test_bag_test_" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~TestBagTest() override { fs::remove_all(folder_); }
-
-  std::string file(const char* name) const { return (folder_ / name).string(); }
-
-  fs::path folder_;
-};
+using TestBagTest = MadeFolder;
 
 Method straight() { return load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml"); }
 
@@ -43,25 +29,23 @@ Record record(std::uint64_t sequence) {
   return r;
 }
 
-void add(RunBag& bag, std::uint64_t sequence) { bag.add(record(sequence)); }
-
 std::size_t count(const std::string& file, const std::string& topic) {
   const rosbag::Bag bag(file, rosbag::bagmode::Read);
   return rosbag::View(bag, rosbag::TopicQuery(topic)).size();
 }
 
 TEST_F(TestBagTest, HoldsEveryCommandAndEveryReading) {
-  RunBag bag(file("a.bag"), straight());
-  for (std::uint64_t i = 0; i < 5; ++i) add(bag, i);
+  RunBag bag(in("a.bag"), straight());
+  for (std::uint64_t i = 0; i < 5; ++i) bag.add(record(i));
   bag.close();
-  EXPECT_EQ(count(file("a.bag"), "/knot/state"), 5u);
-  EXPECT_EQ(count(file("a.bag"), "/utm/crosshead"), 5u);
-  EXPECT_EQ(count(file("a.bag"), "/utm/load_cell"), 3u);
-  EXPECT_EQ(count(file("a.bag"), "/knot/shape"), 3u);
-  for (const char* topic : {"/knot/markers", "/tf", "/utm/status"}) EXPECT_EQ(count(file("a.bag"), topic), 3u) << topic;
-  for (const char* topic : {"/utm/method", "/knot/colors"}) EXPECT_EQ(count(file("a.bag"), topic), 1u) << topic;
+  EXPECT_EQ(count(in("a.bag"), "/knot/state"), 5u);
+  EXPECT_EQ(count(in("a.bag"), "/utm/crosshead"), 5u);
+  EXPECT_EQ(count(in("a.bag"), "/utm/load_cell"), 3u);
+  EXPECT_EQ(count(in("a.bag"), "/knot/shape"), 3u);
+  for (const char* topic : {"/knot/markers", "/tf", "/utm/status"}) EXPECT_EQ(count(in("a.bag"), topic), 3u) << topic;
+  for (const char* topic : {"/utm/method", "/knot/colors"}) EXPECT_EQ(count(in("a.bag"), topic), 1u) << topic;
   EXPECT_EQ(bag.messages(), 5u + 5u + 5u + 3u + 3u + 3u * 3u + 2u);
-  const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
+  const rosbag::Bag read(in("a.bag"), rosbag::bagmode::Read);
   for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/state")))
     EXPECT_EQ(m.getTime(), m.instantiate<KnotState>()->header.stamp);
   // Topics that wait for whoever comes late.
@@ -74,8 +58,8 @@ TEST_F(TestBagTest, HoldsEveryCommandAndEveryReading) {
 /// The rod parts in a command at whose end the cell is not read: its shape and its picture are there all the same, and
 /// nothing but the rod and the grips is in it.
 TEST_F(TestBagTest, ARodThatPartsIsSeenToPart) {
-  RunBag bag(file("a.bag"), straight());
-  for (std::uint64_t i = 0; i < 2; ++i) add(bag, i);
+  RunBag bag(in("a.bag"), straight());
+  for (std::uint64_t i = 0; i < 2; ++i) bag.add(record(i));
   Record broken = record(3);
   broken.answer.status = BenchStatus::kBroken;
   broken.answer.break_arclength = 0.02;
@@ -85,12 +69,12 @@ TEST_F(TestBagTest, ARodThatPartsIsSeenToPart) {
   ASSERT_FALSE(broken.command.read_cell);
   bag.add(broken);
   bag.close();
-  EXPECT_EQ(count(file("a.bag"), "/knot/shape"), 2u);
-  const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
+  EXPECT_EQ(count(in("a.bag"), "/knot/shape"), 2u);
+  const rosbag::Bag read(in("a.bag"), rosbag::bagmode::Read);
   std::set<std::string> drawn;
   for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/markers")))
     for (const auto& marker : m.instantiate<visualization_msgs::MarkerArray>()->markers) drawn.insert(marker.ns);
-  EXPECT_EQ(count(file("a.bag"), "/knot/markers"), 2u);
+  EXPECT_EQ(count(in("a.bag"), "/knot/markers"), 2u);
   EXPECT_EQ(drawn, (std::set<std::string>{"grips", "rod"}));
 }
 
@@ -103,10 +87,10 @@ TEST_F(TestBagTest, WithoutRoomItNamesTheFileAndTheReason) {
   tight.rlim_cur = 20000;
   std::string why;
   {
-    RunBag bag(file("a.bag"), straight());
+    RunBag bag(in("a.bag"), straight());
     setrlimit(RLIMIT_FSIZE, &tight);
     try {
-      for (std::uint64_t i = 0; i < 1000; ++i) add(bag, i);
+      for (std::uint64_t i = 0; i < 1000; ++i) bag.add(record(i));
       bag.close();
     } catch (const std::runtime_error& error) {
       why = error.what();
@@ -114,7 +98,7 @@ TEST_F(TestBagTest, WithoutRoomItNamesTheFileAndTheReason) {
   }
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(why, "cannot write " + file("a.bag") + ": file too large");
+  EXPECT_EQ(why, "cannot write " + in("a.bag") + ": file too large");
 }
 
 }  // namespace

@@ -109,6 +109,23 @@ TEST_F(Compare, TakesTheFolderOfARun) {
     EXPECT_EQ(compare("batch", "batch", std::string("--specimen ") + wrong).code, 2) << wrong;
 }
 
+/// A LineScale's log: two slips of 1 and 2 kN on the way to 5 kN, and the break.
+TEST_F(Compare, ReadsLoadsOverTimeWhereThereIsNoTravel) {
+  const std::string head = "0A:1B:2C\n02.03.21\n10:14:25\nLogNo=007\nUnit=kN\nMode=ABS\nRelZero=0.00\nSpeed=10\n";
+  write_whole(in("line.csv"),
+              head + "Trig=0.10\n0.00\n1.00\n2.00\n1.50\n1.00\n3.00\n4.00\n2.00\n4.90\n5.00\n0.10\n0.00\n");
+  write_curve("a.csv", 1.0);
+  const Answer answer = compare("line.csv", "a.csv");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_THAT(answer.text,
+              AllOf(HasSubstr("line.csv: it has no travel"), HasSubstr("peak_force: {a: 5000, b: 100"),
+                    HasSubstr("largest_drop: {a: 2000, b: 0"), HasSubstr("slips: {a: 2, b: 0"),
+                    HasSubstr("peak_time: {a: 0.9, b: 10"), HasSubstr("plateau_force: {a: null, b: null")));
+  EXPECT_THAT(compare("line.csv", "a.csv", "--rate 9").text, HasSubstr("peak_time: {a: 1, b: 10"));
+  EXPECT_THAT(compare("line.csv", "a.csv", "--tolerance 0.5").text, HasSubstr("compare: peak_force: the relative"));
+  EXPECT_EQ(compare("line.csv", "a.csv", "--report '" + in("page") + "'").code, 2);
+}
+
 TEST_F(Compare, RefusesInOneLine) {
   write_curve("a.csv", 1.0);
   write_whole(in("no_unit.csv"), "Time,Extension,Load\n0,0,0\n");

@@ -73,8 +73,9 @@ TEST_F(RunFolder, HoldsTheInnerDiameterOfAKnotThatIsWhole) {
   make(method, {pulled, held}, end, shape);
   const double hole = hole_diameter(sampled_centreline(shape), method.material.radius);
   EXPECT_GT(hole, 4.0 * method.material.radius);  // it is drawn loose
-  EXPECT_EQ(result()["knot_inner_diameter"].as<double>(), hole);
-  EXPECT_DOUBLE_EQ(result()["knotability"].as<double>(), hole / (2.0 * method.material.radius));
+  const double rounding = 1e-13 * hole;           // the compiler fuses products of this test's copy in another way
+  EXPECT_NEAR(result()["knot_inner_diameter"].as<double>(), hole, rounding);
+  EXPECT_NEAR(result()["knotability"].as<double>() * 2.0 * method.material.radius, hole, rounding);
   held.answer.break_place = BreakPlace::kStrand;
   make(method, {pulled, held}, end, shape);
   EXPECT_TRUE(result()["knotability"].IsNull());

@@ -80,7 +80,7 @@ class FrameTermsOf : public testing::TestWithParam<std::tuple<bool, int>> {
     force.assign(nodes, Lanes{0.0, 0.0, 0.0, 0.0});
     const Boundary free;
     const StepStart step{start, free, kDt};
-    terms.begin(step);
+    terms.begin(step, false);
     terms.add_forces(step, positions(y), force);
     std::vector<Lanes> turn(nodes, Lanes{0.0, 0.0, 0.0, 0.0});
     for (int j = 0; j + 1 < nodes; ++j)
@@ -184,7 +184,7 @@ TEST_P(FrameTermsOf, TheReferenceTwistIsThatOfCarriedFrames) {
     EXPECT_NEAR(terms.energy(moved.position - start.position, force).twisting, carried, 1e-13 * carried) << share;
     RodState committed = start;
     committed.position = moved.position;
-    terms.commit(std::vector<double>(nodes - 1), committed);
+    terms.write(std::vector<double>(nodes - 1), committed);
     EXPECT_LT((committed.reference_twist - moved.reference_twist).norm(), 1e-14);
     EXPECT_LT((committed.reference_director - moved.reference_director).norm(), 1e-14);
   }
@@ -196,7 +196,7 @@ TEST_P(FrameTermsOf, ForcesAreTheEnergysSlopeAtFixedSpin) {
   const Eigen::VectorXd force = force_at(terms, trial);
   RodState at_trial = start;
   at_trial.position = positions(trial);
-  terms.commit(std::vector<double>(nodes - 1), at_trial);
+  terms.write(std::vector<double>(nodes - 1), at_trial);
   const auto energy = [&](const Eigen::VectorXd& y) {
     RodState moved = at_trial;
     moved.position = positions(y);
@@ -377,7 +377,7 @@ TEST_P(PredictedTension, IsThatOfTheLinearModelOfAChange) {
   std::normal_distribution<double> noise(0.0, 0.1 * scene.rod.material.radius);
   for (Lanes& each : change) each = Lanes{noise(random), noise(random), noise(random), 0.0};
   constexpr double kFactor = 0.7;
-  terms.predict_tensions(change, kFactor);
+  terms.predict(change, kFactor);
   std::vector<Lanes> moved_force(kNodes);
   Points moved = scene.position;
   for (int i = 0; i < kNodes; ++i) moved.col(i) += kFactor * to_vec3(change[static_cast<std::size_t>(i)]);

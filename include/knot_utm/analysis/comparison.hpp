@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,11 +60,18 @@ struct GivenZeros {
   std::optional<RawZero> a, b;
 };
 
+/// What is read of a record over time alone, such as that of a load cell in a line, beside its peak and largest drop.
+struct OverTime {
+  double peak_time = 0.0;  ///< when the largest load is reached, from the first reading on [s]
+  int slips = 0;           ///< falls of the load by more than a twentieth of that, before it
+};
+
 /// The readings of two pulls, both read by the same code (curve_readings.hpp), and the difference of their forces.
 struct Comparison {
   CurveReadings a, b;
-  std::optional<CurveDifference> difference;  ///< empty where they have no extension in common
-  std::optional<GivenZeros> zeros;            ///< empty where the curves were compared as they are
+  std::optional<CurveDifference> difference;         ///< empty where they have no extension in common
+  std::optional<GivenZeros> zeros;                   ///< empty where the curves were compared as they are
+  std::optional<std::array<OverTime, 2>> over_time;  ///< of both where one has no travel: then there is no difference
 };
 
 Comparison compare(const Pull& a, const Pull& b);
@@ -90,8 +98,9 @@ struct ComparedCurves {
 };
 
 /// Compares two curves. Raw data of a testing machine contain only the travel of the crosshead; where one of the curves
-/// is of that kind, the travel of the crosshead is used for both. `tell` receives one line for each assumption that raw
-/// data make necessary.
+/// is of that kind, the travel of the crosshead is used for both. Where one has no travel either, as the record of a
+/// load cell in a line, loads are read over time alone, as they were recorded. `tell` receives one line for each
+/// assumption that raw data make necessary.
 ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, bool balances_raw_data, const Tell& tell);
 
 }  // namespace knot_utm

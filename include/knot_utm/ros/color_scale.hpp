@@ -8,6 +8,9 @@
 
 namespace knot_utm {
 
+/// An opaque colour from its components, 0 to 1.
+std_msgs::ColorRGBA color(double red, double green, double blue);
+
 /// What the colours of the rod show. Tension: blue in compression, light grey at zero, then green, yellow and red.
 /// Curvature: light grey where the rod is straight, then green, yellow and red.
 enum class ColorBy { kTension, kCurvature };
@@ -36,6 +39,7 @@ class ColorScale {
  private:
   ColorScale(ColorBy what, double full) : what_(what), full_(full) {}
   double lowest() const;  ///< place of the lower end of the bar
+  std_msgs::ColorRGBA at(double place) const;
 
   ColorBy what_;
   double full_;

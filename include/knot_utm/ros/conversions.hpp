@@ -1,5 +1,7 @@
 #pragma once
 
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotRecord.h>
@@ -10,8 +12,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/samples.hpp"
@@ -22,10 +26,8 @@ namespace knot_utm {
 /// time".
 ros::Time test_stamp(double start, double time);
 
-/// The phase with a name of `phase_name`. Throws std::invalid_argument for any other name.
-Phase phase_from_name(const std::string& name);
-
-/// Conversions to messages and back. They preserve every bit.
+/// Conversions to messages and back. They preserve every bit. Those back throw std::invalid_argument where a message
+/// says what no test can.
 Crosshead to_message(const Command& command, std::uint32_t run, const ros::Time& stamp);
 Command from_message(const Crosshead& message);
 KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& stamp);
@@ -33,6 +35,8 @@ Sample from_message(const KnotState& message);
 
 /// Enters the motion pattern so far into a message.
 void put_motion(const MotionPatternTracker& motion, KnotState& message);
+
+geometry_msgs::Point to_point(const Vec3& place);
 
 /// The rod after a command.
 KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius, const Crosshead& command);
@@ -44,5 +48,19 @@ geometry_msgs::WrenchStamped to_wrench(const Sample& sample, const ros::Time& st
 
 /// The crosshead as a prismatic joint: displacement [m], velocity [m/s], load [N].
 sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sample, const ros::Time& stamp);
+
+/// The frames of a test, all with the axes of `world`: world -> utm_base -> lower_grip, and utm_base -> crosshead ->
+/// upper_grip -> load_cell. The second ones move. `crosshead`: where it stood at the beginning of the test, above the
+/// lower grip by the distance of the grips [m].
+using Transforms = std::vector<geometry_msgs::TransformStamped>;
+Transforms fixed_frames(const Vec3& lower_grip, const ros::Time& stamp);
+Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const ros::Time& stamp);
+
+/// The machine of a method as URDF, for the parameter robot_description. Its links are these frames,
+/// and its only joint that moves is the one in utm/joint_states. Its shapes are those of the grips, as in knot/markers.
+///
+/// `lower_grip`, `upper_grip`: where the grips stand before the test [m]. The upper grip is fixed to the crosshead
+/// there. On mounting it is let down onto the loop, and a compliant frame gives way: only its frame shows that.
+std::string machine_urdf(const Method& method, const Vec3& lower_grip, const Vec3& upper_grip);
 
 }  // namespace knot_utm

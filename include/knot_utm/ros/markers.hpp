@@ -36,28 +36,20 @@ struct RopeRadii {
 /// rope.
 Eigen::VectorXd curvature_at_nodes(const Points& points, const RopeRadii& radius, const std::vector<int>& cuts = {});
 
+/// A colour for each node.
 using Colors = std::vector<std_msgs::ColorRGBA>;
 
-/// The surface of a tube around a centreline: a TRIANGLE_LIST with outward winding, flat ends and a colour for each
-/// vertex. The cross-section is carried along the centreline without twist, so that the surface is not wrung where the
-/// rod turns.
-struct TubeOptions {
-  int sides = 12;
-  std::vector<int> missing;  ///< edges that are not drawn, ascending: cuts, and one that has parted
-};
-/// `colors`: one for each node.
+/// The surface of a tube around the centreline of each rope: a TRIANGLE_LIST with outward winding, flat ends and a
+/// colour for each vertex. The cross-section is carried along the centreline without twist, so that the surface is not
+/// wrung where the rod turns. `missing`: edges that are not drawn, ascending: cuts, and one that has parted.
+inline constexpr int kTubeSides = 12;
 visualization_msgs::Marker tube_marker(const Points& points, const Colors& colors, const RopeRadii& radius,
-                                       const TubeOptions& options);
+                                       const std::vector<int>& missing = {});
 
-/// The nodes from one to another, without the latter.
-struct NodesOfRopes {
-  Eigen::Index begin = 0, end = std::numeric_limits<Eigen::Index>::max();
-};
-
-/// The same as a row of spheres, a SPHERE_LIST, with a fiftieth of the bytes. Where edges are long, there are spheres
-/// between the nodes, too. All spheres of a list are of one size: ropes of another radius need another list.
-visualization_msgs::Marker spheres_marker(const Points& points, const Colors& colors, double radius,
-                                          const std::vector<int>& missing = {}, const NodesOfRopes& nodes = {});
+/// The same as rows of spheres, with a fiftieth of the bytes: a SPHERE_LIST for each radius, because all spheres of a
+/// list are of one size. Where edges are long, there are spheres between the nodes, too.
+std::vector<visualization_msgs::Marker> sphere_markers(const Points& points, const Colors& colors,
+                                                       const RopeRadii& radius, const std::vector<int>& missing = {});
 
 /// One line for each contact force, centred at the contact. The lines stick out of the strands where the strands are
 /// pressed together. Half of a line has the length `longest` [m] times the place of the force on the scale of tension.
@@ -95,11 +87,15 @@ class ScenePicture {
   visualization_msgs::MarkerArray draw_small(const SceneView& view) const;
 
  private:
-  Eigen::Index parted_edge(const SceneView& view) const;  ///< -1: none
-  std::vector<int> missing(Eigen::Index parted) const;    ///< edges that are not drawn
-  Colors colors(const SceneView& view, Eigen::Index parted) const;
-  visualization_msgs::Marker rod_marker(const SceneView& view) const;
-  void add_bodies(const SceneView& view, std::vector<visualization_msgs::Marker>& markers) const;
+  /// How the rod is drawn.
+  struct Rod {
+    Colors colors;
+    std::vector<int> missing;  ///< edges that are not drawn
+  };
+  Rod rod_of(const SceneView& view) const;
+  /// These markers and the bodies, stamped.
+  visualization_msgs::MarkerArray with_bodies(std::vector<visualization_msgs::Marker> markers,
+                                              const SceneView& view) const;
 
   std::vector<GripBody> bodies_;
   Material material_;

@@ -14,7 +14,7 @@
 #include <ros/ros.h>
 
 #include <chrono>
-#include <memory>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,10 +22,9 @@
 #include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/method_setup.hpp"
+#include "knot_utm/run/summary.hpp"
 
 namespace knot_utm {
-
-class ProgressLine;
 
 /// How the machine runs its tests.
 struct UtmOptions {
@@ -48,7 +47,6 @@ class UtmNode {
 
   /// `launched`: the setup of a test of which nothing else is asked.
   UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options);
-  ~UtmNode();
 
   /// Runs until ROS is shut down. Ends the launch with `exit_at_end` when the test has ended, and where the simulation
   /// has died. Returns the exit code of the node: 1 where the simulation failed or died, or the recorder failed.
@@ -65,24 +63,21 @@ class UtmNode {
   bool on_start(StartTest::Request& request, StartTest::Response& response);
   void offer_services();
   void on_goal(Actions::GoalHandle goal);
-  void on_cancel(const Actions::GoalHandle& goal);
 
   bool active() const { return state_ == State::kRunning || state_ == State::kPaused; }
   bool paused() const { return state_ == State::kPaused; }
-  bool all_is_recorded() const;
+  bool all_is_recorded() const { return !options_.record || test_.recorder_complete || recorder_failed_; }
   bool may_advance() const;
   std::string missing() const;  ///< what a test needs and is not there yet; empty: nothing
   /// Starts a test, for whoever asks: the launch, the service or the action. Returns why it cannot, in one line, and
   /// has then changed nothing; empty: the test runs.
   std::string start(const StartTest::Request& request);
-  void begin();  ///< gives the first command of a test
-  bool failed() const;
+  bool failed() const { return recorder_failed_ || test_.physics_died || (program_ && program_->failed()); }
   void pause(bool paused);
   void advance();
   void send(const Command& command);
   void physics_died();
   void recorder_failed(const std::string& why);
-  void offer_start();
   void end_launch_of_test();
   void end();
   void publish_clock(bool at_once);
@@ -94,38 +89,43 @@ class UtmNode {
   void set_pace(MachineConfig& wanted);
   double wait_time() const;  ///< wall time until the next action that no message triggers [s]
 
+  /// What is of one test alone.
+  struct Test {
+    Command command{};               ///< the last one
+    Sample sample{};                 ///< the last answer
+    bool waiting = false;            ///< whether the answer to `command` is still awaited
+    std::string motion_pattern;      ///< motion pattern in the last answer
+    double max_penetration = 0.0;    ///< largest overlap in all answers [fraction of radius]
+    std::uint64_t single_steps = 0;  ///< number of single steps requested while paused
+    bool physics_died = false;
+    bool recorder_complete = false;
+    Clock::time_point began = Clock::now();
+    Clock::time_point due = Clock::now();  ///< time at which the next command may be sent
+    Clock::time_point factor_measured = Clock::now();
+    double factor_time = 0.0;  ///< test time at which the factor was last measured [s]
+  };
+
   ros::NodeHandle node_;
   TestWords launched_;
   UtmOptions options_;
   SpecimenInfo specimen_;                 ///< what the simulation last said of itself
   bool commands_arrive_ = false;          ///< knot_node is connected to utm/crosshead
-  bool physics_died_ = false;             ///< during this test
   bool leaves_ = false;                   ///< the launch ends; no other test begins
   Method method_;                         ///< of this test
   std::optional<ProgramRunner> program_;  ///< program of this test
   State state_ = State::kIdle;
   std::uint32_t run_ = 0;
-  double run_start_ = 0.0;          ///< beginning of the test on /clock [s]
-  Command command_;                 ///< the last command
-  Sample sample_;                   ///< the last answer
-  std::string motion_pattern_;      ///< motion pattern in the last answer
-  double max_penetration_ = 0.0;    ///< largest overlap in all answers [fraction of radius]
-  bool waiting_ = false;            ///< whether the answer to `command_` is still awaited
-  std::uint64_t single_steps_ = 0;  ///< number of single steps requested while paused
-  bool recorder_complete_ = false;
+  Test test_;
+  double run_start_ = 0.0;  ///< beginning of the test on /clock [s]
   bool recorder_failed_ = false;
   std::string folder_;  ///< of the recorder's files or, before it has said it, the one that it will make; empty: none
   ros::Time now_;       ///< time on /clock
 
-  std::unique_ptr<ProgressLine> progress_;  ///< on the terminal of the launch
-  Clock::time_point run_began_;
-  Clock::time_point due_;  ///< time at which the next command may be sent
+  ProgressLine progress_{stderr};  ///< on the terminal of the launch
   Clock::time_point clock_published_;
   Clock::time_point status_published_;
   Clock::time_point diagnosed_;
-  Clock::time_point factor_measured_;
-  double factor_time_ = 0.0;  ///< test time at which the factor was last measured [s]
-  double factor_;             ///< recent ratio of test time to wall time
+  double factor_ = std::numeric_limits<double>::quiet_NaN();  ///< recent ratio of test time to wall time
 
   ros::Publisher crosshead_, joint_states_, status_, method_text_, clock_;
   ros::Subscriber states_, specimens_, recorder_;

@@ -5,8 +5,7 @@
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/stretching.hpp"
-#include "knot_utm/sim/linear_system.hpp"
-#include "knot_utm/sim/step_account.hpp"
+#include "knot_utm/sim/force_term.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
@@ -15,7 +14,7 @@ struct RodProperties;
 
 /// Forces and stiffness of a whole centreline: stretching (stretching.hpp) of every edge by the rod's law, and
 /// isotropic bending (isotropic_bending.hpp) of every inner node. The two share the tangents.
-class CentrelineTerms {
+class CentrelineTerms : public ForceTerm {
  public:
   /// Without `bends`, stretching only: bending about a curved rest shape needs frames. `rod` must outlive this.
   CentrelineTerms(const RodProperties& rod, bool bends);
@@ -30,7 +29,7 @@ class CentrelineTerms {
   /// the present ones.
   void begin(const StepStart& start, bool predicts);
   /// Predicts the tensions after `factor` times a change of the nodes [m], with the stiffness that was added last.
-  void predict_tensions(const std::vector<Lanes>& change, double factor);
+  void predict(const std::vector<Lanes>& change, double factor);
 
   /// Adds the forces on every node [N], which depend on the trial positions x only. A stiffness that is added
   /// afterwards belongs to them.

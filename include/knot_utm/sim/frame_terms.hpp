@@ -9,11 +9,10 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
+#include "knot_utm/sim/force_term.hpp"
 #include "knot_utm/sim/four_nodes.hpp"
 #include "knot_utm/sim/frame_bending.hpp"
-#include "knot_utm/sim/linear_system.hpp"
 #include "knot_utm/sim/scene.hpp"
-#include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
@@ -55,7 +54,7 @@ namespace knot_utm {
 /// each step. Where friction acts at the rod's surface, its couples exert torques on the spins (surface_contact.hpp).
 /// Friction on the centreline does not turn the rod about itself. Source: Bergou et al. 2010, sections 3 and 4; Jawed,
 /// Novelia, O'Reilly 2018, chapters 4 to 7; the derivative along the moving frame our own.
-class FrameTerms {
+class FrameTerms : public ForceTerm {
  public:
   /// The unknowns x_{i-1}, s_{i-1}, x_i, s_i, x_{i+1}, s_{i+1} of an inner node; the last one takes no part.
   using NodeStiffness = Eigen::Matrix<double, 12, 12>;
@@ -78,7 +77,7 @@ class FrameTerms {
 
   /// Begins a step, whose state must have frames. Held angles begin at their prescribed values, all others at a
   /// prediction from their rates.
-  void begin(const StepStart& start);
+  void begin(const StepStart& start, bool predicts);
 
   /// Adds forces [N] (lanes 0 to 2 of every node) and torques [N m] (lane 3: of the edge behind the node) at trial
   /// positions. A stiffness that is read afterwards belongs to these positions.
@@ -126,7 +125,7 @@ class FrameTerms {
 
   /// Writes angles, rates, frames and what the bending law remembers into the state whose positions were evaluated
   /// last; `tension`: of every edge [N].
-  void commit(const std::vector<double>& tension, RodState& state);
+  void write(const std::vector<double>& tension, RodState& state);
 
  private:
   /// Twist of four inner nodes.

@@ -4,13 +4,17 @@ import difflib
 import functools
 import re
 
-from knot_utm.importing.names import QUANTITIES
+from knot_utm.importing.names import QUANTITIES, SET_POINT
 from knot_utm.importing.text import folded, has_digit, is_number, SEPARATORS, shown, split, split_names
 
 TIME, EXTENSION, LOAD = range(3)
 BETWEEN = " _/,"        # a name and its unit
 BEHIND = r" _.:\-/#"    # the number of a specimen or a channel
 WORDS = re.compile(r"[^\W\d_eE]|[eE](?![-+\d])")  # more than numbers: no row without is one of names
+# "load(8800 (0,3):load)" and "displacement(linear|digital position)": the quantity, a console and its channel, as WaveMatrix writes them.
+CHANNEL = re.compile(r"([^(]+)\((.+)[:|]([^:|()]+)\)")
+ON_SPECIMEN = re.compile("strain|extens|gau?ge|lvdt")  # a channel that is no crosshead's
+RESULTS = re.compile(r"\bmax|\bmin(imum)?\b|peak|valley|break|rupture|hochst|bruch|yield|amplitude|\bfmax|\brm\b|modulus")
 HANDFUL = 4             # of known names in a message
 
 
@@ -28,11 +32,33 @@ class Column:
 
 class Head:
     """Where a table begins. `names_row`: None where there is none; `first`: the row behind it, which may have units; `cells`: how many
-    columns there are; `columns`: those that may have each quantity, best first."""
+    columns there are; `period`: after how many names and units come again; `columns`: those that may have each quantity, best first."""
 
     def __init__(self, names, names_row, separator, given):
         self.names_row, self.first, self.separator, self.cells = names_row, names_row + 1, separator, len(names)
+        self.names, self.given, self.period = tuple(names), given, len(names)
         self.columns = [_columns_in(i, given[i], names) for i in range(3)]
+
+    def repeated(self, row):
+        """The same where the names stand once and a row of readings goes on with as many numbers for each further specimen, as those of
+        Mecmesin do."""
+        once = max((place + 1 for place, name in enumerate(self.names) if name), default=len(row) + 1)
+        if len(self.names) < 2 * once or len(row) < 2 * once or not all(map(is_number, row[:2 * once])):
+            return self
+        head = Head(self.names[:once] * (len(row) // once), self.names_row, self.separator, self.given)
+        head.period = once
+        return head
+
+    @functools.cached_property
+    def places(self):
+        """Of time, if it is named, extension and load of the first specimen."""
+        return [column.place for column in self.of_specimen(0) if column]
+
+    def wanted(self, cells):
+        return [cells[place] if place < len(cells) else "" for place in self.places]
+
+    def is_reading(self, cells):
+        return all(map(is_number, self.wanted(cells)))
 
     def is_complete(self, with_time):
         return all(self.columns[i] for i in ((TIME, EXTENSION, LOAD) if with_time else (EXTENSION, LOAD)))
@@ -68,8 +94,7 @@ def without_brackets(text):
 
 def head_in(row, index, given, with_time):
     """The head, if this row names extension and load, and time where it must."""
-    for separator in SEPARATORS if WORDS.search(row) else ():
-        cells = split_names(row, separator)
+    for cells, separator in _rows_of_names(row):
         if len(cells) >= (3 if with_time else 2):
             head = Head(cells, index, separator, given)
             if head.is_complete(with_time):
@@ -77,12 +102,37 @@ def head_in(row, index, given, with_time):
     return None
 
 
+def _rows_of_names(row):
+    """[(cells, separator)]: what a row may name."""
+    found = [(split_names(row, separator), separator) for separator in SEPARATORS if WORDS.search(row)]
+    # Where columns are padded with blanks, as MTS 793 does, only one stands behind a long name.
+    words, names = " ".join(found[-1][0]).split() if found else [], []
+    while words:
+        known = (count for count in (4, 3, 2, 1) if any(folded(" ".join(words[:count])) in of.ranks for of in QUANTITIES))
+        count = next(known, 0)
+        if not count:
+            return found
+        names, words = [*names, " ".join(words[:count])], words[count:]
+    return [*found, (names, " ")] if names else found
+
+
+def kind_of(rows):
+    """What a file is that holds no readings, or not as a table of named ones, in words; empty where it may be another one."""
+    if rows and rows[0].startswith("LabVIEW Measurement"):
+        return "it is a measurement file of LabVIEW (lvm), which does not say what its columns are: --columns and --units may"
+    for row in rows:
+        names = [folded(cell) for cell in split_names(row, next((mark for mark in SEPARATORS[:-1] if mark in row), " "))]
+        if sum(map(bool, map(RESULTS.search, names))) > 1:
+            of = "cycle" if any("cycle" in name for name in names) else "specimen"
+            return f"row \"{shown(row)}\" is the head of a table of results, one row a {of}, and of no readings: export the raw data"
+    return ""
+
+
 def nearest_head(rows, given, with_time):
     """A sentence about the row that names the most columns, and which it does not name; empty where there is no such row."""
     most, found = -1, ""
     for index, row in enumerate(rows):
-        for separator in SEPARATORS if WORDS.search(row) else ():
-            cells = split_names(row, separator)
+        for cells, separator in _rows_of_names(row):
             if len(cells) < 2 or all(map(has_digit, cells)):
                 continue
             head = Head(cells, index, separator, given)
@@ -98,29 +148,26 @@ def head_by_numbers(rows, given, with_time):
     of numbers, where there are such. None where the columns are not given so."""
     wanted = given if with_time or given[TIME] else given[1:]
     places = [_number_in(text) - 1 for text in wanted]
-    if min(places) < 0:
+    tables = ((i, mark) for i, row in enumerate(rows) for mark in SEPARATORS
+              if all(place < len(cells) and is_number(cells[place]) for cells in [split(row, mark)] for place in places))
+    index, separator = next(tables, (None, "")) if min(places) >= 0 else (None, "")
+    if index is None:
         return None
-    for index, row in enumerate(rows):
-        for separator in SEPARATORS:
-            numbers = split(row, separator)
-            if not all(place < len(numbers) and is_number(numbers[place]) for place in places):
-                continue
-            head = Head([""] * len(numbers), index, separator, given)
-            head.names_row, head.first = None, index
-            for above in range(index - 1, max(index - 3, -1), -1):  # at most two rows of words, the upper one of names
-                cells = split_names(rows[above], separator)
-                own = [cells[place] if place < len(cells) else "0" for place in places]
-                if any(map(has_digit, own)) or not any(own):
-                    break
-                has_units = QUANTITIES[LOAD].si(without_brackets(own[-1])) is not None
-                head.columns = Head(cells, above, separator, given).columns
-                head.first = above if has_units else above + 1
-                head.cells = max(head.cells, len(cells))
-                if not has_units:
-                    head.names_row = above
-                    break
-            return head
-    return None
+    head = Head([""] * len(split(rows[index], separator)), index, separator, given)
+    head.names_row, head.first = None, index
+    for above in range(index - 1, max(index - 3, -1), -1):  # at most two rows of words, the upper one of names
+        cells = split_names(rows[above], separator)
+        own = [cells[place] if place < len(cells) else "0" for place in places]
+        if any(map(is_number, own)) or not any(own):
+            break
+        has_units = QUANTITIES[LOAD].si(without_brackets(own[-1])) is not None
+        head.columns = Head(cells, above, separator, given).columns
+        head.first = above if has_units else above + 1
+        head.cells = max(head.cells, len(cells))
+        if not has_units:
+            head.names_row, head.names = above, tuple(cells)
+            break
+    return head
 
 
 def _number_in(given):
@@ -151,6 +198,11 @@ def _as_column(quantity, given, cell, place):
             rank = None if given else of.ranks.get(whole, of.ranks.get(base))
             if rank is not None:
                 return Column(place, cell, unit, rank, base, rank >= of.machines)
+            channel = None if given else CHANNEL.fullmatch(whole)
+            rank = of.ranks.get(channel[1].strip()) if channel and not SET_POINT.search(whole) else None
+            if rank is not None:  # no two of them are those of two specimens
+                other = bool(ON_SPECIMEN.search(channel[3]))
+                return Column(place, cell, unit, rank + other * len(of.names), whole, rank >= of.machines and not other)
     return None
 
 

@@ -39,7 +39,7 @@ def _import(asked):
     file, out, is_bag = asked.raw_data, asked.out, not asked.out.endswith(".csv")
     _require_new(out, file, asked.overwrite, BEGINS[is_bag])
     record = read_record(file, reading_of(asked, is_bag))
-    given = [f"--{name}" for name in ("columns", "units", "invert", "specimen") if getattr(asked, name) is not None]
+    given = [f"--{name}" for name in ("columns", "units", "invert", "specimen", "rate", "join") if getattr(asked, name)]
     if record.is_own and given:
         record.notes.append(f"{file}: the curve is one of knot_utm, for which {' and '.join(given)} change{'s' * (len(given) == 1)} nothing")
     if asked.balance:
@@ -61,7 +61,9 @@ def reading_of(asked, needs_time):
                       for text, option in ((asked.columns, "--columns"), (asked.units, "--units")))
     if asked.specimen is not None and asked.specimen < 1:
         raise WrongInput(f"--specimen is {asked.specimen}, but must be a number from 1 on")
-    return Reading(columns, units, asked.specimen or 0, asked.invert or "", needs_time)
+    if asked.rate is not None and not 0.0 < asked.rate < math.inf:
+        raise WrongInput(f"--rate is {asked.rate:g}, but must be readings per second, above 0")
+    return Reading(columns, units, asked.specimen or 0, asked.invert or "", needs_time, asked.join, asked.rate or 0.0)
 
 
 def balanced(record, file):
@@ -73,7 +75,8 @@ def balanced(record, file):
     rows = [row for row, phase in enumerate(record.columns["phase"]) if phase in PULLS]
     growth = max((s[row] - s[rows[0]] for row in rows), default=0.0)
     if not growth > 0.0:
-        raise WrongInput(f"{file}: nothing is pulled, so that --balance finds no zero: no reading has a larger extension than the first one")
+        raise WrongInput(f"{file}: {'there is no travel' if math.isnan(growth) else 'nothing is pulled'}, so that --balance finds no zero: no "
+                         "reading has a larger extension than the first one")
     begun = next(i for i, row in enumerate(rows) if s[row] > s[rows[0]] + MOVED * growth)
     first = max(i for i in range(begun) if s[rows[i]] <= s[rows[0]])
     last, rest = rows[first], []
@@ -132,6 +135,8 @@ def _parser():
     parser.add_argument("--units", help="time=s,extension=in,load=lbf, or one or two of these")
     parser.add_argument("--specimen", type=int, help="which specimen of a file with several, from 1")
     parser.add_argument("--invert", choices=INVERT, help="turn the sign of what falls in the pull, or, as --invert=load, of these")
+    parser.add_argument("--join", action="store_true", help="shift what is before the crosshead was set to zero, to go on there")
+    parser.add_argument("--rate", type=float, help="readings per second, where the file has no times or says another rate")
     parser.add_argument("--balance", action="store_true", help="begin where the crosshead begins to move, with the zero there")
     parser.add_argument("--overwrite", action="store_true", help="replace a file that an import wrote")
     parser.add_argument("--quiet", action="store_true", help="say only what went wrong")

@@ -1,13 +1,16 @@
 """The names of columns and units in exports of testing machines, by quantity. This is data: a new name is a new word in a list.
 
-Found in exports, manuals and programs that read exports of Instron (Bluehill, WaveMatrix), ZwickRoell (testXpert), MTS (TestSuite,
+Found in exports, manuals and programs that read exports of Instron (Bluehill, WaveMatrix), ZwickRoell (testXpert), MTS (793, TestSuite,
 TestWorks), Shimadzu (Trapezium), Hegewald & Peschke, MTI, CellScale, Mecmesin and Tinius Olsen, and the words of the test standards
 in other languages. Words are compared without capitals and accents (text.folded). Of several names in one file the first of the list
 counts."""
+import math
+import re
+
 from knot_utm.importing.text import folded
 
 TIME = """
-    time;test time;total time;elapsed time;running time;machine time
+    time;test time;total time;elapsed time;running time;machine time;time measurement;x value
     zeit;prüfzeit;pruefzeit;testzeit;versuchszeit;messzeit;laufzeit;czas;czas próby;czas badania;godzina
     temps;temps d'essai;durée;durée d'essai;tiempo;tiempo de ensayo;tiempo de prueba
     tempo;tempo di prova;tempo prova;tempo de ensaio;tijd;testtijd;proeftijd;čas;čas zkoušky;tid;zaman;süre;idő
@@ -23,7 +26,7 @@ EXTENSION = """
 # The travel of the crosshead alone.
 TRAVEL = """
     displacement;crosshead displacement;crosshead extension;crosshead travel;crosshead;stroke;travel;disp;disp.;axial displacement
-    displacement(linear|digital position);crosshead position;position;crosshead absolute;crosshead abs.;absolute crosshead travel
+    distance;crosshead position;position;crosshead absolute;crosshead abs.;absolute crosshead travel
     grip to grip separation;grip separation;machine displacement;actuator displacement;actuator position;axial disp
     traversenweg;verfahrweg;maschinenweg;kolbenweg;weg;traverse;traverse abs.;traverse absolut;traversenweg absolut
     traversenposition;werkzeugabstand;einspannabstand;przemieszczenie;droga;droga trawersy;trawersa
@@ -38,7 +41,7 @@ TRAVEL = """
 
 LOAD = """
     load;force;standard force;test force;axial force;axial load;tensile force;tensile load
-    load(linear|load);compressive load;compressive force;machine load;machine force;load cell
+    primary load measurement;compressive load;compressive force;machine load;machine force;load cell
     last;kraft;standardkraft;prüfkraft;pruefkraft;zugkraft;druckkraft;obciążenie;siła;siła standardowa
     charge;force standard;force d'essai;effort;carga;fuerza;fuerza estándar;fuerza de ensayo
     carico;forza;forza standard;forza di prova;força;força padrão;força de ensaio;kracht;standaardkracht;trekkracht;belasting
@@ -60,9 +63,13 @@ FORCE_UNITS = {
     1.0: "n;newton;newtons;牛;牛顿", 1e3: "kn;kilonewton;kilonewtons;千牛", 10.0: "dan;decanewton;dekanewton;decanewtons",
     1e-3: "mn;millinewton;millinewtons", 1e-2: "cn;centinewton;centinewtons",
     9.80665e-3: "gf;g;gram;grams;gramme;grammes;gramm;p;pond",
-    9.80665: "kgf;kg;kgs;kilogram;kilograms;kilogramm;kp;kilopond", 9806.65: "tf;t;tonf",
+    9.80665: "kgf;kg;kgs;kilogram;kilograms;kilogramm;kp;kilopond", 9806.65: "tf;t", 8896.443230521: "ustonf", math.nan: "tonf;ton;tons",
     4.4482216152605: "lbf;lbsf;lb;lbs;pound;pounds;pound-force;pounds-force", 4448.2216152605: "kip;kips;klbf;klb",
     0.27801385095378125: "ozf;oz;ounce;ounces"}
+
+# What a machine was told to do, as a part of a column's name: no reading.
+SET_POINT = re.compile("command|set[ -]?point|target|demand|soll|consign|feedforward|error")
+TONF = "8896.44 N (2000 lbf) in one program and 9806.65 N (1000 kgf) in another: give --units load=ustonf or load=tf"
 
 
 class Quantity:
@@ -76,7 +83,8 @@ class Quantity:
         self.units = {folded(word): size for size, words in units.items() for word in _words(words)}
 
     def si(self, unit):
-        """One such unit in SI units; None of one that is not known. Capitals mean nothing, but for MN, which is not mN."""
+        """One such unit in SI units; None of one that is not known, NaN of one that has two sizes. Capitals mean nothing, but for MN, which
+        is not mN."""
         return None if unit == "MN" else self.units.get(folded(unit))
 
 

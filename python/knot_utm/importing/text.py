@@ -1,4 +1,5 @@
 """Files whose character encoding nobody names, as text; their rows as cells, and cells as numbers."""
+import csv
 import re
 import unicodedata
 
@@ -10,9 +11,14 @@ SEPARATORS = ";\t|, "  # in the order in which they are tried; a blank stands fo
 MOST_ROWS, MOST_LINES = 2_000_000, 8  # the latter of a cell in quotes, behind its first
 LARGEST = 2**30
 BLANK = " \t\r"
+NO_LINE = dict.fromkeys(map(ord, "\0\r\n"), " ")
+csv.field_size_limit(LARGEST)
 
 SAVE = ": save its table as CSV (comma-separated text) and give that file"
-NO_TEXT = {b"PK\x03\x04": "a workbook (xlsx, ods) or another zip archive, and no text" + SAVE,
+EXPORT = ", and no text: export its raw data as text in the program that wrote it, and give that file"
+NO_TEXT = {b"TDSm": "a measurement file of LabVIEW (TDMS)" + EXPORT, b"TDAT": "a test of Bluehill (id_tens and others)" + EXPORT,
+           b"MATLAB 5.0": "a MAT-file" + EXPORT, b"\x89HDF": "an HDF5 file" + EXPORT,
+           b"PK\x03\x04": "a workbook (xlsx, ods) or another zip archive, and no text" + SAVE,
            b"\xD0\xCF\x11\xE0": "an old workbook (xls), and no text" + SAVE,
            b"%PDF": "a PDF, and no table of text" + SAVE,
            b"\x1F\x8B": "compressed (gzip): unpack it first, for example by gunzip",
@@ -38,6 +44,8 @@ def shown(text):
 def require_text(content, file):
     """Raises WrongInput where the bytes of a file are no text, such as those of a workbook, and says what to do about it."""
     kind = next((what for mark, what in NO_TEXT.items() if content.startswith(mark)), "")
+    if content.startswith(b"\x1F\x8B") and file.lower().endswith(".zs2"):
+        kind = "a test of testXpert (zs2)" + EXPORT
     if content[:512].lstrip(b" \r\n\t\xEF\xBB\xBF").startswith(b"<"):
         kind = "XML or HTML, as some programs write for a workbook, and no table of text" + SAVE
     elif not content.strip(b" \r\n\t"):
@@ -130,20 +138,9 @@ def split(row, separator):
     """The cells of a row, without blanks around them. A quoted cell may contain the separator, and two quotes for one."""
     if separator == " ":
         return [word for word in row.strip(BLANK).split(" ") if word]
-    if '"' not in row:
-        return [cell.strip(BLANK) for cell in row.split(separator)]
-    cells, quoted, i = [""], False, 0
-    while i < len(row):
-        if quoted and row[i:i + 2] == '""':
-            cells[-1] += '"'
-            i += 1
-        elif row[i] == '"' and (quoted or not cells[-1].strip(BLANK)):  # elsewhere it may be an inch
-            quoted = not quoted
-        elif row[i] == separator and not quoted:
-            cells.append("")
-        else:
-            cells[-1] += row[i]
-        i += 1
+    cells = row.split(separator)
+    if '"' in row:
+        cells = next(csv.reader([row.translate(NO_LINE)], delimiter=separator, skipinitialspace=True), [""])
     return [cell.strip(BLANK) for cell in cells]
 
 

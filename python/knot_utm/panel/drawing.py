@@ -72,6 +72,8 @@ class Drawing:
         self.canvas = FigureCanvasAgg(self.figure)
         self._cells = [self._row(index) for index in range(ROWS)]
         self._all, self._small = Chart(self.figure, 'load [N]'), Chart(self.figure, 'small loads [N]')
+        self._legend = self._all.axes.legend([self._all.curve, self._all.measured], ['simulated', 'measured'], loc='lower center', ncol=2,
+                                             columnspacing=1.2, bbox_to_anchor=(0.5, 1.0), frameon=False, labelcolor=NAME, fontsize=9)
         self._bar = self.figure.add_axes([0.08, 0.075, 0.84, 0.026])
         in_grey(self._bar)
         self._kept = None  # what the part that stays was drawn for
@@ -85,27 +87,25 @@ class Drawing:
 
     def draw(self, readings):
         """The picture as an array of bytes: height, width, red green blue."""
-        curve = numpy.array(readings.curve()).reshape(-1, 2)
-        measured = numpy.array(readings.measured()).reshape(-1, 2)
+        curve = numpy.array(readings.curve).reshape(-1, 2)
+        measured = numpy.array(readings.measured).reshape(-1, 2)
         small = readings.small_load()
         self._draw_background(numpy.vstack([curve, measured]), None if small is None else limit(small), len(measured) > 0,
                               (readings.bar, readings.colours_are_known()))
         self.canvas.restore_region(self._background)
         self._fill_table(readings.table())
-        for chart in self._charts(small is not None):
-            chart.draw(curve, measured)
+        self._all.draw(curve, measured)
+        if small is not None:
+            self._small.draw(curve, measured)
         for cell in (cell for row in self._cells for cell in row):
             self.figure.draw_artist(cell)
         return numpy.asarray(self.canvas.buffer_rgba())[:, :, :3]
 
     def _fill_table(self, table):
-        for index, row in enumerate(self._cells):
-            for cell, text in zip(row, table[index] if index < len(table) else ('', '', '')):
+        for cells, texts in zip(self._cells, table + [('', '', '')] * ROWS):
+            for cell, text in zip(cells, texts):
                 cell.set_text(text)
-            row[1].set_x(RIGHT if index < len(table) and table[index][2] else 0.95)
-
-    def _charts(self, two):
-        return (self._all, self._small) if two else (self._all,)
+            cells[1].set_x(RIGHT if texts[2] else 0.95)
 
     def _draw_background(self, points, small, beside, bar):
         """small: where the axes of the small loads end [N]; None: there are none. beside: whether a measured
@@ -126,19 +126,10 @@ class Drawing:
         self._all.axes.set_ylim(*limits[1])
         if small is not None:
             self._small.axes.set_ylim(max(limits[1][0], -0.3 * small), small)
-        self._draw_legend(beside)
+        self._legend.set_visible(beside)
         self._draw_bar(*bar)
         self.canvas.draw()
         self._background = self.canvas.copy_from_bbox(self.figure.bbox)
-
-    def _draw_legend(self, beside):
-        chart = self._all
-        if chart.axes.get_legend() is not None:
-            chart.axes.get_legend().remove()
-        if not beside:
-            return
-        chart.axes.legend([chart.curve, chart.measured], ['simulated', 'measured'], loc='lower center', ncol=2, columnspacing=1.2,
-                          bbox_to_anchor=(0.5, 1.0), frameon=False, labelcolor=NAME, fontsize=9)
 
     def _draw_bar(self, bar, is_known):
         self._bar.clear()

@@ -23,23 +23,24 @@ def place_of(state):
 
 
 class Pairs:
-    """Two coordinates of a point that come in two messages of the same stamp, in any order."""
+    """Two coordinates of a point that come in two messages of the same stamp, in any order; `take` gets both of them."""
 
-    def __init__(self):
+    def __init__(self, take):
+        self._take = take
         self._waiting = ({}, {})
         self._order = collections.deque()
 
     def add(self, which, stamp, value):
-        """which: 0 for the coordinate along the curve, 1 for the other. Both, where this one was the second; else None."""
+        """which: 0 for the coordinate along the curve, 1 for the other."""
         other = self._waiting[1 - which].pop(stamp, None)
         if other is not None:
-            return (value, other) if which == 0 else (other, value)
+            self._take((value, other) if which == 0 else (other, value))
+            return
         self._waiting[which][stamp] = value
         self._order.append((which, stamp))
         while len(self._order) > MOST_WAITING:
             old_which, old_stamp = self._order.popleft()
             self._waiting[old_which].pop(old_stamp, None)
-        return None
 
 
 class Readings:
@@ -55,17 +56,17 @@ class Readings:
     def _begin(self):
         self.stamp = -1.0
         self.state = None
-        self._pairs = Pairs()
+        self._pairs = Pairs(self._take_point)
         self._begin_test()
 
     def _begin_test(self):
         self.load = math.nan
         self.load_at_break = None
-        self._curve = []
-        self._zero = None     # balance offset of the curve
-        self._sliding = []    # loads while the knots slid
-        self._measured_pairs = Pairs()
-        self._measured = []
+        self.curve = []  # extension and load at each reading of the load cell
+        self._zero = None  # balance offset of the curve
+        self._sliding = []  # loads while the knots slid
+        self.measured = []  # the same of the experiment, as its topics have it
+        self._measured_pairs = Pairs(self.measured.append)
 
     def take_method(self, method):
         """method: the method of the test as a map."""
@@ -84,7 +85,7 @@ class Readings:
         if state.status == BROKEN:
             self._take_break(state)
         else:
-            self._take_point(self._pairs.add(0, stamp, place_of(state)))
+            self._pairs.add(0, stamp, place_of(state))
 
     def take_status(self, status):
         """status: a TestStatus, or what has its fields."""
@@ -92,7 +93,7 @@ class Readings:
 
     def take_load(self, stamp, load):
         self.load = load
-        self._take_point(self._pairs.add(1, stamp, load))
+        self._pairs.add(1, stamp, load)
 
     def _take_break(self, state):
         """The largest load of the command in which the rod parts is that of the break; it has none behind that."""
@@ -102,35 +103,21 @@ class Readings:
 
     def _take_point(self, point):
         """Nothing that was read before the zero belongs to the curve: neither tying and mounting nor another zero."""
-        if point is None or point[0].phase in PREPARATION:
-            return
         place, load = point
-        if self.state is None or place.run != self.state.run:
+        if place.phase in PREPARATION or self.state is None or place.run != self.state.run:
             return
         if place.zero != self._zero:
-            self._curve, self._sliding = [], []
+            self.curve, self._sliding = [], []
         self._zero = place.zero
         if place.slides:
             self._sliding.append(load)
-        self._curve.append((place.extension, load))
+        self.curve.append((place.extension, load))
 
     def take_measured_extension(self, stamp, extension):
-        self._take_measured(self._measured_pairs.add(0, stamp, extension))
+        self._measured_pairs.add(0, stamp, extension)
 
     def take_measured_load(self, stamp, load):
-        self._take_measured(self._measured_pairs.add(1, stamp, load))
-
-    def _take_measured(self, point):
-        if point is not None:
-            self._measured.append(point)
-
-    def curve(self):
-        """Extension and load at each reading of the load cell in this test."""
-        return list(self._curve)
-
-    def measured(self):
-        """The same of the experiment, as its topics have it."""
-        return list(self._measured)
+        self._measured_pairs.add(1, stamp, load)
 
     def small_load(self):
         """A load [N] up to which the loads are to be shown once more, because larger ones hide those of sliding; else
@@ -138,7 +125,7 @@ class Readings:
         if not self._sliding:
             return None
         usual = statistics.median(self._sliding)
-        largest = max(load for _, load in self.curve())
+        largest = max(load for _, load in self.curve)
         return 2.5 * usual if 0.0 < MANY * usual < largest else None
 
     def colours_are_known(self):

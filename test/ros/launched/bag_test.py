@@ -40,12 +40,12 @@ class BagTest(unittest.TestCase):
             self.begin(os.path.join(ROOT, 'python/knot_utm/panel/panel_node'))
             rospy.init_node('bag_test', disable_signals=True)
             panels = client.Latest('view/panel', Image)
-            self.assertFalse(client.drawn(panels.wait('the empty panel', lambda _: True), OURS))
+            self.assertFalse(client.shows(panels.wait('the empty panel', lambda _: True), OURS))
             state, status = client.Latest('knot/state', KnotState), client.Latest('utm/status', TestStatus)
             pictures, frames = client.Latest('knot/markers', MarkerArray), client.Latest('/tf', TFMessage)
-            play = self.begin('rosbag', 'play', '--clock', '--rate', '2', '--delay', '3', run.folder + '/test.bag')
-            panels.wait('the curve', lambda image: client.drawn(image, OURS))
-            play.wait()
+            # It stays, for its last messages are lost where it ends before they have left.
+            self.begin('rosbag', 'play', '--clock', '--keep-alive', '--rate', '2', '--delay', '3', run.folder + '/test.bag')
+            panels.wait('the curve', lambda image: client.shows(image, OURS))
             with rosbag.Bag(run.folder + '/test.bag') as bag:
                 recorded = [message.sequence for _, message, _ in bag.read_messages(topics=['/knot/state'])]
             wait_for('the last state', lambda: state.last.sequence == recorded[-1])

@@ -11,7 +11,7 @@ HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path[:0] = [os.path.join(HERE, '../../../bench'), os.path.join(HERE, '..'), os.path.join(HERE, '../../../python')]
 
 from knot_utm.panel.drawing import MEASURED, OURS
-from launched import TOOL, Headless, Launch, wait_for
+from launched import TOOL, Launch, wait_for
 
 IMPORT = os.path.join(os.path.dirname(TOOL), 'import_instron')
 # Of a machine that went forth and back, at other speeds than any program of ours: [s], [m], [N].
@@ -22,15 +22,10 @@ class ExperimentTest(unittest.TestCase):
 
     def test_both_curves(self):
         def prepare(folder):
-            with Headless('straight', 'program.pull.until={extension: 0.0005}') as run, \
-                    open(run.folder + '/curve.csv', encoding='utf-8') as curve:
-                names, units = next(curve), next(curve)
-            with open(folder + '/record.csv', 'w', encoding='utf-8') as file:
-                file.write(names + units)
-                for row in RECORD:
-                    known = dict(zip(('time', 'extension', 'load'), row), phase='pull')
-                    file.write(','.join(str(known.get(name, 'nan')) for name in names.strip().split(',')) + '\n')
-            subprocess.run([IMPORT, folder + '/record.csv', folder + '/record.bag', '--quiet'], check=True)
+            with open(folder + '/raw.csv', 'w', encoding='utf-8') as file:
+                file.write('Time (s),Extension (m),Load (N)\n' + ''.join('%r,%r,%r\n' % row for row in RECORD))
+            for name in 'record.csv', 'record.bag':
+                subprocess.run([IMPORT, folder + '/raw.csv', folder + '/' + name, '--quiet'], check=True)
 
         with Launch('data:=record.csv', 'method:=straight', 'real_time_factor:=0', 'exit_at_end:=false', 'rate:=1',
                     "overrides:='machine.load_cell={capacity: 50e3, sampling_rate: 100}'",
@@ -43,7 +38,7 @@ class ExperimentTest(unittest.TestCase):
             from sensor_msgs.msg import Image
             rospy.init_node('experiment_test', disable_signals=True)
             panels = client.Latest('view/panel', Image)
-            panels.wait('both curves', lambda image: client.drawn(image, OURS) and client.drawn(image, MEASURED))
+            panels.wait('both curves', lambda image: client.shows(image, OURS) and client.shows(image, MEASURED))
             wait_for('the result', lambda: os.path.exists(launch.out + '/result.yaml'))
             self.assertEqual(launch.result('ended_by'), 'program')
             rows = list(csv.DictReader(launch.text('curve.csv').splitlines()))[1:]

@@ -10,8 +10,6 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 
 from launched import METHOD, ROOT, Launch
 
-NODES = ['master', 'utm_node', 'knot_node', 'recorder_node']
-
 
 def listening(pid):
     """Addresses on which a process listens: 0.0.0.0%lo is every address, but of the loopback device only."""
@@ -30,7 +28,7 @@ class LoopbackTest(unittest.TestCase):
         with Launch('method:=' + METHOD, command=shell, prepare=prepare) as launch:
             launch.wait_for_rows(2)
             processes = launch.processes()
-            for node in NODES:
+            for node in 'master', 'utm_node', 'knot_node', 'recorder_node':
                 pid = next(pid for name, pid in processes.items() if name.startswith(node))
                 addresses = listening(pid)
                 self.assertGreaterEqual(len(addresses), 1, node)

@@ -10,11 +10,14 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 
 from launched import METHOD, ROOT, TOOL, Headless, Launch
 
+SCRIPT = [os.path.join(ROOT, 'scripts/tighten')]
+
+
 class NodesDieTest(unittest.TestCase):
 
     def dies(self, victim, ended_by, reason):
         """A process is killed in the middle of a test that a script runs."""
-        with Launch('method:=' + METHOD, 'rviz:=false', command=[os.path.join(ROOT, 'scripts/tighten')]) as launch:
+        with Launch('method:=' + METHOD, 'rviz:=false', command=SCRIPT) as launch:
             launch.wait_for_rows(3)
             os.kill(launch.pid(victim), signal.SIGKILL)
             self.assertEqual(launch.end(), 1)
@@ -66,7 +69,7 @@ class NodesDieTest(unittest.TestCase):
             self.make_from_samples(launch)  # once there is room
 
     def test_interrupted(self):
-        with Launch('method:=' + METHOD, 'rviz:=false', command=[os.path.join(ROOT, 'scripts/tighten')]) as launch:
+        with Launch('method:=' + METHOD, 'rviz:=false', command=SCRIPT) as launch:
             launch.wait_for_rows(3)
             os.killpg(launch.process.pid, signal.SIGINT)  # as Ctrl-C does
             self.assertEqual(launch.end(), 1)

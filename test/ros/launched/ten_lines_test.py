@@ -14,8 +14,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 
 from launched import LAST_RESORT, ROOT, children, free_port, wait_for
 
-PROGRAMS = ['knot_node', 'utm_node', 'recorder_node', 'panel_node',
-            'tensile_test', 'compare']
+PROGRAMS = ['knot_node', 'utm_node', 'recorder_node', 'panel_node', 'tensile_test', 'compare']
 
 
 def blocks():
@@ -28,30 +27,35 @@ class Shell:
     """A bare one, which runs the lines one after the other; what it says goes to a file."""
 
     def __init__(self, folder, uri, name):
-        path = os.path.join(folder, 'pyenv') + ':/usr/bin:/bin'
-        environment = {'HOME': folder, 'PATH': path, 'ROS_MASTER_URI': uri}
+        environment = {'HOME': folder, 'PATH': os.path.join(folder, 'pyenv') + ':/usr/bin:/bin', 'ROS_MASTER_URI': uri}
         self.file = os.path.join(folder, name)
         with open(self.file, 'wb') as said:
             self.process = subprocess.Popen(['/bin/bash'], cwd=folder, env=environment, stdin=subprocess.PIPE, stdout=said,
-                                            stderr=subprocess.STDOUT, universal_newlines=True)
+                                            stderr=subprocess.STDOUT, universal_newlines=True, bufsize=1)
+
+    def begin(self, lines):
+        print(*lines, sep='\n', file=self.process.stdin, flush=True)
 
     def run(self, lines, name):
         """Waits until all of them have ended; returns what they said."""
         begin = len(self.said())
-        for line in lines:
-            self.process.stdin.write('%s </dev/null || echo failed: %s\n' % (line, line.split()[0]))
-        self.process.stdin.write('echo end of %s\n' % name)
-        self.process.stdin.flush()
+        self.begin(['%s </dev/null || echo failed: %s' % (line, line.split()[0]) for line in lines] + ['echo end of ' + name])
         wait_for(name, lambda: 'end of ' + name in self.said())
         return self.said()[begin:]
-
-    def begin(self, lines):
-        self.process.stdin.write('\n'.join(lines) + '\n')
-        self.process.stdin.flush()
 
     def said(self):
         with open(self.file, encoding='utf-8', errors='replace') as file:
             return file.read()
+
+    def interrupt(self):
+        """What it runs, as Ctrl-C does."""
+        for running in children(self.process.pid):
+            os.kill(running, signal.SIGINT)
+
+    def leave(self):
+        self.interrupt()
+        self.process.stdin.close()
+        self.process.wait(LAST_RESORT)
 
 
 class TenLinesTest(unittest.TestCase):
@@ -71,23 +75,13 @@ class TenLinesTest(unittest.TestCase):
 
     def shell(self, name):
         shell = Shell(self.folder, self.uri, name)
-        self.addCleanup(self.leave, shell.process)
+        self.addCleanup(shell.leave)
         return shell
 
-    def leave(self, shell):
-        for running in children(shell.pid):
-            os.kill(running, signal.SIGINT)  # as Ctrl-C does
-        shell.stdin.close()
-        shell.wait(LAST_RESORT)
-
-    def serves(self, service):
-        with xmlrpc.client.ServerProxy(self.uri) as master:
-            return master.lookupService('/test', service)[0] == 1
-
-    def answers(self, node):
+    def master_finds(self, look_up, name):
         try:
             with xmlrpc.client.ServerProxy(self.uri) as master:
-                return master.lookupNode('/test', node)[0] == 1
+                return getattr(master, look_up)('/test', name)[0] == 1
         except OSError:
             return False
 
@@ -97,7 +91,7 @@ class TenLinesTest(unittest.TestCase):
         first, second = self.shell('first'), self.shell('second')
         first.begin(launch + ['echo the launch has ended'])
         # As whoever types them sees that the test runs.
-        wait_for('the test', lambda: self.answers('/utm_node') and 'holds a run' not in first.said())
+        wait_for('the test', lambda: self.master_finds('lookupNode', '/utm_node') and 'holds a run' not in first.said())
         said = second.run(ask, 'the questions')
         self.assertIn('progress: ', said)
         wait_for('the end', lambda: 'the launch has ended' in first.said())
@@ -110,7 +104,7 @@ class TenLinesTest(unittest.TestCase):
         said += self.nodes_that_stay(first, second, stay, start)
         first.begin(['roscore() { command roscore -p %s; }' % self.uri.rsplit(':', 1)[1]])  # else its port is always the same
         first.begin(core)
-        wait_for('the master', lambda: self.answers('/rosout'))
+        wait_for('the master', lambda: self.master_finds('lookupNode', '/rosout'))
         said += second.run(play, 'the bag')
         self.assertIn('[RUNNING]', said)
         for word in ('failed: ', 'rror', 'not executable', 'knows nothing'):
@@ -119,7 +113,8 @@ class TenLinesTest(unittest.TestCase):
     def nodes_that_stay(self, first, second, stay, start):
         """Ends them by Ctrl-C once the test that was asked for is written; returns what the call said."""
         first.begin(stay + ['echo the nodes have ended'])
-        wait_for('the service', lambda: self.answers('/recorder_node') and self.serves('/utm/start_test'))
+        wait_for('the service', lambda: self.master_finds('lookupNode', '/recorder_node') and
+                 self.master_finds('lookupService', '/utm/start_test'))
         said = second.run(start, 'the call')
         for part in ('accepted: True', 'out/tighten-2'):
             self.assertIn(part, said)
@@ -128,8 +123,7 @@ class TenLinesTest(unittest.TestCase):
         with open(os.path.join(written, 'method.yaml'), encoding='utf-8') as file:
             self.assertRegex(file.read(), r'preload: 70\n')
         self.assertNotIn('the nodes have ended', first.said())
-        for running in children(first.process.pid):
-            os.kill(running, signal.SIGINT)
+        first.interrupt()
         wait_for('the end of the nodes', lambda: 'the nodes have ended' in first.said())
         return said
 

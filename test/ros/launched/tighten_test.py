@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """scripts/tighten and the launch files as a user meets them: arguments, exit codes, what is said and what is written."""
 import os
-import pty
 import re
+import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -13,36 +14,34 @@ import yaml
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
-from launched import LAST_RESORT, METHOD, ROOT, TOOL, Headless, Launch, free_port
+from launched import LAST_RESORT, METHOD, ROOT, TOOL, Launch, free_port, wait_for
 
 SCRIPT = [os.path.join(ROOT, 'scripts/tighten')]
 CHECK = [os.path.join(ROOT, 'launch/check')]
-PROGRAM = os.path.join(ROOT, 'test/ros/whole_program.yaml')
 IMPOSSIBLE = os.path.join(ROOT, 'test/ros/impossible.yaml')
 SHORT = "overrides:='program.hold.duration=0.1'"
 SLIPPERY = ("overrides:='material=polypropylene', 'material.bending_law=elastic', 'material.friction_couple=0', 'specimen.preload=20', "
             "'specimen.edge_length=0.005', "
             "'material.friction_coefficient=0.05', 'physics.accuracy=draft'")
+# In the place of rviz a node that needs no display.
+WITH_WINDOW = """<launch>
+  <arg name="working_directory"/>
+  <arg name="out"/>
+  <include file="$(find knot_utm)/launch/tighten.launch" pass_all_args="true">
+    <arg name="method" value="%s"/>
+    <arg name="overrides" value="'program.hold.duration=15'"/>
+  </include>
+  <node name="rviz" pkg="knot_utm" type="panel_node"/>
+</launch>
+"""
 LINE = re.compile(r'\r(\w+) +[\d.]+ %  s +[-\d.]+ mm  F +\S+ N +\S+ x real time +\S+ s left ')
 
 
 def on_terminal(*command, **environment):
     """What a command says on one."""
-    ours, its = pty.openpty()
-    process = subprocess.Popen(command, stdin=its, stdout=its, stderr=its, env=dict(os.environ, **environment), start_new_session=True)
-    os.close(its)
-    said = b''
-    while True:
-        try:
-            part = os.read(ours, 65536)
-        except OSError:  # so ends a terminal
-            break
-        said += part
-        if not part:
-            break
-    os.close(ours)
-    process.wait(LAST_RESORT)
-    return said.decode('utf-8', 'replace')
+    run = subprocess.run(['script', '-qfc', shlex.join(command), '/dev/null'], env=dict(os.environ, **environment), check=False,
+                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, timeout=LAST_RESORT)
+    return run.stdout.decode('utf-8', 'replace')
 
 
 class TightenTest(unittest.TestCase):
@@ -97,12 +96,24 @@ class TightenTest(unittest.TestCase):
             self.assertIn('scripts/tighten: nothing was written, because of record:=false', said)
             self.assertFalse(os.path.exists(folder + '/live'))
 
-    def test_same_files_as_headless(self):
-        with Launch('method:=' + PROGRAM) as launch, Headless(PROGRAM) as headless:
-            launch.end()
-            self.assertEqual(launch.result('ended_by'), 'break', launch.console())
-            self.assertIn('the rod parted', launch.result('reason'))
-            self.assertEqual(headless.different(launch.out), ([], []))
+    def test_the_launch_goes_on_until_the_window_of_rviz_is_closed(self):
+        def prepare(folder):
+            with open(os.path.join(folder, 'mine.launch'), 'w', encoding='utf-8') as file:
+                file.write(WITH_WINDOW % METHOD)
+
+        with Launch(prepare=prepare, command=['roslaunch', './mine.launch']) as launch:
+            wait_for('the end of the test', lambda: 'the launch ends when the window of rviz is closed' in launch.console())
+            # Its picture can still be changed, but no other test begins.
+            self.assertIn('knot_node', launch.processes())
+            said = subprocess.run(['rosservice', 'call', '/utm/start_test', '{}'], env=launch.environment, check=True,
+                                  stdout=subprocess.PIPE, universal_newlines=True, timeout=LAST_RESORT).stdout
+            self.assertIn('the launch is about to end', said)
+            self.assertIsNone(launch.process.poll())
+            os.kill(launch.pid('rviz'), signal.SIGINT)
+            self.assertEqual(launch.end(), 0)
+            for word in ('has died', 'REQUIRED', 'ERROR'):
+                self.assertNotIn(word, launch.console())
+            self.assertEqual(launch.result('ended_by'), 'program')
 
 
 class ArgumentsTest(unittest.TestCase):
@@ -140,6 +151,8 @@ class ArgumentsTest(unittest.TestCase):
                 ('tighten', 'real_time_factor:=fast', 'utm_node: real_time_factor is fast'),
                 ('tighten', "overrides:='specimens.count=3'", 'utm_node: .*specimens.count is 3, but under ROS it must be 1'),
                 ('tighten', 'overrides:=[', 'utm_node: overrides is '),
+                ('tighten', 'overrides:=x', 'utm_node: overrides: '),
+                ('tighten', "overrides:='specimen.length=[1'", 'utm_node: overrides: '),
                 ('tighten', 'record:=perhaps', 'record is "perhaps", but must be true or false'),
                 ('tighten', 'network:=perhaps', 'network is "perhaps", but must be true or false'),
                 ('experiment', 'data:=nowhere.csv', 'utm_node: .*nowhere.csv')):

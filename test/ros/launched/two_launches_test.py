@@ -7,7 +7,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import xmlrpc.client
+
+import rosgraph
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
@@ -16,35 +17,30 @@ from launched import FILES, LAST_RESORT, METHOD, ROOT, Launch, children, free_po
 SCRIPT = [os.path.join(ROOT, 'scripts/tighten')]
 
 
+def master_at(uri):
+    return rosgraph.Master('/test', master_uri=uri)
+
+
 def parameter(uri, name):
     """None: it is not set."""
-    with xmlrpc.client.ServerProxy(uri) as master:
-        code, _, value = master.getParam('/test', name)
-        return value if code == 1 else None
+    return master_at(uri).getParam(name) if master_at(uri).hasParam(name) else None
 
 
 def publishers(uri, topic):
-    with xmlrpc.client.ServerProxy(uri) as master:
-        return [nodes for name, nodes in master.getSystemState('/test')[2][0] if name == topic]
+    return [nodes for name, nodes in master_at(uri).getSystemState()[0] if name == topic]
 
 
 class TwoLaunchesTest(unittest.TestCase):
 
-    def master(self, **environment):
+    def master(self):
         """One that was there before."""
         port, log = free_port(), tempfile.TemporaryDirectory()
-        master = subprocess.Popen(['rosmaster', '--core', '-p', str(port)], env=dict(os.environ, ROS_LOG_DIR=log.name, **environment),
+        master = subprocess.Popen(['rosmaster', '--core', '-p', str(port)], env=dict(os.environ, ROS_LOG_DIR=log.name),
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(log.cleanup)
         self.addCleanup(master.wait)
         self.addCleanup(master.kill)
-
-        def answers():
-            try:
-                return parameter('http://localhost:%d' % port, '/run_id') is None
-            except OSError:
-                return False
-        wait_for('the master', answers)
+        wait_for('the master', lambda: rosgraph.is_master_online('http://localhost:%d' % port))
         return port
 
     def assert_refused(self, code, lines, launch):
@@ -94,8 +90,7 @@ class TwoLaunchesTest(unittest.TestCase):
 
     def test_roslaunch_is_killed(self):
         port = self.master()
-        with xmlrpc.client.ServerProxy('http://localhost:%d' % port) as master:
-            master.setParam('/test', '/use_sim_time', False)
+        master_at('http://localhost:%d' % port).setParam('/use_sim_time', False)
         with Launch('method:=' + METHOD, port=port) as launch:
             launch.wait_for_rows(3)
             nodes = [launch.pid(name) for name in ('utm_node', 'knot_node', 'recorder_node')]
