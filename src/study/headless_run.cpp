@@ -1,4 +1,3 @@
-#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/study/headless_run.hpp"
 
 #include <yaml-cpp/yaml.h>
@@ -14,6 +13,7 @@
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/program/program_runner.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/samples.hpp"
