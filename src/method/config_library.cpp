@@ -55,6 +55,14 @@ bool holds_another_document(const std::string& text) {
   return false;
 }
 
+bool comes_with_the_package(const fs::path& folder) {
+  const std::vector<std::string> shipped = shipped_folders();
+  return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& one) {
+    std::error_code error;
+    return fs::equivalent(folder, one, error);
+  });
+}
+
 }  // namespace
 
 std::string yaml_fault(const YAML::Exception& fault) {
@@ -63,20 +71,14 @@ std::string yaml_fault(const YAML::Exception& fault) {
 }
 
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
-  if (text.size() > kLongestText) {
-    const std::string most = std::to_string(kLongestText) + " characters";
-    throw InvalidInput::sentence("file",
-                                 "the file is longer than " + most + ", and no method, knot, material or load cell is")
-        .in_file(file);
-  }
+  const auto refuse = [&](const std::string& why) { throw InvalidInput::sentence("file", why).in_file(file); };
+  if (text.size() > kLongestText)
+    refuse("the file is longer than " + std::to_string(kLongestText) +
+           " characters, and no method, knot, material or load cell is");
   if (const int line = line_of_other_encoding(text); line > 0)
-    throw InvalidInput::sentence("file",
-                                 "line " + std::to_string(line) + ": a letter is not in UTF-8; save the file as UTF-8")
-        .in_file(file);
+    refuse("line " + std::to_string(line) + ": a letter is not in UTF-8; save the file as UTF-8");
   if (holds_another_document(text))
-    throw InvalidInput::sentence("file",
-                                 "the file holds several YAML documents, but must be one: take away its lines \"---\"")
-        .in_file(file);
+    refuse("the file holds several YAML documents, but must be one: take away its lines \"---\"");
   try {
     return YAML::Load(text);
   } catch (const YAML::ParserException& parser) {
@@ -107,24 +109,13 @@ std::vector<fs::path> yaml_files(const fs::path& folder) {
 
 YAML::Node read_yaml(const fs::path& file) { return parse_yaml(read_text(file), file.string()); }
 
-namespace {
-
-bool comes_with_the_package(const fs::path& folder) {
-  const std::vector<std::string> shipped = shipped_folders();
-  return std::any_of(shipped.begin(), shipped.end(), [&](const std::string& one) {
-    std::error_code error;
-    return fs::equivalent(folder, one, error);
-  });
-}
-
-}  // namespace
-
 ConfigLibrary::ConfigLibrary(const fs::path& method_folder) {
-  add(method_folder);
-  add(method_folder / "config");
-  add(method_folder / ".." / "config");
-  add(fs::current_path());
-  for (const std::string& folder : shipped_folders()) add(folder);
+  std::vector<fs::path> folders{method_folder, method_folder / "config", method_folder / ".." / "config",
+                                fs::current_path()};
+  for (const std::string& folder : shipped_folders()) folders.emplace_back(folder);
+  std::error_code error;
+  for (const fs::path& folder : folders)
+    if (fs::is_directory(folder, error)) folders_.push_back(folder.lexically_normal());
 }
 
 std::vector<std::string> ConfigLibrary::names(const std::string& kind) const {
@@ -153,11 +144,6 @@ fs::path ConfigLibrary::find(const std::string& kind, const std::string& name, c
   std::vector<std::string> all = others;
   for (const std::string& file_name : names(kind)) all.push_back(file_name);
   throw InvalidInput::unknown_name(key, name, kAllowedKnot, all);
-}
-
-void ConfigLibrary::add(const fs::path& folder) {
-  std::error_code error;
-  if (fs::is_directory(folder, error)) folders_.push_back(folder.lexically_normal());
 }
 
 bool is_shipped(const std::string& kind, const fs::path& file) {

@@ -47,8 +47,6 @@ class ConfigLibrary {
                              const std::vector<std::string>& others = {}) const;
 
  private:
-  void add(const std::filesystem::path& folder);
-
   std::vector<std::filesystem::path> folders_;
 };
 

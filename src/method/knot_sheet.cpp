@@ -21,20 +21,11 @@
 #include "knot_utm/topology/crossings.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
 #include "knot_utm/words/invalid_input.hpp"
+#include "knot_utm/words/number.hpp"
+#include "knot_utm/words/yaml_lines.hpp"
 
 namespace knot_utm {
 namespace {
-
-/// What can be read from a knot's shape before anything pulls it.
-struct KnotFacts {
-  int strands = 0;              ///< ropes
-  int crossings = 0;            ///< as seen from the front: x to the right, the load axis z up
-  std::string type;             ///< which knot it is, in words and invariants
-  double least_distance = 0.0;  ///< of two strands' centrelines; infinite where there are none [m]
-  Vec3 nearest;                 ///< half-way between these two places [m]
-  double sharpest_bend = 0.0;   ///< the least radius of the circle through the midpoints of two edges [m]
-  Vec3 sharpest;                ///< the node between them [m]
-};
 
 /// Crossings of strands; those with a cut, or with the line that would close the rod, are none.
 int visible_crossings(const Centreline& knot) {
@@ -105,31 +96,25 @@ std::string type_of(const Centreline& knot, double radius) {
                                 : "not defined, as the rope has a free end";
 }
 
-void find_sharpest_bend(const Centreline& knot, KnotFacts& out) {
+/// The least radius of the circle through the midpoints of two edges, infinite in a straight rope, and the node between
+/// them [m].
+struct Bend {
+  double radius = std::numeric_limits<double>::infinity();
+  Vec3 at = Vec3::Zero();
+};
+
+Bend sharpest_bend(const Centreline& knot) {
   constexpr double kStraight = 1e-9;  // what rounding turns a straight rope by [rad]
-  out.sharpest_bend = std::numeric_limits<double>::infinity();
+  Bend out;
   for (const Piece& rope : pieces_between(knot.points.cols(), knot.cuts))
     for (Eigen::Index i = rope.begin + 1; i + 1 < rope.end; ++i) {
       const Vec3 before = knot.points.col(i) - knot.points.col(i - 1),
                  after = knot.points.col(i + 1) - knot.points.col(i);
       const double angle = turning_angle(before.normalized(), after.normalized());
-      const double radius = angle > kStraight ? 0.5 * (before.norm() + after.norm()) / angle : out.sharpest_bend;
-      if (radius >= out.sharpest_bend) continue;
-      out.sharpest_bend = radius;
-      out.sharpest = knot.points.col(i);
+      if (!(angle > kStraight)) continue;
+      const double radius = 0.5 * (before.norm() + after.norm()) / angle;
+      if (radius < out.radius) out = {radius, knot.points.col(i)};
     }
-}
-
-/// `radius`: of the rod [m].
-KnotFacts facts_of(const Centreline& knot, double radius) {
-  KnotFacts out;
-  out.strands = static_cast<int>(knot.cuts.size()) + 1;
-  out.crossings = visible_crossings(knot);
-  out.type = type_of(knot, radius);
-  const NearestPlaces nearest = nearest_places(knot.points, 1.5 * M_PI * radius, knot.cuts);
-  out.least_distance = nearest.distance;
-  out.nearest = nearest.middle;
-  find_sharpest_bend(knot, out);
   return out;
 }
 
@@ -140,12 +125,6 @@ constexpr const char* kAnyTest =
     "specimen: {knot: straight}\n"
     "material: nylon\n"
     "program: [hold: {duration: 1}]\n";
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
-  return out + '"';
-}
 
 /// A loop is shown on its rollers.
 const char* grips_for(const std::string& knot) {
@@ -219,32 +198,33 @@ std::string length_at(double length, const Vec3& place, const Vec3& origin, doub
   return text.data();
 }
 
-std::string facts_text(const Method& method, const Supports& supports, const KnotFacts& facts) {
+/// What can be read from a knot's shape before anything pulls it, as seen from the front: x to the right, z up.
+std::string facts_text(const Method& method, const Supports& supports, const Centreline& shown) {
   const KnotDrawing* drawing = method.specimen.drawing.get();
   const double h = thickest(method.material);
   Vec3 origin = Vec3::Zero();
   if (drawing) origin.z() = height_of_origin(*drawing, {h, method.specimen.end_to_end, 0.0, 0.0});
+  const NearestPlaces nearest = nearest_places(shown.points, 1.5 * M_PI * h, shown.cuts);
+  const Bend bend = sharpest_bend(shown);
   std::string out = "title: " + title_of(method) + "\n";
   if (drawing && !drawing->use.empty()) out += "use: " + drawing->use + "\n";
-  out += "strands: " + std::to_string(facts.strands) + "\n";
+  out += "strands: " + std::to_string(shown.cuts.size() + 1) + "\n";
   out += "held: " + held(method, supports) + "\n";
   out += "pulled: " + pulled(method) + "\n";
   if (drawing && !drawing->weights.empty()) out += "weights: " + with_parts(drawing->weights) + "\n";
-  out += "crossings: " + std::to_string(facts.crossings) + ", from the front\n";
-  out += "type: " + facts.type + "\n";
-  const bool near = facts.least_distance < kFarOff * h;
+  out += "crossings: " + std::to_string(visible_crossings(shown)) + ", from the front\n";
+  out += "type: " + type_of(shown, h) + "\n";
+  const bool near = nearest.distance < kFarOff * h;
   out += "least distance of strands: " +
-         (near ? length_at(facts.least_distance, facts.nearest, origin, h) : std::string("above 4 radii")) + "\n";
-  const bool bent = std::isfinite(facts.sharpest_bend);
-  out += "sharpest bend: " + (bent ? length_at(facts.sharpest_bend, facts.sharpest, origin, h) : std::string("none")) +
-         "\n";
-  return out;
+         (near ? length_at(nearest.distance, nearest.middle, origin, h) : "above 4 radii") + "\n";
+  const bool bent = std::isfinite(bend.radius);
+  return out + "sharpest bend: " + (bent ? length_at(bend.radius, bend.at, origin, h) : "none") + "\n";
 }
 
+std::string array_of(const std::vector<std::string>& items) { return "[" + listed(items, ", ") + "]"; }
+
 std::string json_of(const Vec3& vector) {
-  std::ostringstream out;
-  out << '[' << vector.x() << ", " << vector.y() << ", " << vector.z() << ']';
-  return out.str();
+  return array_of({format_number(vector.x()), format_number(vector.y()), format_number(vector.z())});
 }
 
 /// All lengths in radii of the rod.
@@ -252,26 +232,20 @@ std::string shape_json(const std::string& title, const Method& method, const Cen
                        const Supports& supports) {
   const double h = thickest(method.material);
   const std::vector<std::array<std::string, 2>> ends = names_of_ends(method);
-  std::ostringstream out;
-  out << "{\"title\": " << quoted(title) << ", \"ropes\": [";
-  const std::vector<Piece> ropes = pieces_between(shown.points.cols(), shown.cuts);
-  for (std::size_t k = 0; k < ropes.size(); ++k) {
-    out << (k > 0 ? ", " : "") << "{\"ends\": [" << quoted(ends[k][0]) << ", " << quoted(ends[k][1])
-        << "], \"points\": [";
-    for (Eigen::Index i = ropes[k].begin; i < ropes[k].end; ++i)
-      out << (i > ropes[k].begin ? ", " : "") << json_of(shown.points.col(i) / h);
-    out << "]}";
+  std::vector<std::string> ropes, posts;
+  for (const Piece& piece : pieces_between(shown.points.cols(), shown.cuts)) {
+    const std::array<std::string, 2>& names = ends[ropes.size()];
+    std::vector<std::string> points;
+    for (Eigen::Index i = piece.begin; i < piece.end; ++i) points.push_back(json_of(Vec3(shown.points.col(i) / h)));
+    ropes.push_back("{\"ends\": " + array_of({quoted(names[0]), quoted(names[1])}) +
+                    ", \"points\": " + array_of(points) + "}");
   }
-  out << "], \"posts\": [";
-  const char* comma = "";
-  for (const std::vector<Roller>* posts : {&supports.posts, &supports.pins})
-    for (const Roller& post : *posts) {
-      out << comma << "{\"centre\": " << json_of(post.centre / h) << ", \"axis\": " << json_of(post.axis)
-          << ", \"radius\": " << post.radius / h << ", \"ring\": " << post.ring / h << '}';
-      comma = ", ";
-    }
-  out << "]}\n";
-  return out.str();
+  for (const std::vector<Roller>* of : {&supports.posts, &supports.pins})
+    for (const Roller& post : *of)
+      posts.push_back("{\"centre\": " + json_of(Vec3(post.centre / h)) + ", \"axis\": " + json_of(post.axis) +
+                      ", \"radius\": " + format_number(post.radius / h) +
+                      ", \"ring\": " + format_number(post.ring / h) + "}");
+  return "{\"title\": " + quoted(title) + ", \"ropes\": " + array_of(ropes) + ", \"posts\": " + array_of(posts) + "}\n";
 }
 
 }  // namespace
@@ -284,7 +258,7 @@ KnotSheet knot_sheet(const std::string& knot, const std::string& option) {
   const KnotDrawing* drawing = method.specimen.drawing.get();
   KnotSheet out;
   out.name = drawing ? std::filesystem::path(drawing->name).stem().string() : knot_of(method.specimen).about().name;
-  out.facts = facts_text(method, supports, facts_of(shown, thickest(method.material)));
+  out.facts = facts_text(method, supports, shown);
   out.shape = shape_json(title_of(method), method, shown, supports);
   return out;
 }

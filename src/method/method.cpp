@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -10,17 +11,17 @@
 #include "config_library.hpp"
 #include "knot_utm/grips/grips.hpp"
 #include "knot_utm/method/knot_file.hpp"
+#include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/program/loading_steps.hpp"
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/program/preparing_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_drawing.hpp"
+#include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/tying/before_tying.hpp"
 #include "knot_utm/words/number.hpp"
-#include "method_defaults.hpp"
-#include "method_fields.hpp"
+#include "method_parts.hpp"
 #include "method_reader.hpp"
-#include "overruled_keys.hpp"
-#include "specimens_section.hpp"
 
 namespace knot_utm {
 namespace {
@@ -31,23 +32,105 @@ using fields::Fields;
 using fields::one_line;
 using fields::Reader;
 
+constexpr double kLeastTravel = 1.0, kLargestTravel = 100.0;  // [m]
+constexpr double kTravelOverWay = 2.0;                        // slack and balance take some of the crosshead's way, too
+
+constexpr double kCreep = 1.0 / 3.3;  // friction that creeps is Coulomb's well above this fraction of the slowest pull
+
+constexpr double kMarginOfCell = 2.5;                            // over the strength of one strand: a loop has two
+constexpr double kLeastCapacity = 1e-3, kLargestCapacity = 1e8;  // [N]
+
+/// The largest of the program's numbers that have this unit.
+double largest(const Program& program, const std::string& unit) {
+  double out = 0.0;
+  for (const ProgramStep& step : program)
+    for (const MethodKey& number : step_keys(step, ""))
+      if (number.unit == unit) out = std::max(out, std::abs(number.value.value_or(0.0)));
+  return out;
+}
+
+/// The slowest speed of the steps that pull; where there is none, the paper's [m/s].
+double slowest_pull(const Program& program, double scale) {
+  double out = PullStep().speed * scale;
+  for (const ProgramStep& step : program)
+    if (pulls(step->phase())) out = std::min(out, step->speed);
+  return out;
+}
+
+/// The next larger of 1, 2, 5, 10, 20 ..., as cells are sold.
+double next_cell(double load) {
+  const double decade = std::pow(10.0, std::floor(std::log10(load)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (load <= step * decade) return step * decade;
+  return 10.0 * decade;
+}
+
+/// The tension that a strand bears at most; of a material that says nothing about it, that at which it is twice as
+/// long. The weaker of two ropes bears at least half of the load, and parts before the stronger one shows its strength.
+double strength(const Material& material) {
+  const double own = material.breaking_force.value_or(material.stretching_stiffness);
+  return material.other ? std::min(own, strength(*material.other)) : own;
+}
+
+double capacity(const Material& material, const Method* known) {
+  const double asked = known ? std::max(known->ends.load.value_or(0.0), largest(known->program, "N")) : 0.0;
+  const double load = std::max(kMarginOfCell * strength(material), asked);
+  return std::min(next_cell(std::max(load, kLeastCapacity)), kLargestCapacity);
+}
+
+/// The values that `auto` stands for in a method. They are the lengths and speeds of the source paper's test, whose
+/// rods have a radius of 3.175 mm, scaled with the radius of the rod. A default therefore suits a thread as well as a
+/// hawser. Values that the method sets have precedence: where two values must go together and only one is set, the
+/// default of the other one is adapted to it.
+struct Defaults {
+  SpecimenOptions specimen;
+  MachineOptions machine;       ///< its load cell has a suitable capacity and no name
+  double scale = 1.0;           ///< radius of the rod over that of the paper's rods; speeds are scaled by it, too [-]
+  double way = 0.0;             ///< extension of a pull whose `until.extension` is auto [m]
+  double slip_tolerance = 0.0;  ///< slip tolerance of a friction law that creeps [m/s]
+};
+
+/// The defaults for a knot of this material. `known`: the method as it was read with the defaults of knot and material
+/// alone; null while it has not been read.
+Defaults defaults(const SpecimenOptions& specimen, const Material& material, const Method* known) {
+  const double h = thickest(material), r = h / kPaperRadius;
+  Defaults out;
+  out.scale = r;
+  const Knot& knot = knot_of(specimen);
+  out.specimen = knot.defaults(h);
+  out.specimen.knot = specimen.knot;
+  out.specimen.drawing = specimen.drawing;
+  out.machine.roller_diameter = knot.roller_diameter(h).value_or(out.machine.roller_diameter);
+  if (specimen.drawing && !specimen.drawing->posts.empty()) out.machine.roller_friction = material.friction_coefficient;
+  if (known) knot.suit(known->specimen, known->machine.roller_diameter, h, out.specimen);
+  out.way = knot.pull(known ? known->specimen : out.specimen, h);
+  const double asked = known ? largest(known->program, "m") : out.way;
+  out.machine.travel = std::min(std::max({kLeastTravel, kLeastTravel * r, kTravelOverWay * asked}), kLargestTravel);
+  out.machine.load_cell.capacity = capacity(material, known);
+  out.slip_tolerance = kCreep * slowest_pull(known ? known->program : Program{}, r);
+  return out;
+}
+
+/// Reads the map of a material or a load cell, which is called `otherwise` where it has no name.
+template <class Options>
+void read_named(Reader reader, void (&keys)(Fields&, Options&), const std::string& otherwise, Options& out) {
+  keys(reader, out);
+  reader.finish();
+  if (out.name.empty()) out.name = otherwise;
+}
+
 /// `key`: that of the method.
 Material read_material(const std::string& key, const YAML::Node& node, const std::string& file,
                        const ConfigLibrary& library) {
   Material material;
   if (!node.IsDefined() || node.IsNull()) throw InvalidInput::missing(key, library.allowed("materials")).in_file(file);
   if (!node.IsScalar() && !node.IsMap()) throw InvalidInput(file, key, as_given(node), library.allowed("materials"));
-  if (node.IsScalar()) {
-    const fs::path path = library.find("materials", node.Scalar(), key);
-    Reader reader(read_yaml(path), path.string(), "", "a material");
-    fields::material(reader, material);
-    reader.finish();
-    if (material.name.empty()) material.name = path.stem().string();
+  if (node.IsMap()) {
+    read_named(Reader(node, file, key), fields::material, "own", material);
   } else {
-    Reader reader(node, file, key);
-    fields::material(reader, material);
-    reader.finish();
-    if (material.name.empty()) material.name = "own";
+    const fs::path path = library.find("materials", node.Scalar(), key);
+    read_named(Reader(read_yaml(path), path.string(), "", "a material"), fields::material, path.stem().string(),
+               material);
   }
   return material;
 }
@@ -55,31 +138,27 @@ Material read_material(const std::string& key, const YAML::Node& node, const std
 LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, const Material& material,
                                const LoadCellOptions& by_default, const ConfigLibrary& library,
                                std::vector<std::string>& automatic) {
+  const std::string key = "machine.load_cell";
   LoadCellOptions cell = by_default;
-  const std::optional<std::string> name = load_cell_name(node, material.load_cell);
-  if (node.IsSequence()) throw InvalidInput(file, "machine.load_cell", as_given(node), library.allowed("load_cells"));
-  if (node.IsDefined() && !node.IsNull() && !node.IsScalar()) {
-    Reader reader(node, file, "machine.load_cell");
+  if (node.IsSequence()) throw InvalidInput(file, key, as_given(node), library.allowed("load_cells"));
+  if (node.IsDefined() && node.IsMap()) {
+    Reader reader(node, file, key);
     reader.note_automatic(automatic);
-    fields::load_cell(reader, cell);
-    reader.finish();
-    if (cell.name.empty()) cell.name = "own";
-  } else if (!name) {
-    cell.name = "auto";
-    automatic.emplace_back("machine.load_cell.capacity");
+    read_named(reader, fields::load_cell, "own", cell);
+  } else if (const std::optional<std::string> name = load_cell_name(node, material.load_cell)) {
+    const fs::path path = library.find("load_cells", *name, key);
+    read_named(Reader(read_yaml(path), path.string(), "", "a load cell"), fields::load_cell, path.stem().string(),
+               cell);
   } else {
-    const fs::path path = library.find("load_cells", *name, "machine.load_cell");
-    Reader reader(read_yaml(path), path.string(), "", "a load cell");
-    fields::load_cell(reader, cell);
-    reader.finish();
-    if (cell.name.empty()) cell.name = path.stem().string();
+    cell.name = "auto";
+    automatic.push_back(key + ".capacity");
   }
   return cell;
 }
 
 /// Notes the keys that are `automatic`.
 Program read_program(const YAML::Node& node, const std::string& file, const Material& material,
-                     const fields::Defaults& defaults, std::vector<std::string>& automatic) {
+                     const Defaults& defaults, std::vector<std::string>& automatic) {
   const std::vector<std::string> steps = step_names();
   const std::string form = "a list of steps, such as [{pull: {until: {break: true}}}]";
   if (!node.IsDefined() || node.IsNull()) throw InvalidInput::missing("program", form).in_file(file);
@@ -189,20 +268,19 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   method.specimen.drawing = read_drawing(knot, file, library);
   if (method.specimen.drawing) knot = method.specimen.drawing->name;  // a path may be given in many ways
   fields::knot(specimen, method.specimen);
-  const fields::Defaults defaults = fields::defaults(method.specimen, method.material, known);
-  method.specimen = defaults.specimen;
+  const Defaults auto_values = defaults(method.specimen, method.material, known);
+  method.specimen = auto_values.specimen;
   fields::specimen(specimen, method.specimen);
   specimen.finish();
-  method.machine = defaults.machine;
+  method.machine = auto_values.machine;
   Reader machine = top.in("machine");
   fields::machine(machine, method.machine);
-  method.machine.load_cell =
-      read_load_cell(machine.take("load_cell"), file, method.material, defaults.machine.load_cell, library, automatic);
+  method.machine.load_cell = read_load_cell(machine.take("load_cell"), file, method.material,
+                                            auto_values.machine.load_cell, library, automatic);
   machine.finish();
-  method.program = read_program(top.take("program"), file, method.material, defaults, automatic);
-  if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
+  method.program = read_program(top.take("program"), file, method.material, auto_values, automatic);
+  if (known) set_creep(known->physics.friction.law, auto_values.slip_tolerance, method.physics.friction);
   fields::behind_program(top, method);
-  top.section("report", [&](Fields& f) { fields::report(f, method.report); });
   method.specification = read_specification(top.take("specification"), file);
   bool usual_scatter = true;
   method.specimens = read_specimens(top.take("specimens"), file, usual_scatter);
@@ -210,6 +288,17 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   method.automatic = read_automatic(top.take("automatic"), file);
   top.finish();
   return method;
+}
+
+/// Keys without effect hold placeholders; writing them would misstate the test.
+void leave_out_idle_keys(const Method& m, YAML::Node& root) {
+  const Knot& knot = knot_of(m.specimen);
+  std::vector<std::string> idle;
+  for (const auto& item : root["specimen"])
+    if (!knot.has(item.first.Scalar())) idle.push_back(item.first.Scalar());
+  for (const std::string& key : idle) root["specimen"].remove(key);
+  if (!knot.about().loop) root["machine"].remove("roller_diameter");
+  if (!rollers_hold(m.specimen, m.machine)) root["machine"].remove("far_side");
 }
 
 }  // namespace
@@ -269,22 +358,6 @@ Method parse_method(const std::string& text, const std::string& file, const std:
 
 using fields::Writer;
 
-namespace {
-
-/// Keys that another choice leaves without effect have plain values, which suit no rod, and would say what the test is
-/// not.
-void leave_out_idle_keys(const Method& m, YAML::Node& root) {
-  const Knot& knot = knot_of(m.specimen);
-  std::vector<std::string> idle;
-  for (const auto& item : root["specimen"])
-    if (!knot.has(item.first.Scalar())) idle.push_back(item.first.Scalar());
-  for (const std::string& key : idle) root["specimen"].remove(key);
-  if (!knot.about().loop) root["machine"].remove("roller_diameter");
-  if (!rollers_hold(m.specimen, m.machine)) root["machine"].remove("far_side");
-}
-
-}  // namespace
-
 std::string method_yaml(const Method& method) {
   Method m = method;
   Writer top;
@@ -298,7 +371,6 @@ std::string method_yaml(const Method& method) {
     root["program"].push_back(entry_map);
   }
   fields::behind_program(top, m);
-  top.section("report", [&](Fields& f) { fields::report(f, m.report); });
   for (Requirement& required : m.specification) {
     Writer limits;
     fields::requirement(limits, required);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -92,18 +93,20 @@ inline std::string plain_number(double value) {
   return text.substr(0, exponent) + "e" + std::to_string(std::stoi(text.substr(exponent + 1)));
 }
 
-inline std::string with_unit(const std::string& text, const Range& range) {
-  return std::string(range.unit) == "-" ? text : text + " " + range.unit;
-}
-
 inline std::string whole_text(double value) { return std::to_string(static_cast<long long>(value)); }
+
+/// "0.0001 to 100000".
+inline std::string range_without_unit(const Range& range) {
+  const std::string min = plain_number(range.min), max = plain_number(range.max);
+  if (range.only_ends) return min + ", " + max;
+  if (std::isinf(range.max)) return "at least " + min;
+  return range.min == range.max ? min : min + " to " + max;
+}
 
 /// "0.0001 to 100000 N".
 inline std::string range_text(const Range& range) {
-  if (range.min == range.max) return with_unit(plain_number(range.min), range);
-  if (range.only_ends) return plain_number(range.min) + ", " + plain_number(range.max);
-  if (std::isinf(range.max)) return "at least " + with_unit(plain_number(range.min), range);
-  return with_unit(plain_number(range.min) + " to " + plain_number(range.max), range);
+  const bool has_unit = std::string(range.unit) != "-" && !range.only_ends;
+  return range_without_unit(range) + (has_unit ? std::string(" ") + range.unit : "");
 }
 
 /// "a number from 0.0001 to 100000 (in N)".
@@ -122,7 +125,8 @@ class Reader : public Fields {
   /// `path`: dotted path of the map, empty for the top of a file. `of`: what the file describes, for messages.
   Reader(const YAML::Node& map, std::string file, std::string path, std::string of = "a method")
       : map_(map), file_(std::move(file)), path_(std::move(path)), of_(std::move(of)) {
-    if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap()) fail_here(map_, "a map of keys and values");
+    if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap())
+      throw InvalidInput(file_, path_.empty() ? "the file" : path_, as_given(map_), "a map of keys and values");
   }
 
   /// From now on numbers in newtons may be given in these terms.
@@ -171,30 +175,12 @@ class Reader : public Fields {
   }
 
   void vector(const char* key, Eigen::Vector3d& value, const Range& range) override {
-    const YAML::Node node = take(key);
-    if (!node.IsDefined()) return;
-    const std::string allowed = "a list [x, y, z], each " + number_text(range);
-    if (!node.IsSequence() || node.size() != 3) fail(key, node, allowed);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::optional<double> number = number_in(node[i]);
-      if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed);
-      value[static_cast<Eigen::Index>(i)] = *number;
-    }
+    if (const auto found = list<3>(key, range, "[x, y, z]")) value = {(*found)[0], (*found)[1], (*found)[2]};
   }
 
   void low_high(const char* key, std::optional<LowHigh>& value, const Range& range) override {
-    const YAML::Node node = take(key);
-    if (!node.IsDefined()) return;
-    const std::string allowed = "a list [low, high] with low below high, each " + number_text(range) + or_term(range);
-    if (!node.IsSequence() || node.size() != 2) fail(key, node, allowed);
-    double numbers[2];
-    for (std::size_t i = 0; i < 2; ++i) {
-      const std::optional<double> number = number_in(key, node[i], range);
-      if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed);
-      numbers[i] = *number;
-    }
-    if (numbers[0] >= numbers[1]) fail(key, node, allowed);
-    value = LowHigh{numbers[0], numbers[1]};
+    if (const auto found = list<2>(key, range, "[low, high] with low below high"))
+      value = LowHigh{(*found)[0], (*found)[1]};
   }
 
   void section(const char* key, const std::function<void(Fields&)>& body) override {
@@ -240,13 +226,6 @@ class Reader : public Fields {
     throw InvalidInput(file_, path_of(key), as_given(value), allowed);
   }
 
-  /// The same for a name that is not among the known ones.
-  [[noreturn]] void fail_name(const std::string& key, const YAML::Node& value,
-                              const std::vector<std::string>& names) const {
-    if (!value.IsScalar()) fail(key, value, listed(names));
-    throw InvalidInput::unknown_name(path_of(key), value.Scalar(), listed(names), names).in_file(file_);
-  }
-
  private:
   void visit_number(const char* key, double& value, const Range& range, Unset unset) override {
     const YAML::Node node = take(key);
@@ -279,9 +258,28 @@ class Reader : public Fields {
   void visit_name(const char* key, std::size_t& index, const std::vector<std::string>& names) override {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
-    const auto found = std::find(names.begin(), names.end(), node.IsScalar() ? node.Scalar() : "");
-    if (found == names.end()) fail_name(key, node, names);
+    if (!node.IsScalar()) fail(key, node, listed(names));
+    const auto found = std::find(names.begin(), names.end(), node.Scalar());
+    if (found == names.end())
+      throw InvalidInput::unknown_name(path_of(key), node.Scalar(), listed(names), names).in_file(file_);
     index = static_cast<std::size_t>(found - names.begin());
+  }
+
+  /// The numbers of a list, of which two ascend; empty: the key is left out.
+  template <std::size_t N>
+  std::optional<std::array<double, N>> list(const char* key, const Range& range, const std::string& form) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return std::nullopt;
+    std::array<double, N> out{};
+    bool fits = node.IsSequence() && node.size() == N;
+    for (std::size_t i = 0; fits && i < N; ++i) {
+      const std::optional<double> number = number_in(key, node[i], range);
+      fits = number && *number >= range.min && *number <= range.max;
+      if (fits) out[i] = *number;
+    }
+    if (!fits || (N == 2 && out[0] >= out[N - 1]))
+      fail(key, node, "a list " + form + ", each " + number_text(range) + or_term(range));
+    return out;
   }
 
   static bool is_auto(const YAML::Node& node) { return node.IsScalar() && node.Scalar() == "auto"; }
@@ -291,10 +289,6 @@ class Reader : public Fields {
   }
 
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-
-  [[noreturn]] void fail_here(const YAML::Node& value, const std::string& allowed) const {
-    throw InvalidInput(file_, path_.empty() ? "the file" : path_, as_given(value), allowed);
-  }
 
   static std::optional<double> number_in(const YAML::Node& node) {
     return node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;

@@ -69,21 +69,12 @@ std::map<std::string, std::string> titles_of_knots(const std::vector<std::string
   return found;
 }
 
-/// What can be listed, and where it lies in the shipped folders; some knots are no files.
-struct Listed {
-  const char* kind;
-  const char* subfolder;
-};
-constexpr Listed kListed[] = {{"methods", ""},
-                              {"materials", "materials"},
-                              {"knots", nullptr},
-                              {"standards", "standards"},
-                              {"validation", "validation"},
-                              {"studies", "studies"}};
+/// What can be listed.
+const std::vector<std::string> kKinds{"methods", "materials", "knots", "standards", "validation", "studies"};
 
-std::string listing_of(const Listed& what, const std::vector<std::string>& shipped) {
+std::string listing_of(const std::string& kind, const std::vector<std::string>& shipped) {
   const std::map<std::string, std::string> found =
-      what.subfolder == nullptr ? titles_of_knots(shipped) : shipped_in(what.subfolder, shipped);
+      kind == "knots" ? titles_of_knots(shipped) : shipped_in(kind == "methods" ? "" : kind, shipped);
   std::size_t width = 0;
   for (const auto& [name, about] : found) width = std::max(width, name.size());
   std::string out;
@@ -94,15 +85,11 @@ std::string listing_of(const Listed& what, const std::vector<std::string>& shipp
 }  // namespace
 
 std::string shipped_listing(const std::string& kind, const std::vector<std::string>& shipped) {
+  if (std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end()) return listing_of(kind, shipped);
+  if (!kind.empty()) throw InvalidInput::unknown_name("--list", kind, listed(kKinds), kKinds);
   std::string all;
-  std::vector<std::string> kinds;
-  for (const Listed& what : kListed) {
-    if (kind == what.kind) return listing_of(what, shipped);
-    all += (all.empty() ? "" : "\n") + std::string(what.kind) + ":\n" + listing_of(what, shipped);
-    kinds.emplace_back(what.kind);
-  }
-  if (kind.empty()) return all;
-  throw InvalidInput::unknown_name("--list", kind, listed(kinds), kinds);
+  for (const std::string& one : kKinds) all += (all.empty() ? "" : "\n") + one + ":\n" + listing_of(one, shipped);
+  return all;
 }
 
 std::vector<std::string> shipped_folders() {

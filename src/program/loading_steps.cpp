@@ -38,8 +38,8 @@ void MountStep::steer(const Sample& now, CrossheadCourse& course) { course.move(
 
 void PreloadStep::keys(fields::Fields& f, double) {
   f.required_number("load", load, {1e-6, 1e8, "N"});
-  f.scaled_number("speed", speed, kSpeeds);
-  f.optional_number("load_rate", load_rate, kLoadRates, "none");
+  speed_key(f);
+  f.says("load rate; experimental").optional_number("load_rate", load_rate, kLoadRates, "none");
   f.flag("balance", balance);
 }
 
@@ -62,10 +62,13 @@ void BalanceStep::begin(const Sample&, CrossheadCourse& course) { course.balance
 double BalanceStep::usual_duration(const CrossheadCourse& course) const { return course.period(); }
 
 void PullStep::keys(fields::Fields& f, double usual_extension) {
-  f.scaled_number("speed", speed, kSpeeds);
-  f.optional_number("load_rate", load_rate, kLoadRates, "none");
+  speed_key(f);
+  f.says("load rate; experimental").optional_number("load_rate", load_rate, kLoadRates, "none");
   f.section("until", [&](fields::Fields& u) {
-    u.optional_number("extension", until.extension, {1e-6, 100.0, "m"}, "none", usual_extension);
+    u.says(
+         "extension; `auto`: 37.8 radii, or 0.7 `knot_distance` if more; overhand `length`/10; straight `length`/25; "
+         "file 12.6 radii; capstan 1.5 radii of its bend")
+        .optional_number("extension", until.extension, {1e-6, 100.0, "m"}, "none", usual_extension);
     u.optional_number("load", until.load, {1e-6, 1e8, "N"}, "none");
     u.optional_number("time", until.time, {1e-3, 1e6, "s"}, "none");
     u.flag("break", until.broken);
@@ -106,8 +109,8 @@ double PullStep::usual_duration(const CrossheadCourse& course) const {
 void HoldStep::keys(fields::Fields& f, double) {
   f.required_number("duration", duration, {1e-3, 1e6, "s"});
   f.choice("control", hold_load, std::array{"extension", "load"});
-  f.optional_number("load", held_load, {-1e8, 1e8, "N"}, "auto");
-  if (hold_load || f.lists_all()) f.scaled_number("speed", speed, kSpeeds);
+  f.says("load; with `control: load`", "as it is").optional_number("load", held_load, {-1e8, 1e8, "N"}, "auto");
+  if (hold_load || f.lists_all()) speed_key(f);
 }
 
 void HoldStep::check(const StepPlace& place) const {
@@ -131,8 +134,8 @@ EndedBy HoldStep::ended(const Sample&, CrossheadCourse& course) {
 void CycleStep::keys(fields::Fields& f, double) {
   f.low_high("extension", extension, {-100.0, 100.0, "m"});
   f.low_high("load", load, {-1e8, 1e8, "N"});
-  f.scaled_number("speed", speed, kSpeeds);
-  f.integer("count", cycles, 0, 1000000);
+  speed_key(f);
+  f.says("count; 0: no limit").integer("count", cycles, 0, 1000000);
   f.optional_number("time", time, {1e-3, 1e6, "s"}, "none");
 }
 
@@ -180,7 +183,7 @@ double CycleStep::usual_duration(const CrossheadCourse&) const {
 }
 
 void ReturnStep::keys(fields::Fields& f, double) {
-  f.scaled_number("speed", speed, kSpeeds);
+  speed_key(f);
   f.number("extension", extension, {-100.0, 100.0, "m"});
   f.optional_number("load", load, {-1e8, 1e8, "N"}, "none");
 }
@@ -201,11 +204,12 @@ double ReturnStep::usual_duration(const CrossheadCourse& course) const {
 }
 
 void TwistStep::keys(fields::Fields& f, double) {
-  f.required_number("turns", turns, {-1e4, 1e4, "-"});
+  f.says("turns; of the upper clamp with all strands in it, right-handed about up")
+      .required_number("turns", turns, {-1e4, 1e4, "-"});
   f.number("rate", rate, {1e-6, 10.0, "1/s"});
   f.optional_number("torque", torque, {1e-12, 1e6, "N m"}, "none");
   f.choice("control", hold_load, std::array{"extension", "load"});
-  if (hold_load || f.lists_all()) f.scaled_number("speed", speed, kSpeeds);
+  if (hold_load || f.lists_all()) speed_key(f);
 }
 
 void TwistStep::check(const StepPlace& place) const {

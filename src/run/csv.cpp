@@ -22,22 +22,29 @@ namespace {
 struct Column {
   const char* name;
   const char* unit;
-  double CurveRow::*value;
+  double CurveRow::*value;  // null: the phase
+  bool required = true;     // of a file that is read
 };
 
-constexpr std::array<Column, 6> kColumns{{{"time", sample_unit("time"), &CurveRow::time},
-                                          {"extension", sample_unit("extension"), &CurveRow::extension},
-                                          {"load", sample_unit("load"), &CurveRow::load},
-                                          {"knot_distance", sample_unit("knot_distance"), &CurveRow::knot_distance},
-                                          {"end_to_end", sample_unit("end_to_end"), &CurveRow::end_to_end},
-                                          {"load_lower", sample_unit("force_lower"), &CurveRow::load_lower}}};
-constexpr const char* kPhase = "phase";
-constexpr const char* kPhaseUnit = sample_unit(kPhase);
-constexpr Column kBalance = {"balance_offset", sample_unit("balance_offset"), &CurveRow::balance_offset};
-constexpr Column kTravel = {"crosshead_travel", sample_unit("raw_extension"), &CurveRow::crosshead_travel};
+/// The last one is written for a compliant frame only.
+constexpr std::array<Column, 9> kColumns{
+    {{"time", sample_unit("time"), &CurveRow::time},
+     {"extension", sample_unit("extension"), &CurveRow::extension},
+     {"load", sample_unit("load"), &CurveRow::load},
+     {"knot_distance", sample_unit("knot_distance"), &CurveRow::knot_distance},
+     {"end_to_end", sample_unit("end_to_end"), &CurveRow::end_to_end},
+     {"load_lower", sample_unit("force_lower"), &CurveRow::load_lower},
+     {"phase", sample_unit("phase"), nullptr},
+     {"balance_offset", sample_unit("balance_offset"), &CurveRow::balance_offset, false},
+     {"crosshead_travel", sample_unit("raw_extension"), &CurveRow::crosshead_travel, false}}};
 
-std::vector<Column> behind_the_phase(bool compliant_frame) {
-  return compliant_frame ? std::vector<Column>{kBalance, kTravel} : std::vector<Column>{kBalance};
+/// A line with a cell for each column.
+template <class Cell>
+std::string row_text(bool compliant_frame, const Cell& cell) {
+  std::string line;
+  for (const Column& column : kColumns)
+    if (&column != &kColumns.back() || compliant_frame) line += (line.empty() ? "" : ",") + std::string(cell(column));
+  return line + '\n';
 }
 
 void open(std::ofstream& out, const std::string& file) {
@@ -56,17 +63,19 @@ std::vector<std::string_view> cells(std::string_view line) {
   }
 }
 
-/// Where a column stands, its unit checked.
-std::size_t place(const std::string& file, const std::vector<std::string_view>& names,
-                  const std::vector<std::string_view>& units, const char* name, const char* unit) {
-  const auto found = std::find(names.begin(), names.end(), name);
+/// Where a column stands, its unit checked; empty: nowhere, and it need not.
+std::optional<std::size_t> place(const std::string& file, const std::vector<std::string_view>& names,
+                                 const std::vector<std::string_view>& units, const Column& column) {
+  const auto found = std::find(names.begin(), names.end(), column.name);
+  if (found == names.end() && !column.required) return std::nullopt;
   if (found == names.end())
-    throw InvalidInput::sentence("row 1", "row 1 names no column " + std::string(name) + ", which a curve.csv has")
+    throw InvalidInput::sentence("row 1",
+                                 "row 1 names no column " + std::string(column.name) + ", which a curve.csv has")
         .in_file(file);
   const std::size_t index = static_cast<std::size_t>(found - names.begin());
   const std::string given = index < units.size() ? "\"" + std::string(units[index]) + "\"" : "missing";
-  if (index >= units.size() || units[index] != unit)
-    throw InvalidInput(file, "row 2: the unit of " + std::string(name), given, unit);
+  if (index >= units.size() || units[index] != column.unit)
+    throw InvalidInput(file, "row 2: the unit of " + std::string(column.name), given, column.unit);
   return index;
 }
 
@@ -75,28 +84,15 @@ std::size_t place(const std::string& file, const std::vector<std::string_view>& 
 CurveWriter::CurveWriter(const std::string& file, bool compliant_frame)
     : file_(file), compliant_frame_(compliant_frame) {
   open(out_, file);
-  std::string names;
-  std::string units;
-  for (const Column& column : kColumns) {
-    names += std::string(column.name) + ',';
-    units += std::string(column.unit) + ',';
-  }
-  names += kPhase;
-  units += kPhaseUnit;
-  for (const Column& column : behind_the_phase(compliant_frame)) {
-    names += std::string(",") + column.name;
-    units += std::string(",") + column.unit;
-  }
-  out_ << names << '\n' << units << '\n' << std::flush;
+  out_ << row_text(compliant_frame, [](const Column& column) { return column.name; })
+       << row_text(compliant_frame, [](const Column& column) { return column.unit; }) << std::flush;
 }
 
 void CurveWriter::write(const CurveRow& row) {
-  std::string line;
   // Adding zero turns -0 into 0.
-  for (const Column& column : kColumns) line += format_number(row.*column.value + 0.0) + ',';
-  line += phase_name(row.phase);
-  for (const Column& column : behind_the_phase(compliant_frame_)) line += ',' + format_number(row.*column.value + 0.0);
-  out_ << line << '\n' << std::flush;
+  out_ << row_text(compliant_frame_, [&](const Column& column) {
+    return column.value ? format_number(row.*column.value + 0.0) : phase_name(row.phase);
+  }) << std::flush;
   if (!out_) throw CannotWrite(file_);
   ++rows_;
 }
@@ -117,12 +113,9 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   }
   const std::vector<std::string_view> names = cells(head[0]);
   const std::vector<std::string_view> units = cells(head[1]);
-  std::vector<Column> columns(kColumns.begin(), kColumns.end());
-  for (const Column& column : {kBalance, kTravel})
-    if (std::find(names.begin(), names.end(), column.name) != names.end()) columns.push_back(column);
-  std::vector<std::size_t> places;
-  for (const Column& column : columns) places.push_back(place(file, names, units, column.name, column.unit));
-  const std::size_t phase_place = place(file, names, units, kPhase, kPhaseUnit);
+  std::array<std::optional<std::size_t>, kColumns.size()> places;
+  std::transform(kColumns.begin(), kColumns.end(), places.begin(),
+                 [&](const Column& column) { return place(file, names, units, column); });
 
   std::vector<CurveRow> rows;
   while (text.next()) {
@@ -133,17 +126,17 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
                                             std::to_string(names.size()) + " as row 1 has")
           .in_file(file);
     CurveRow row;
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const std::optional<double> value = parse_number(values[places[i]]);
-      if (!value)
-        throw InvalidInput(file, key + ": " + columns[i].name, "\"" + std::string(values[places[i]]) + "\"",
-                           "a number");
-      row.*columns[i].value = *value;
+    for (std::size_t i = 0; i < kColumns.size(); ++i) {
+      if (!places[i]) continue;
+      const std::string_view cell = values[*places[i]];
+      const std::optional<double> number = kColumns[i].value ? parse_number(cell) : std::nullopt;
+      const std::optional<Phase> phase = kColumns[i].value ? std::nullopt : phase_named(std::string(cell));
+      if (!number && !phase)
+        throw InvalidInput(file, key + ": " + kColumns[i].name, "\"" + std::string(cell) + "\"",
+                           kColumns[i].value ? "a number" : "a phase of a test, such as pull");
+      if (number) row.*kColumns[i].value = *number;
+      if (phase) row.phase = *phase;
     }
-    const std::string phase(values[phase_place]);
-    const std::optional<Phase> known = phase_named(phase);
-    if (!known) throw InvalidInput(file, key + ": phase", "\"" + phase + "\"", "a phase of a test, such as pull");
-    row.phase = *known;
     rows.push_back(row);
   }
   if (!text.fault().empty()) throw InvalidInput::sentence("rows", text.fault()).in_file(file);
@@ -164,12 +157,6 @@ void write_centreline(const std::string& file, const Points& points, const std::
   out.close();
   if (!out) throw CannotWrite(file);
 }
-
-namespace {
-
-bool pulled(const CurveRow& row) { return pulls(row.phase); }
-
-}  // namespace
 
 std::string curve_file_of(const std::string& given, std::optional<int> specimen) {
   std::error_code error;
@@ -207,6 +194,7 @@ std::vector<CurveRow> read_course(const std::string& file, const Tell& tell) {
                                  "the file is no curve.csv; import_instron makes one of what a testing machine exports")
         .in_file(file);
   std::vector<CurveRow> rows = read_curve(file);
+  const auto pulled = [](const CurveRow& row) { return pulls(row.phase); };
   const auto first = std::find_if(rows.begin(), rows.end(), pulled);
   if (first == rows.end()) return {};
   const auto begin = first == rows.begin() ? first : first - 1;

@@ -16,21 +16,8 @@ namespace {
 /// From which load on a fall may be a break: testing machines have such a fraction.
 constexpr double kArmingFraction = 0.02;  // of the cell's capacity
 
-/// A record that is faster than any testing machine is in other units than it says, or is none.
-void check_speed(const FollowStep& step, const std::string& key) {
-  for (std::size_t i = 1; i < step.recorded.size(); ++i) {
-    const RecordedPlace &from = step.recorded[i - 1], &to = step.recorded[i];
-    const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
-    if (speed > kFastestCrosshead)
-      throw InvalidInput::sentence(key, key + ": the crosshead of " + shown(step.record) + " moves at " +
-                                            format_number(speed) + " m/s at " + format_number(from.time) +
-                                            " s, but must be no faster than " + format_number(kFastestCrosshead) +
-                                            " m/s");
-  }
-}
-
-/// Reads the motion of the crosshead that a step follows, from the record of another test.
-/// `follow`: the key of the step.
+/// Reads the motion of the crosshead that a step follows, from the record of another test. One that is faster than any
+/// testing machine is in other units than it says, or is none. `follow`: the key of the step.
 void read_record(const std::string& follow, FollowStep& step, const Tell& tell) {
   const std::string key = follow + ".record";
   step.record = curve_file_of(step.record);
@@ -38,13 +25,22 @@ void read_record(const std::string& follow, FollowStep& step, const Tell& tell) 
   if (!std::filesystem::is_regular_file(step.record, error)) throw InvalidInput::cannot_read(step.record, key);
   const std::vector<CurveRow> course = read_course(step.record, tell);
   for (const CurveRow& row : course) {
-    const RecordedPlace place{row.time - course.front().time, travel_of(row) - travel_of(course.front())};
-    if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);
+    const RecordedPlace to{row.time - course.front().time, travel_of(row) - travel_of(course.front())};
+    if (!step.recorded.empty()) {
+      const RecordedPlace& from = step.recorded.back();
+      if (!(to.time > from.time)) continue;
+      const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
+      if (speed > kFastestCrosshead)
+        throw InvalidInput::sentence(key, key + ": the crosshead of " + shown(step.record) + " moves at " +
+                                              format_number(speed) + " m/s at " + format_number(from.time) +
+                                              " s, but must be no faster than " + format_number(kFastestCrosshead) +
+                                              " m/s");
+    }
+    step.recorded.push_back(to);
   }
   if (step.recorded.size() < 2)
     throw InvalidInput::sentence(
         key, key + ": " + shown(step.record) + " has fewer than 2 readings of the pull at different times");
-  check_speed(step, key);
 }
 
 /// Reads the records that have not been read yet.

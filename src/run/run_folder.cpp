@@ -30,9 +30,9 @@ const std::string kResolved = "# Everything resolved: runs again to the same cur
 const std::string kOptions = "# It was run with: ";  // below that
 constexpr const char* kSpecimen = "specimen_";       // and a number, the folder of one
 
-/// What a run writes over when it begins, or leaves to who made it.
+/// Files that a run overwrites when it begins, or leaves alone because another program owns them.
 constexpr std::array<const char*, 4> kWritten{"method.yaml", "specimen.csv", "knot.yaml", "comparison.yaml"};
-/// What it takes away when it begins.
+/// Files of an earlier run that it removes when it begins.
 constexpr std::array<const char*, 13> kOld{
     "samples.csv", "shapes.bin", "curve.csv",   "curve_full.csv", "result.yaml",     "final_shape.csv", "shapes.csv",
     "test.bag",    "saved.bag",  "report.html", "report.pdf",     "statistics.yaml", "specimens.csv"};
@@ -55,6 +55,14 @@ void put_copy(const fs::path& file, const fs::path& copy) {
 /// Of a user's file. Knots that come with the package go by their names.
 bool is_own_knot(const Method& method) {
   return method.specimen.drawing && fs::path(method.specimen.drawing->name).is_absolute();
+}
+
+std::string for_shell(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
 }
 
 }  // namespace
@@ -92,8 +100,6 @@ void require_new_file(const char* argument, const std::string& file, const std::
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   if (head != begins) refuse(" is a file of another kind, which --overwrite does not replace: give another name");
 }
-
-void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); }
 
 std::string method_file_text(const Method& method) {
   Method own = method;
@@ -211,19 +217,19 @@ void write_whole(const std::string& file, const std::string& text) {
   if (error) throw CannotWrite(file, error.value());
 }
 
-std::string read_whole(const std::string& file) {
+std::string read_input(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream all;
   if (in.peek() != std::ifstream::traits_type::eof()) all << in.rdbuf();
-  if (!in) throw std::runtime_error(InvalidInput::cannot_read(file).what());
+  if (!in) throw InvalidInput::cannot_read(file);
   return all.str();
 }
 
-std::string read_input(const std::string& file) {
+std::string read_whole(const std::string& file) {
   try {
-    return read_whole(file);
-  } catch (const std::runtime_error&) {
-    throw InvalidInput::cannot_read(file);
+    return read_input(file);
+  } catch (const InvalidInput& invalid) {
+    throw std::runtime_error(invalid.what());
   }
 }
 
@@ -241,7 +247,7 @@ ClaimedFolder ClaimedFolder::first_free(const std::string& folder) {
 }
 
 bool ClaimedFolder::claim(const std::string& folder) {
-  make_run_folder(folder);
+  make_folder(folder, "--out");
   path_ = folder;
   folder_.reset(opendir(folder.c_str()));
   if (!folder_) throw InvalidInput::cannot_write("--out", folder, errno);
@@ -282,36 +288,20 @@ std::string point_latest_to(const std::string& folder) {
   return fs::path(folder).is_absolute() ? link.string() : link.lexically_proximate(fs::current_path(error)).string();
 }
 
-namespace {
-
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
-
-std::string from_here(const fs::path& file) {
-  std::error_code error;
-  const fs::path here = fs::current_path(error), near = file.lexically_proximate(here);
-  return error || near.empty() || *near.begin() == ".." ? file.string() : near.string();
-}
-
-}  // namespace
-
 std::string command_line(int argc, const char* const* argv) { return command_line({argv, argv + argc}); }
 
 std::string command_line(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + for_shell(word);
   return line;
 }
 
 std::string program_beside(const std::string& name) {
   std::error_code error;
   const fs::path running = fs::read_symlink("/proc/self/exe", error);
-  return error ? name : from_here(running.parent_path() / name);
+  if (error) return name;
+  const fs::path file = running.parent_path() / name, near = file.lexically_proximate(fs::current_path(error));
+  return error || near.empty() || *near.begin() == ".." ? file.string() : near.string();
 }
 
 }  // namespace knot_utm

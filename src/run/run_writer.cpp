@@ -43,6 +43,59 @@ double at(const Eigen::VectorXd& values, Eigen::Index i) {
   return i >= 0 && i < values.size() ? values[i] : Sample::kNone;
 }
 
+/// A loop that turned further around its rollers is told. The limit is half of the default roller's diameter, by choice
+/// [h].
+constexpr double kLargestLoopTurn = 6.0;
+
+bool holds_its_knot(const Results& results) {
+  return results.break_place == BreakPlace::kNone && results.knot_type == KnotType::kKept;
+}
+
+/// Mean mass per length of ropes of two materials over that of the first one.
+double mass_over_that_of_the_first(const Material& material, const Centreline& drawn) {
+  double first = 0.0, all = 0.0;
+  const std::vector<Piece> ropes = pieces_between(drawn.points.cols(), drawn.cuts);
+  for (const Piece& rope : ropes) {
+    const Points x = drawn.points.middleCols(rope.begin, rope.nodes());
+    const double length = length_of_pieces(x, {});
+    if (&rope == &ropes.front()) first = length;
+    all += length;
+  }
+  const double heavier = specimen_scales(*material.other).mass / specimen_scales(material).mass;
+  return (first + heavier * (all - first)) / all;
+}
+
+SpecimenFacts facts_of(const Method& method, const Centreline& drawn) {
+  const SpecimenOptions& specimen = method.specimen;
+  const KnotDescription& knot = knot_of(specimen).about();
+  SpecimenFacts out;
+  out.material = method.material;
+  out.strands = bearing_strands(specimen);
+  const double half_waves = method.machine.grips == GripKind::kClamps ? 2.0 : 1.0;
+  if (knot.straight) out.buckling_factor = std::pow(half_waves * M_PI, 2.0);
+  out.may_hold_a_knot = knot.may_hold_a_knot();
+  out.follows_type = !knot.may_hold_a_knot() || type_is_followed(specimen);
+  out.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
+  out.free_ends = drawn.free_ends.size();
+  if (specimen.drawing)
+    for (const KnotDrawing::Reading& reading : specimen.drawing->readings) out.knot_readings.push_back(reading.name);
+  for (const NodeForce& load : knot_of(specimen).supports(specimen, method.material).loads)
+    out.dead_load += load.force.norm();
+  if (specimen.to_be_tied && tied_by_preload(specimen)) out.preload = specimen.preload.value_or(Sample::kNone);
+  out.knot_distance = marks_of(specimen, method.program);
+  out.end_to_end = specimen.end_to_end;
+  for (const ProgramStep& step : method.program)
+    if (pulls(step->phase())) out.pull_speed = std::max(out.pull_speed, step->speed);
+  out.inertia = inertia_factor(method.material, method.physics, slack_of(specimen, drawn));
+  out.load_cell = method.machine.load_cell;
+  out.errors = relative_errors(specimen, method.material, method.machine, method.physics);
+  out.specification = method.specification;
+  out.foreseen = foreseen_warnings(method);
+  return out;
+}
+
+std::string in(const std::string& folder, const char* name) { return (std::filesystem::path(folder) / name).string(); }
+
 }  // namespace
 
 void ShapeSeries::add(const Record& record) {
@@ -88,34 +141,6 @@ void ShapeSeries::write(const Shape& shape, std::string& text) const {
   }
 }
 
-namespace {
-
-/// A loop that turned further around its rollers is told. The limit is half of the default roller's diameter, by choice
-/// [h].
-constexpr double kLargestLoopTurn = 6.0;
-
-bool holds_its_knot(const Results& results) {
-  return results.break_place == BreakPlace::kNone && results.knot_type == KnotType::kKept;
-}
-
-/// Mean mass per length of ropes of two materials over that of the first one.
-double mass_over_that_of_the_first(const Material& material, const Centreline& drawn) {
-  double first = 0.0, all = 0.0;
-  const std::vector<Piece> ropes = pieces_between(drawn.points.cols(), drawn.cuts);
-  for (const Piece& rope : ropes) {
-    const Points x = drawn.points.middleCols(rope.begin, rope.nodes());
-    const double length = length_of_pieces(x, {});
-    if (&rope == &ropes.front()) first = length;
-    all += length;
-  }
-  const double heavier = specimen_scales(*material.other).mass / specimen_scales(material).mass;
-  return (first + heavier * (all - first)) / all;
-}
-
-std::string in(const std::string& folder, const char* name) { return (std::filesystem::path(folder) / name).string(); }
-
-}  // namespace
-
 RunWriter::RunWriter(const std::string& folder, const Method& method, const MakeFurther& further)
     : RunWriter(folder, method, specimen_centreline(method.specimen, method.material, method.machine, method.physics)) {
   if (further) further_ = further(folder, method);
@@ -127,39 +152,15 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
       curve_(in(folder, "curve.csv"), std::isfinite(method.machine.stiffness)),
       full_curve_(in(folder, "curve_full.csv"), std::isfinite(method.machine.stiffness)),
       shapes_(drawn.cuts) {
-  known_.errors = relative_errors(method.specimen, method.material, method.machine, method.physics);
-  known_.material = method.material;
-  for (const NodeForce& load : knot_of(method.specimen).supports(method.specimen, method.material).loads)
-    known_.dead_load += load.force.norm();
-  const KnotDescription& knot = knot_of(method.specimen).about();
-  known_.strands = bearing_strands(method.specimen);
-  const double half_waves = method.machine.grips == GripKind::kClamps ? 2.0 : 1.0;
-  if (knot.straight) known_.buckling_factor = std::pow(half_waves * M_PI, 2.0);
-  known_.may_hold_a_knot = knot.may_hold_a_knot();
-  known_.follows_type = !knot.may_hold_a_knot() || type_is_followed(method.specimen);
-  if (method.specimen.drawing)
-    for (const KnotDrawing::Reading& reading : method.specimen.drawing->readings)
-      known_.knot_readings.push_back(reading.name);
-  known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
-  known_.knot_distance = marks_of(method.specimen, method.program);
-  known_.end_to_end = method.specimen.end_to_end;
-  if (method.specimen.to_be_tied && tied_by_preload(method.specimen))
-    known_.preload = method.specimen.preload.value_or(Sample::kNone);
-  known_.free_ends = drawn.free_ends.size();
+  static_cast<SpecimenFacts&>(known_) = facts_of(method, drawn);
+  known_.warnings = speed_warnings(method);
+  known_.version = version();
   hung_ = hung_weight(method.specimen, method.material);
-  known_.foreseen = foreseen_warnings(method);
   weight_per_length_ =
       method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
   if (method.material.other) weight_per_length_ *= mass_over_that_of_the_first(method.material, drawn);
   if (rollers_hold(method.specimen, method.machine)) radius_on_rollers_ = method.material.radius;
   far_side_held_ = method.machine.far_side == FarSide::kHeld;
-  known_.load_cell = method.machine.load_cell;
-  known_.inertia = inertia_factor(method.material, method.physics, slack_of(method.specimen, drawn));
-  for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
-  for (const ProgramStep& step : method.program)
-    if (pulls(step->phase())) known_.pull_speed = std::max(known_.pull_speed, step->speed);
-  known_.specification = method.specification;
-  known_.version = version();
 }
 
 void RunWriter::add(const Record& record) {
@@ -196,47 +197,37 @@ void RunWriter::add_to_files(const Record& record) {
   }
 }
 
-RunFacts RunWriter::facts() const {
-  RunFacts facts = known_;
-  facts.peak_memory = peak_memory();
-  facts.weight = weight_per_length_ * length_;
-  if (radius_on_rollers_ && turn_.largest() > kLargestLoopTurn * *radius_on_rollers_)
-    facts.warnings.push_back(
-        "the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
-        " radii of the rod, which carries its knots along" + (facts.weight > 0.0 ? ": physics.gravity turns it" : "") +
-        (far_side_held_
-             ? ", though machine.far_side holds it: fixed rollers with machine.roller_friction would keep it in place"
-             : "; machine.far_side: held or machine.roller_friction keeps it in place"));
-  return facts;
+std::vector<std::string> RunWriter::warnings_of_turn(double weight) const {
+  if (!radius_on_rollers_ || !(turn_.largest() > kLargestLoopTurn * *radius_on_rollers_)) return {};
+  return {"the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
+          " radii of the rod, which carries its knots along" + (weight > 0.0 ? ": physics.gravity turns it" : "") +
+          (far_side_held_
+               ? ", though machine.far_side holds it: fixed rollers with machine.roller_friction would keep it in place"
+               : "; machine.far_side: held or machine.roller_friction keeps it in place")};
 }
 
 MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, const ResultsOptions& options) {
   if (further_.close) further_.close();
-  MadeResults made;
-  made.results = analyse(samples_, readings_, end.ended_by, radius_on_rollers_.has_value(), hung_, known_.knot_distance,
-                         program_steps_);
-  made.facts = facts();
-  made.facts.reason = end.reason;
-  made.facts.wall_time = wall_time_;
-  if (!options.ran_here) made.facts.peak_memory = 0;
-  std::vector<std::string>& warnings = made.facts.warnings;
-  warnings.insert(warnings.end(), options.warnings.begin(), options.warnings.end());
-  made.rows = curve_.rows();
-  made.full_rows = full_curve_.rows();
-  write_ends(made.results, made.facts, final_shape);
-  return made;
-}
+  const Results results = analyse(samples_, readings_, end.ended_by, radius_on_rollers_.has_value(), hung_,
+                                  known_.knot_distance, program_steps_);
+  RunFacts facts = known_;
+  facts.reason = end.reason;
+  facts.wall_time = wall_time_;
+  facts.peak_memory = options.ran_here ? peak_memory() : 0;
+  facts.weight = weight_per_length_ * length_;
+  facts.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
+  if (facts.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
+    facts.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
+  for (const std::vector<std::string>& more : {warnings_of_turn(facts.weight), options.warnings})
+    facts.warnings.insert(facts.warnings.end(), more.begin(), more.end());
 
-void RunWriter::write_ends(const Results& results, RunFacts facts, const Points& final_shape) {
   if (final_shape.cols() > 0) write_centreline(in(folder_, "final_shape.csv"), final_shape, cuts_);
   if (!shapes_.empty()) {
     if (samples_.back().status == BenchStatus::kBroken) shapes_.add_parted(samples_.back().time, final_shape);
     write_whole(in(folder_, "shapes.csv"), shapes_.csv());
   }
-  facts.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
-  if (facts.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
-    facts.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
   write_whole(in(folder_, "result.yaml"), result_yaml(results, facts));
+  return {results, facts, curve_.rows(), full_curve_.rows()};
 }
 
 MadeResults make_results(const std::string& folder, const Method& method, const ResultsOptions& options) {

@@ -89,14 +89,11 @@ struct HeadWriter {
   }
 };
 
-const std::string& head() {
-  static const std::string text = [] {
-    HeadWriter head;
-    Row row;
-    visit_row(row, head);
-    return head.names + '\n' + head.units + '\n';
-  }();
-  return text;
+std::string head() {
+  HeadWriter head;
+  Row row;
+  visit_row(row, head);
+  return head.names + '\n' + head.units + '\n';
 }
 
 /// Appends a row.
@@ -138,7 +135,7 @@ struct RowWriter {
   }
 };
 
-void append_row(Row& row, std::string& out) {
+void append_row(Row row, std::string& out) {
   RowWriter writer{out};
   visit_row(row, writer);
   out += '\n';
@@ -228,12 +225,6 @@ class RowReader {
   bool filled_ = true, at_end_ = false;
 };
 
-Row row_of(const Sample& step) {
-  Row row;
-  row.sample = step;
-  return row;
-}
-
 std::string shapes_file(const std::string& folder) { return (fs::path(folder) / "shapes.bin").string(); }
 
 }  // namespace
@@ -277,9 +268,10 @@ SamplesReader::SamplesReader(const std::string& folder)
   std::error_code error;
   bytes_ = fs::file_size(file_, error);
   if (!in_ || error) throw InvalidInput::cannot_read(file_);
-  std::string begin(head().size(), '\0');
+  const std::string head = knot_utm::head();
+  std::string begin(head.size(), '\0');
   in_.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  if (!in_ || begin != head())
+  if (!in_ || begin != head)
     throw InvalidInput::sentence("row 1", "the columns are not those that this version writes").in_file(file_);
   whole_bytes_ = begin.size();
 }
@@ -379,12 +371,8 @@ void SamplesWriter::append(const Record& record) {
   // Before its row: a row that is there has its shape.
   if (record.shape.cols() > 0) append({record.command.sequence, record.shape, record.tension, record.readings});
   buffer_.clear();
-  for (const Sample& step : record.steps) {
-    Row row = row_of(step);
-    append_row(row, buffer_);
-  }
-  Row row{RowKind::kAnswer, record.wall_time, record.command, record.answer, {}};
-  append_row(row, buffer_);
+  for (const Sample& step : record.steps) append_row({RowKind::kStep, 0.0, {}, step, {}}, buffer_);
+  append_row({RowKind::kAnswer, record.wall_time, record.command, record.answer, {}}, buffer_);
   rows_.append(buffer_);
   last_ = record.answer;
 }
@@ -392,8 +380,7 @@ void SamplesWriter::append(const Record& record) {
 void SamplesWriter::end(const TestEnd& end, const Points& final_shape) {
   if (final_shape.cols() > 0) append({SamplesReader::kFinal, final_shape, {}, {}});
   buffer_.clear();
-  Row row{RowKind::kEnd, 0.0, {}, last_, end};
-  append_row(row, buffer_);
+  append_row({RowKind::kEnd, 0.0, {}, last_, end}, buffer_);
   rows_.append(buffer_);
 }
 

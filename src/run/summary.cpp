@@ -62,28 +62,18 @@ int decimals_of(double value, int digits) {
 /// Beside a value an error that is smaller by this much is one of rounding.
 constexpr double kRounding = 1e-6;
 
-/// The digits of a value and of its error, which is empty where there is none.
-struct Digits {
-  std::string value, error;
-};
-
-/// With four digits, or so that the last digit is the second one of the error.
-Digits digits_of(double value, double error) {
+/// With four digits, or so that the last digit is the second one of the error, which is shown or not.
+std::string text_of(double value, const std::string& unit, double error, bool with_error) {
   constexpr int kMost = 9;  // behind the point; a value below that is written with an exponent
+  const ShownUnit shown = shown_unit(unit, std::abs(value));
+  value *= shown.scale;
+  error *= shown.scale;
   const bool known = error > kRounding * std::abs(value);
   const int decimals = known ? decimals_of(error, 2) : decimals_of(value, 4);
-  if (!std::isfinite(value) || decimals > kMost) return {short_number(value), ""};
-  return {with_decimals(value, decimals), known ? with_decimals(error, decimals) : ""};
-}
-
-std::string with_unit(const std::string& number, const ShownUnit& unit) {
-  return unit.name.empty() ? number : number + " " + unit.name;
-}
-
-/// "4.98 N" where `reading_text` is "4.98 ± 0.24 N".
-std::string text_without_error(double value, const std::string& unit, double error) {
-  const ShownUnit shown = shown_unit(unit, std::abs(value));
-  return with_unit(digits_of(value * shown.scale, error * shown.scale).value, shown);
+  const bool plain = std::isfinite(value) && decimals <= kMost;
+  std::string text = plain ? with_decimals(value, decimals) : short_number(value);
+  if (plain && known && with_error) text += " ± " + with_decimals(error, decimals);
+  return shown.name.empty() ? text : text + " " + shown.name;
 }
 
 /// A line that begins with the name of a reading.
@@ -145,15 +135,14 @@ class ResultFile {
 };
 
 std::string unit_of(const std::string& key) {
-  const std::vector<ResultKey>& keys = result_keys();
-  const auto found = std::find_if(keys.begin(), keys.end(), [&](const ResultKey& one) { return one.name == key; });
-  return found == keys.end() ? "-" : found->unit;
+  const ResultKey* found = result_key(key);
+  return found ? found->unit : "-";
 }
 
 /// What belongs to a reading and is no error.
 std::string beside(const std::string& key, const ResultFile& result, double error) {
   const auto reading = [&](const char* of) {
-    return text_without_error(result.number(of).value_or(NAN), unit_of(of), error);
+    return text_of(result.number(of).value_or(NAN), unit_of(of), error, false);
   };
   if (key == "plateau_force" && result.number("plateau_force_low") && result.number("plateau_force_high"))
     return ", between " + reading("plateau_force_low") + " and " + reading("plateau_force_high");
@@ -230,12 +219,46 @@ std::string compared(const char* label, const std::optional<double>& a, const st
   return line_of(label, cell(a) + cell(b) + change);
 }
 
+constexpr std::array<const char*, 5> kOfComparison{"comparison.yaml", "a.csv", "b.csv", "report.html", "report.pdf"};
+
+/// Whether something stands in the folder that a comparison would write over, but for the very same comparison, or a
+/// run, whose page it would take.
+bool holds_another(const fs::path& folder, const std::string& yaml) {
+  std::error_code error;
+  const fs::path before = folder / kOfComparison.front();
+  if (fs::is_regular_file(before, error)) return read_whole(before.string()) != yaml;
+  for (const char* name :
+       {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "statistics.yaml", "samples.csv"})
+    if (fs::is_regular_file(folder / name, error)) return true;
+  return false;
+}
+
+void require_room_for_comparison(const std::string& folder, const std::string& file_a, const std::string& file_b) {
+  const fs::path where(folder);
+  std::error_code error;
+  if (fs::exists(where / "result.yaml", error))
+    throw InvalidInput::sentence(
+        "--report",
+        "the folder " + shown(folder) + " holds a run: choose another folder for the report of the comparison");
+  for (const char* name : kOfComparison) {
+    for (const std::string& compared : {file_a, file_b}) {
+      if (fs::equivalent(where / name, compared, error))
+        throw InvalidInput::sentence("--report", "the report would write over " + shown((where / name).string()) +
+                                                     ", which is compared: choose another folder");
+    }
+  }
+}
+
+std::string pull_csv(const Pull& pull) {
+  std::string text = "extension,load\nm,N\n";
+  for (const PullPoint& point : pull) text += format_number(point.extension) + "," + format_number(point.force) + "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string reading_text(double value, const std::string& unit, double error) {
-  const ShownUnit shown = shown_unit(unit, std::abs(value));
-  const Digits digits = digits_of(value * shown.scale, error * shown.scale);
-  return with_unit(digits.value + (digits.error.empty() ? "" : " ± " + digits.error), shown);
+  return text_of(value, unit, error, true);
 }
 
 std::string run_summary(const std::string& folder) {
@@ -291,46 +314,6 @@ void ProgressLine::end() {
   if (shown_) std::fputc('\n', out_);
   shown_ = false;
 }
-
-namespace {
-
-constexpr std::array<const char*, 5> kOfComparison{"comparison.yaml", "a.csv", "b.csv", "report.html", "report.pdf"};
-
-/// Whether something stands in the folder that a comparison would write over, but for the very same comparison, or a
-/// run, whose page it would take.
-bool holds_another(const fs::path& folder, const std::string& yaml) {
-  std::error_code error;
-  const fs::path before = folder / kOfComparison.front();
-  if (fs::is_regular_file(before, error)) return read_whole(before.string()) != yaml;
-  for (const char* name :
-       {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "statistics.yaml", "samples.csv"})
-    if (fs::is_regular_file(folder / name, error)) return true;
-  return false;
-}
-
-void require_room_for_comparison(const std::string& folder, const std::string& file_a, const std::string& file_b) {
-  const fs::path where(folder);
-  std::error_code error;
-  if (fs::exists(where / "result.yaml", error))
-    throw InvalidInput::sentence(
-        "--report",
-        "the folder " + shown(folder) + " holds a run: choose another folder for the report of the comparison");
-  for (const char* name : kOfComparison) {
-    for (const std::string& compared : {file_a, file_b}) {
-      if (fs::equivalent(where / name, compared, error))
-        throw InvalidInput::sentence("--report", "the report would write over " + shown((where / name).string()) +
-                                                     ", which is compared: choose another folder");
-    }
-  }
-}
-
-std::string pull_csv(const Pull& pull) {
-  std::string text = "extension,load\nm,N\n";
-  for (const PullPoint& point : pull) text += format_number(point.extension) + "," + format_number(point.force) + "\n";
-  return text;
-}
-
-}  // namespace
 
 std::string write_comparison(const std::string& asked, const std::string& yaml, const Pull& a, const Pull& b,
                              const std::string& file_a, const std::string& file_b, bool overwrite) {

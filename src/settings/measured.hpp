@@ -2,9 +2,8 @@
 
 #include "knot_utm/settings/accuracy.hpp"
 
-/// The tolerances behind `physics.accuracy`, and the constants of the errors that are reported beside readings. Each
-/// comment says which measurement gave the values. doc/developers/measured.md lists these and all other constants that
-/// decide what is measured or what it costs.
+/// The tolerances behind `physics.accuracy`, and the constants of the errors that are reported beside readings.
+/// doc/developers/measured.md says which measurement gave them, as all other constants that decide what is measured.
 namespace knot_utm::measured {
 
 // Longest step [s], residual [k_b/h^2], contact tolerance [h], presliding displacement [h], refinement [-].
@@ -38,47 +37,33 @@ inline constexpr double kTiedHard = 6.0, kShortestForHard = 4.0 / 3.0;
 
 // Relative errors at `normal` with edges of h/2.25 (h/2 where strands of rope roll, h for a solid rod). They are meant
 // to include 95 % of the differences from `fine` with edges half as long, a quarter of the presliding displacement and
-// steps of 0.025 s at most. They were chosen from loops that `scripts/bench readings` draws with seeds 41, 42, 44
-// and 46. doc/developers/benchmarks.md says how many of these draws, and of others, they include. Two knots of the same
-// handedness: nearly all plateaus are too low, and the more so the smaller mu is.
-// Seeds 71 and 81 had three loops with friction on centrelines, whose plateaus were off by 4.8 to 5.5 %; 0.048 was too
-// little for them, but includes all that roll.
+// steps of 0.025 s at most; doc/developers/benchmarks.md says how many they include. Two knots of the same handedness:
+// nearly all plateaus are too low, and the more so the smaller mu is.
 inline constexpr double kPlateau = 0.06, kRollingPlateau = 0.09, kSlippery = 0.8, kLeastFriction = 0.1;
 // Where strands roll and friction among fibres holds bends, the force grows faster than M0 mu as the knots come near to
-// locking themselves, and so does its error: by 1 + (M0 mu/kNearLocking)^2, with M0 in k_b/h. This includes all but
-// one of the plateaus of seeds 91 and 92 whose knots have the same handedness.
+// locking themselves, and so does its error: by 1 + (M0 mu/kNearLocking)^2, with M0 in k_b/h.
 inline constexpr double kNearLocking = 0.07;
-// The load at which a knot parts whose bend helps to part it (FibreBreaking), with edges of h: it is 1.7 to 4.6 %
-// too high in twelve knots of ropes (doc/developers/measured.md), and right within 1.6 % in those of solid rods.
-inline constexpr double kBreakInBend = 0.06;
-// The same where contacts that press it flat help, too: 3 to 8 % too high in five knots of ropes. Forces of contacts
-// converge more slowly than bends.
-inline constexpr double kBreakCrushed = 0.1;
+// The load at which a knot parts whose bend helps to part it, with edges of h; and where contacts that press it flat
+// help, too, whose forces converge more slowly than bends.
+inline constexpr double kBreakInBend = 0.06, kBreakCrushed = 0.1;
 // Two knots of opposite handedness: the plateau is one of a distribution. Small changes of mesh, tolerances or specimen
-// move it by as much, in either direction, whatever mu is.
-inline constexpr double kOppositePlateau = 0.25;
-// The same where strands roll: this includes all such loops of seeds 91 and 92 but two.
-inline constexpr double kOppositeRollingPlateau = 0.43;
+// move it by as much, in either direction, whatever mu is. The latter where strands roll.
+inline constexpr double kOppositePlateau = 0.25, kOppositeRollingPlateau = 0.43;
 // Knots that slide under a smaller force than this [k_b/h^2] are hardly closed. Their errors are not known, but where
 // strands roll: there those of plateau and lock are larger by these factors, but the former is no larger than that of
-// knots of opposite handedness. This includes all such loops of seeds 91 and 92.
-inline constexpr double kHardlyClosed = 0.15;
-inline constexpr double kHardlyClosedPlateau = 2.0, kHardlyClosedLock = 2.0;
-// The lock extension, with two knots of the same handedness and of opposite handedness.
-inline constexpr double kLock = 0.014, kOppositeLock = 0.045;
-// The latter where strands roll, which includes all such loops of seeds 91 and 92 but one.
-inline constexpr double kOppositeRollingLock = 0.055;
+// knots of opposite handedness.
+inline constexpr double kHardlyClosed = 0.15, kHardlyClosedPlateau = 2.0, kHardlyClosedLock = 2.0;
+// The lock extension, with two knots of the same handedness, of opposite handedness, and of the latter that roll.
+inline constexpr double kLock = 0.014, kOppositeLock = 0.045, kOppositeRollingLock = 0.055;
 // The locked stiffness of a rope, and that of a solid rod. The latter is multiplied by h over the distance of the
 // grips, because the error arises in the knots, which are the smaller a part of a loop the longer it is.
 inline constexpr double kRopesStiffness = 0.010, kSolidsStiffnessOfKnots = 1.2;
-// The locked stiffness where strands roll, of a rope and of any rod whose knots are of opposite handedness. They
-// include all such loops of seeds 91 and 92 but one, and all but two.
+// The locked stiffness where strands roll, of a rope and of any rod whose knots are of opposite handedness.
 inline constexpr double kRollingStiffness = 0.016, kOppositeRollingStiffness = 0.14;
 // Loops whose sections give: plateau, lock and stiffness, the last one with knots of the same handedness. A plateau of
 // knots that are not hardly closed is that of knots which nearly stretch. In five of six loops it is 34 to 97 % larger
 // with finer edges, which no error tells. Where knots are hardly closed, the error is the share kSoftHardlyClosed of
-// it. These were chosen after 80 loops of rubber, seeds 201 and 202 (`scripts/bench readings --materials soft`), of
-// which they include 18 of 19 such plateaus, 43 of 44 locks and 47 of 49 stiffnesses.
+// it.
 inline constexpr double kSoftPlateau = 0.6, kSoftHardlyClosed = 0.25, kSoftLock = 0.25, kSoftStiffness = 0.1;
 // an upper bound by judgement: the solution is exact except for the residual
 inline constexpr double kStraightStiffness = 1e-3;

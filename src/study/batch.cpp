@@ -3,7 +3,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
@@ -43,48 +42,6 @@ double drawn(double x0, const Scatter& scatter, std::mt19937_64 random) {
 std::uint32_t noise_run(unsigned seed, int number) {
   return static_cast<std::uint32_t>(sequence_of(seed, static_cast<std::uint64_t>(number), kNoise)() >> 33) + 1;
 }
-
-}  // namespace
-
-void check_fits(const Method& method) {
-  const TestingMachine machine(method.specimen, method.material, method.machine, method.physics);
-  make_program(method, machine.longest_step());
-}
-
-SampledSpecimen draw_specimen(const Method& method, int number) {
-  const SpecimensOptions& specimens = method.specimens;
-  Method one = method;
-  one.specimens = {};
-  one.specimens.scatter.clear();
-  SampledSpecimen specimen;
-  specimen.number = number;
-  std::vector<std::string> overrides;
-  for (const Scatter& scatter : specimens.scatter) {
-    const double nominal = number_at(method, scatter.key).value();
-    const double value =
-        drawn(nominal, scatter, sequence_of(specimens.seed, static_cast<std::uint64_t>(number), scatter.key));
-    specimen.drawn.emplace_back(scatter.key, value);
-    overrides.push_back(scatter.key + "=" + format_yaml_number(value));
-  }
-  overrides.push_back(kNoise + ("=" + std::to_string(noise_run(specimens.seed, number))));
-  try {
-    specimen.method = parse_method(method_yaml(one), method.name + ".yaml", overrides);
-    check_fits(specimen.method);
-  } catch (const InvalidInput& invalid) {
-    throw InvalidInput::sentence("specimens", "specimen " + std::to_string(number) + " of " +
-                                                  std::to_string(specimens.count) +
-                                                  " cannot be made: " + invalid.what());
-  }
-  return specimen;
-}
-
-std::vector<SampledSpecimen> draw_specimens(const Method& method) {
-  std::vector<SampledSpecimen> out;
-  for (int number = 1; number <= method.specimens.count; ++number) out.push_back(draw_specimen(method, number));
-  return out;
-}
-
-namespace {
 
 namespace fs = std::filesystem;
 using Specimens = std::vector<SampledSpecimen>;
@@ -185,12 +142,10 @@ class SideBySide {
 
 /// The numbers of a result that are of the specimen, and not of the computer, which differ from run to run.
 std::vector<const ResultKey*> keys_of_table() {
-  constexpr std::array of_the_computer{"wall_time", "real_time_factor", "peak_memory", "seed"};
+  const std::set<std::string> of_the_computer{"wall_time", "real_time_factor", "peak_memory", "seed"};
   std::vector<const ResultKey*> out;
   for (const ResultKey& key : result_keys())
-    if (key.is_number() &&
-        std::find(of_the_computer.begin(), of_the_computer.end(), std::string(key.name)) == of_the_computer.end())
-      out.push_back(&key);
+    if (key.is_number() && of_the_computer.count(key.name) == 0) out.push_back(&key);
   return out;
 }
 
@@ -291,6 +246,44 @@ bool is_complete(const std::string& folder, const Specimens& specimens) {
 }
 
 }  // namespace
+
+void check_fits(const Method& method) {
+  const TestingMachine machine(method.specimen, method.material, method.machine, method.physics);
+  make_program(method, machine.longest_step());
+}
+
+SampledSpecimen draw_specimen(const Method& method, int number) {
+  const SpecimensOptions& specimens = method.specimens;
+  Method one = method;
+  one.specimens = {};
+  one.specimens.scatter.clear();
+  SampledSpecimen specimen;
+  specimen.number = number;
+  std::vector<std::string> overrides;
+  for (const Scatter& scatter : specimens.scatter) {
+    const double nominal = number_at(method, scatter.key).value();
+    const double value =
+        drawn(nominal, scatter, sequence_of(specimens.seed, static_cast<std::uint64_t>(number), scatter.key));
+    specimen.drawn.emplace_back(scatter.key, value);
+    overrides.push_back(scatter.key + "=" + format_yaml_number(value));
+  }
+  overrides.push_back(kNoise + ("=" + std::to_string(noise_run(specimens.seed, number))));
+  try {
+    specimen.method = parse_method(method_yaml(one), method.name + ".yaml", overrides);
+    check_fits(specimen.method);
+  } catch (const InvalidInput& invalid) {
+    throw InvalidInput::sentence("specimens", "specimen " + std::to_string(number) + " of " +
+                                                  std::to_string(specimens.count) +
+                                                  " cannot be made: " + invalid.what());
+  }
+  return specimen;
+}
+
+std::vector<SampledSpecimen> draw_specimens(const Method& method) {
+  std::vector<SampledSpecimen> out;
+  for (int number = 1; number <= method.specimens.count; ++number) out.push_back(draw_specimen(method, number));
+  return out;
+}
 
 BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   const Specimens specimens = draw_specimens(method);

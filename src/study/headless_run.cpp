@@ -72,132 +72,8 @@ std::string code() {
   return "version " + version() + " of " + std::to_string(linked) + '\n';
 }
 
-}  // namespace
-
-std::optional<int> step_after_tying(const Program& program) {
-  bool tied = false;
-  for (std::size_t i = 0; i < program.size(); ++i) {
-    const Phase phase = program[i]->phase();
-    if (!ends_by_itself(phase) && !rests(phase)) return tied ? std::optional<int>(static_cast<int>(i)) : std::nullopt;
-    tied |= phase == Phase::kTie;
-  }
-  return std::nullopt;
-}
-
-std::string tied_from(const Method& method, int step, bool shapes) {
-  const YAML::Node values = physical_values(method);
-  std::string text = code() + (shapes ? "with shapes\n" : "without shapes\n");
-  for (const char* section : kPhysicalSections)
-    if (values[section]) text += std::string(section) + ":\n" + YAML::Dump(values[section]) + '\n';
-  for (int i = 0; i < step; ++i) text += "step: " + YAML::Dump(values["program"][i]) + '\n';
-  if (knot_of(method.specimen).has("file")) text += "shape:\n" + read_whole(method.specimen.file);
-  return text;
-}
-
-std::optional<TiedSpecimen> TiedSpecimen::of(const Method& method, bool shapes, const std::string& folder) {
-  const std::optional<int> step = step_after_tying(method.program);
-  if (!step) return std::nullopt;
-  std::string made_from = tied_from(method, *step, shapes);
-  fs::path run = fs::absolute(folder).lexically_normal();
-  if (!run.has_filename()) run = run.parent_path();
-  const std::string name = std::to_string(std::hash<std::string>()(made_from) % kFiles);
-  return TiedSpecimen((run.parent_path() / ".tied" / name).string(), *step, std::move(made_from));
-}
-
-std::optional<std::vector<Record>> TiedSpecimen::restore(const Method& method, TestingMachine& bench,
-                                                         ProgramRunner& program) const {
-  std::error_code error;
-  // Opening anything else than a file could wait for ever.
-  if (!fs::is_regular_file(file_, error)) return std::nullopt;
-  bool begun = false;
-  try {
-    Archive archive(kKind, read_whole(file_), file_);
-    std::string made_from;
-    archive(made_from);
-    archive.require(made_from == made_from_, "origin", "another specimen");
-    std::vector<Record> records;
-    archive.list(records);
-    ProgramRunner followed = program;
-    if (!asks_for(records, followed) || followed.last().step != step_) return std::nullopt;
-    begun = true;
-    archive(bench);
-    archive.end();
-    program = followed;
-    return records;
-  } catch (const std::exception&) {
-    if (begun) bench = TestingMachine(method.specimen, method.material, method.machine, method.physics);
-    return std::nullopt;
-  }
-}
-
-void TiedSpecimen::add(const Record& record) {
-  if (!kept_) records_.push_back(record);
-}
-
-void TiedSpecimen::keep(TestingMachine& bench, const ProgramRunner& program, const std::string& folder) {
-  if (kept_ || program.last().step < step_) return;
-  kept_ = true;
-  const std::string part = (fs::path(folder) / "tied").string();
-  std::error_code error;
-  try {
-    Archive archive(kKind);
-    archive(made_from_);
-    archive.list(records_);
-    archive(bench);
-    write_whole(part, archive.bytes());
-    fs::create_directory(fs::path(file_).parent_path(), error);
-    fs::rename(part, file_, error);
-    if (error) fs::remove(part, error);
-  } catch (const std::exception&) {  // no room for it: the test goes on without
-  }
-  records_ = {};
-}
-
-namespace {
-
 constexpr const char* kOption = "--readings";
 constexpr const char* kPlateauWord = "plateau";
-
-}  // namespace
-
-std::string words_of(Readings readings) {
-  return readings == Readings::kPlateau ? std::string(kOption) + " " + kPlateauWord : "";
-}
-
-Readings readings_named(const std::string& word) {
-  if (word != kPlateauWord) throw InvalidInput(kOption, word, kPlateauWord);
-  return Readings::kPlateau;
-}
-
-void require_readings(const Method& method, Readings readings) {
-  if (readings == Readings::kAll) return;
-  if (method.specimen.to_be_tied && rollers_hold(method.specimen, method.machine) && has_step<PullStep>(method.program))
-    return;
-  throw InvalidInput::sentence(
-      kOption,
-      words_of(readings) +
-          ": this test has no plateau, which only a loop has that is tied (step tie), held by rollers and pulled");
-}
-
-EarlyEnd::EarlyEnd(const Method& method, Readings readings) {
-  if (readings == Readings::kPlateau)
-    watch_.emplace(method.material.radius,
-                   relative_errors(method.specimen, method.material, method.machine, method.physics).plateau_force);
-}
-
-void EarlyEnd::add(const Record& record) {
-  if (!watch_ || !reason_.empty()) return;
-  for (const Sample& step : record.steps) watch_->add(step);
-  const Sample* reading = cell_reading(record);
-  if (reading && watch_->settled_by(*reading))
-    reason_ = "the plateau was settled at an extension of " + short_number(reading->extension) + " m";
-}
-
-void EarlyEnd::end(ProgramRunner& program) const {
-  if (!reason_.empty()) program.plateau_settled(reason_);
-}
-
-namespace {
 
 class WallClock {
  public:
@@ -284,6 +160,122 @@ HeadlessOutcome run_to_end(const Test& test) {
 
 }  // namespace
 
+std::optional<int> step_after_tying(const Program& program) {
+  bool tied = false;
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    const Phase phase = program[i]->phase();
+    if (!ends_by_itself(phase) && !rests(phase)) return tied ? std::optional<int>(static_cast<int>(i)) : std::nullopt;
+    tied |= phase == Phase::kTie;
+  }
+  return std::nullopt;
+}
+
+std::string tied_from(const Method& method, int step, bool shapes) {
+  const YAML::Node values = physical_values(method);
+  std::string text = code() + (shapes ? "with shapes\n" : "without shapes\n");
+  for (const char* section : kPhysicalSections)
+    if (values[section]) text += std::string(section) + ":\n" + YAML::Dump(values[section]) + '\n';
+  for (int i = 0; i < step; ++i) text += "step: " + YAML::Dump(values["program"][i]) + '\n';
+  if (knot_of(method.specimen).has("file")) text += "shape:\n" + read_whole(method.specimen.file);
+  return text;
+}
+
+std::optional<TiedSpecimen> TiedSpecimen::of(const Method& method, bool shapes, const std::string& folder) {
+  const std::optional<int> step = step_after_tying(method.program);
+  if (!step) return std::nullopt;
+  std::string made_from = tied_from(method, *step, shapes);
+  fs::path run = fs::absolute(folder).lexically_normal();
+  if (!run.has_filename()) run = run.parent_path();
+  const std::string name = std::to_string(std::hash<std::string>()(made_from) % kFiles);
+  return TiedSpecimen((run.parent_path() / ".tied" / name).string(), *step, std::move(made_from));
+}
+
+std::optional<std::vector<Record>> TiedSpecimen::restore(const Method& method, TestingMachine& bench,
+                                                         ProgramRunner& program) const {
+  std::error_code error;
+  // Opening anything else than a file could wait for ever.
+  if (!fs::is_regular_file(file_, error)) return std::nullopt;
+  bool begun = false;
+  try {
+    Archive archive(kKind, read_whole(file_), file_);
+    std::string made_from;
+    archive(made_from);
+    archive.require(made_from == made_from_, "origin", "another specimen");
+    std::vector<Record> records;
+    archive.list(records);
+    ProgramRunner followed = program;
+    if (!asks_for(records, followed) || followed.last().step != step_) return std::nullopt;
+    begun = true;
+    archive(bench);
+    archive.end();
+    program = followed;
+    return records;
+  } catch (const std::exception&) {
+    if (begun) bench = TestingMachine(method.specimen, method.material, method.machine, method.physics);
+    return std::nullopt;
+  }
+}
+
+void TiedSpecimen::add(const Record& record) {
+  if (!kept_) records_.push_back(record);
+}
+
+void TiedSpecimen::keep(TestingMachine& bench, const ProgramRunner& program, const std::string& folder) {
+  if (kept_ || program.last().step < step_) return;
+  kept_ = true;
+  const std::string part = (fs::path(folder) / "tied").string();
+  std::error_code error;
+  try {
+    Archive archive(kKind);
+    archive(made_from_);
+    archive.list(records_);
+    archive(bench);
+    write_whole(part, archive.bytes());
+    fs::create_directory(fs::path(file_).parent_path(), error);
+    fs::rename(part, file_, error);
+    if (error) fs::remove(part, error);
+  } catch (const std::exception&) {  // no room for it: the test goes on without
+  }
+  records_ = {};
+}
+
+std::string words_of(Readings readings) {
+  return readings == Readings::kPlateau ? std::string(kOption) + " " + kPlateauWord : "";
+}
+
+Readings readings_named(const std::string& word) {
+  if (word != kPlateauWord) throw InvalidInput(kOption, word, kPlateauWord);
+  return Readings::kPlateau;
+}
+
+void require_readings(const Method& method, Readings readings) {
+  if (readings == Readings::kAll) return;
+  if (method.specimen.to_be_tied && rollers_hold(method.specimen, method.machine) && has_step<PullStep>(method.program))
+    return;
+  throw InvalidInput::sentence(
+      kOption,
+      words_of(readings) +
+          ": this test has no plateau, which only a loop has that is tied (step tie), held by rollers and pulled");
+}
+
+EarlyEnd::EarlyEnd(const Method& method, Readings readings) {
+  if (readings == Readings::kPlateau)
+    watch_.emplace(method.material.radius,
+                   relative_errors(method.specimen, method.material, method.machine, method.physics).plateau_force);
+}
+
+void EarlyEnd::add(const Record& record) {
+  if (!watch_ || !reason_.empty()) return;
+  for (const Sample& step : record.steps) watch_->add(step);
+  const Sample* reading = cell_reading(record);
+  if (reading && watch_->settled_by(*reading))
+    reason_ = "the plateau was settled at an extension of " + short_number(reading->extension) + " m";
+}
+
+void EarlyEnd::end(ProgramRunner& program) const {
+  if (!reason_.empty()) program.plateau_settled(reason_);
+}
+
 ClaimedFolder RunOptions::claim() const {
   if (overwrite) return ClaimedFolder(folder);
   ClaimedFolder claimed = ClaimedFolder::first_free(folder);
@@ -291,23 +283,14 @@ ClaimedFolder RunOptions::claim() const {
   return claimed;
 }
 
-namespace {
-
-/// The specimen that the test ties, where a cache may have it.
-std::optional<TiedSpecimen> tied_by(const Method& method, const HeadlessOptions& options) {
-  if (!options.cache) return std::nullopt;
-  return TiedSpecimen::of(method, options.writes_shapes(), options.folder);
-}
-
-}  // namespace
-
 HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options) {
   Method method = given;
   TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
   ProgramRunner program = make_program(method, bench.longest_step());
   require_readings(method, options.readings);
   require_no_record_in(options.folder, method);  // before anything is written
-  std::optional<TiedSpecimen> ties = tied_by(method, options);
+  std::optional<TiedSpecimen> ties;
+  if (options.cache) ties = TiedSpecimen::of(method, options.writes_shapes(), options.folder);
   std::vector<Record> before;
   if (std::optional<std::vector<Record>> restored = ties ? ties->restore(method, bench, program) : std::nullopt) {
     before = std::move(*restored);
@@ -316,8 +299,8 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
   const ClaimedFolder claimed = options.claim();
   begin_run_folder(claimed.path(), method, words_of(options.readings));
   // The shape that the last run left in this folder is there no longer, but for its copy.
-  if (knot_of(method.specimen).has("file") && !std::filesystem::exists(method.specimen.file))
-    method.specimen.file = (std::filesystem::path(claimed.path()) / "specimen.csv").string();
+  if (knot_of(method.specimen).has("file") && !fs::exists(method.specimen.file))
+    method.specimen.file = (fs::path(claimed.path()) / "specimen.csv").string();
   const Test test{method, options, claimed.path(), bench, program, before, ties};
   for (const std::string& warning : foreseen_warnings(method)) options.tell(warning);
   if (!before.empty() && options.remark)
@@ -333,21 +316,18 @@ HeadlessOutcome run_headless(const Method& given, const HeadlessOptions& options
 
 HeadlessOutcome results_from_samples(const HeadlessOptions& options) {
   const std::string& folder = options.folder;
-  if (!std::filesystem::exists(samples_file(folder)))
+  if (!fs::exists(samples_file(folder)))
     throw InvalidInput::sentence("--from-samples",
                                  "there is no samples.csv in " + shown(folder) + " from which results can be made");
   const ClaimedFolder claimed(folder);
-  const Method method = load_method((std::filesystem::path(folder) / "method.yaml").string());
+  const Method method = load_method((fs::path(folder) / "method.yaml").string());
   ResultsOptions more;
   if (options.readings == Readings::kAll) more.further = options.further;
   more.ran_here = false;
   more.without_end.reason = "the test was cut off";
   const MadeResults made = make_results(folder, method, more);
   tell_warnings(made, options);
-  HeadlessOutcome out;
-  out.folder = folder;
-  out.results = made.results;
-  return out;
+  return {folder, std::nullopt, "", false, made.results, 0.0};
 }
 
 }  // namespace knot_utm

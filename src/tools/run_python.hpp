@@ -1,16 +1,14 @@
 #pragma once
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/verdict/run_facts.hpp"
 
 namespace knot_utm {
@@ -27,22 +25,8 @@ inline int run_python(const std::string& module, const std::vector<std::string>&
   words.insert(words.end(),
                {"KNOT_UTM_TOOLS_DIR=" + here.string(), "/usr/bin/python3", "-sPB", "-W", "ignore", "-m", module});
   words.insert(words.end(), with.begin(), with.end());
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  if (!said.empty()) {
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  }
-  pid_t child = 0;
-  int status = 0;
-  const int failed = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return 1;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  const std::string to = said.empty() ? "" : " >> " + command_line({said}) + " 2>&1";
+  const int status = std::system((command_line(words) + to).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 

@@ -1,5 +1,6 @@
 // One whole test without ROS: read the method, run it, write what came out.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -33,6 +34,8 @@ namespace {
 
 constexpr const char* kTool = "tensile_test";
 
+void tell(const std::string& line) { std::fprintf(stderr, "%s: %s\n", kTool, line.c_str()); }
+
 volatile std::sig_atomic_t stop_asked = 0;
 
 void ask_to_stop(int /*signal*/) { stop_asked = 1; }
@@ -54,7 +57,7 @@ int draw_knot(const std::string& knot, const char* option, const std::string& fo
   const KnotSheet sheet = knot_sheet(knot, option);
   const std::string file = (std::filesystem::path(folder) / (sheet.name + ".png")).string();
   require_new_file(option, file, {knot}, overwrite, "\x89PNG");
-  if (!folder.empty()) make_run_folder(folder);
+  if (!folder.empty()) make_folder(folder, "--out");
   const std::string shape = file + ".json";
   write_whole(shape, sheet.shape);
   const bool drawn = run_python("knot_utm.knot_picture", {shape, file}) == 0;
@@ -102,31 +105,34 @@ std::string folder_of(const Arguments& arguments, const Method& method) {
   return arguments.out.empty() ? "out/" + method.name : arguments.out;
 }
 
-void tell_interruption(const HeadlessOutcome& outcome) {
-  std::fprintf(stderr, "%s: the test was interrupted after %.1f s; what was measured is in %s\n", kTool,
-               outcome.results.simulated_time, outcome.folder.c_str());
-}
-
 /// The main readings, and where all of them are.
 void tell_summary(const std::string& folder, const char* file, const std::string& latest) {
   std::printf("%sall results are in %s/%s%s\n", run_summary(folder).c_str(), folder.c_str(), file,
               latest.empty() ? "" : (", and the folder is also " + latest).c_str());
 }
 
+/// "12.3 s".
+std::string seconds(double time) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f s", time);
+  return text.data();
+}
+
 void tell_end(const HeadlessOutcome& outcome, const Method& method, const std::string& latest, bool quiet) {
   const Results& results = outcome.results;
-  const char* folder = outcome.folder.c_str();
+  if (!outcome.ended)
+    return tell("the test was interrupted after " + seconds(results.simulated_time) + "; what was measured is in " +
+                outcome.folder);
   if (*outcome.ended == EndedBy::kSolver)
-    std::fprintf(stderr, "%s: the physics gave up: %s; what was measured until then is in %s\n", kTool,
-                 outcome.reason.c_str(), folder);
+    tell("the physics gave up: " + outcome.reason + "; what was measured until then is in " + outcome.folder);
   if (*outcome.ended == EndedBy::kBreak && outcome.failed)
-    std::fprintf(stderr, "%s: the test failed: %s; its results are in %s\n", kTool, outcome.reason.c_str(), folder);
+    tell("the test failed: " + outcome.reason + "; its results are in " + outcome.folder);
   if (!quiet) tell_summary(outcome.folder, "result.yaml", latest);
   if (*outcome.ended == EndedBy::kUntangled)
-    std::fprintf(stderr, "%s: the knot came undone: %s\n", kTool, what_keeps_a_knot(method).c_str());
+    tell("the knot came undone: " + what_keeps_a_knot(method));
   else if (results.untangled_at && results.knot_type != KnotType::kCrossed)
-    std::fprintf(stderr, "%s: the knot came undone at %.1f s, while it was pulled: %s\n", kTool, *results.untangled_at,
-                 what_keeps_a_knot(method).c_str());
+    tell("the knot came undone at " + seconds(*results.untangled_at) +
+         ", while it was pulled: " + what_keeps_a_knot(method));
 }
 
 /// A batch goes on with the readings that it began with.
@@ -147,7 +153,7 @@ Options options_in(const std::string& folder, const Arguments& arguments, Progre
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {
     progress.end();
-    std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
+    tell(line);
   };
   if (!arguments.quiet) options.remark = options.notice;
   return options;
@@ -174,18 +180,13 @@ bool report(const Arguments& arguments, const std::string& folder) {
 }
 
 void tell_end(const Arguments& arguments, const BatchOutcome& outcome, int ended) {
-  const char* folder = outcome.folder.c_str();
-  if (outcome.interrupted) {
-    std::fprintf(
-        stderr,
-        "%s: the batch was interrupted when %d of its %d specimens had been tested; what was measured is in %s; "
-        "go on with: %s\n",
-        kTool, ended, outcome.specimens, folder, command_line({arguments.program, "--resume", outcome.folder}).c_str());
-    return;
-  }
+  if (outcome.interrupted)
+    return tell("the batch was interrupted when " + std::to_string(ended) + " of its " +
+                std::to_string(outcome.specimens) + " specimens had been tested; what was measured is in " +
+                outcome.folder + "; go on with: " + command_line({arguments.program, "--resume", outcome.folder}));
   const std::string latest = point_latest_to(outcome.folder);
   for (const Rejected& one : outcome.rejected)
-    std::fprintf(stderr, "%s: specimen %d is rejected: %s\n", kTool, one.specimen, one.reason.c_str());
+    tell("specimen " + std::to_string(one.specimen) + " is rejected: " + one.reason);
   if (!arguments.quiet) tell_summary(outcome.folder, "statistics.yaml and specimens.csv", latest);
 }
 
@@ -214,18 +215,17 @@ int check(const Method& method, Readings readings) {
     check_fits(method);
   else
     draw_specimens(method);
-  for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
-  std::fprintf(stderr, "%s: the rod: %s\n", kTool, rod_in_words(method.material).c_str());
-  if (method.material.other)
-    std::fprintf(stderr, "%s: the other ropes: %s\n", kTool, rod_in_words(*method.material.other).c_str());
+  for (const std::string& warning : foreseen_warnings(method)) tell(warning);
+  tell("the rod: " + rod_in_words(method.material));
+  if (method.material.other) tell("the other ropes: " + rod_in_words(*method.material.other));
   std::fputs(method_yaml(method).c_str(), stdout);
   return kDone;
 }
 
 int list_keys(const Method& method) {
   std::puts("key,unit,experimental");
-  for (const KeyUnit& one : key_units(method))
-    std::printf("%s,%s,%s\n", one.key.c_str(), one.unit.c_str(), is_experimental(one.key) ? "yes" : "");
+  for (const MethodKey& one : numbers_of(method))
+    std::printf("%s,%s,%s\n", one.key.c_str(), one.unit.c_str(), one.experimental ? "yes" : "");
   return kDone;
 }
 
@@ -256,7 +256,7 @@ int run(const Arguments& arguments) {
   if (!arguments.from_samples.empty()) return make_anew(arguments);
   readings_of(arguments);  // refuses a wrong word before it reads a method
   const Method method = load_test(arguments.method, arguments.overrides, [&](const std::string& line) {
-    if (!arguments.quiet) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
+    if (!arguments.quiet) tell(line);
   });
   require_batch(arguments, method);
   if (arguments.check) return check(method, readings_of(arguments));
@@ -264,11 +264,7 @@ int run(const Arguments& arguments) {
   if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);
-  const std::string latest = point_latest_to(outcome.folder);
-  if (outcome.ended)
-    tell_end(outcome, method, latest, arguments.quiet);
-  else
-    tell_interruption(outcome);
+  tell_end(outcome, method, point_latest_to(outcome.folder), arguments.quiet);
   const bool done = report(arguments, outcome.folder) && outcome.ended && !outcome.failed;
   return done ? kDone : kFailed;
 }
@@ -297,10 +293,12 @@ void add_listing(CLI::App& app, const char* name, std::string (*table)(), const 
 }
 
 std::string phases_csv() {
-  std::string text = "name,prepares,forms,pulls\n";
-  for (const Phase one : all_phases())
+  std::string text = "name,prepares,forms,pulls,ends\n";
+  for (const Phase one : all_phases()) {
+    const std::optional<ProgramStep> step = step_named(phase_name(one));
     text += std::string(phase_name(one)) + (prepares(one) ? ",1" : ",0") + (forms(one) ? ",1" : ",0") +
-            (pulls(one) ? ",1\n" : ",0\n");
+            (pulls(one) ? ",1,\"" : ",0,\"") + (step ? (*step)->ends_when() : "") + "\"\n";
+  }
   return text;
 }
 
@@ -383,7 +381,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   add_listing(app, "--list-fields", sample_fields_csv, "say which fields a sample has, with type, unit and meaning");
   add_listing(app, "--list-method-keys", method_keys_csv, "say which keys methods may have, with label and unit");
   add_listing(app, "--list-knots", knots_csv, "say which knots there are, and their keys");
-  add_listing(app, "--list-phases", phases_csv, "say which phases a test has: which prepare it, form a knot, and pull");
+  add_listing(app, "--list-phases", phases_csv,
+              "say which phases a test has: which prepare it, form a knot, and pull, and when they end");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty() && show->empty() && from_samples->empty() && draw->empty())
       throw CLI::RequiredError("METHOD");

@@ -75,8 +75,9 @@ inline std::string command_line_fault(const CLI::App& app, const std::string& to
 
 /// Reads the command line, including --version. Returns an exit code where the tool has nothing else to do. `check` may
 /// throw a CLI::ParseError, too.
-template <class Check>
-std::optional<int> parse(CLI::App& app, const char* tool, int argc, char** argv, Check check) {
+template <class Check = void (*)()>
+std::optional<int> parse(
+    CLI::App& app, const char* tool, int argc, char** argv, Check check = [] {}) {
   app.set_version_flag("--version", version());
   try {
     app.parse(argc, argv);
@@ -87,9 +88,6 @@ std::optional<int> parse(CLI::App& app, const char* tool, int argc, char** argv,
                                       : complain(tool, command_line_fault(app, tool, error), kWrongInput);
   }
   return std::nullopt;
-}
-inline std::optional<int> parse(CLI::App& app, const char* tool, int argc, char** argv) {
-  return parse(app, tool, argc, argv, [] {});
 }
 
 /// Runs `body`, and prints one line where it throws. Returns the exit code of `body`, or one of the above.

@@ -10,7 +10,6 @@
 #include "knot_utm/words/invalid_input.hpp"
 #include "knot_utm/words/number.hpp"
 #include "knot_utm/words/yaml_lines.hpp"
-#include "null_reasons.hpp"
 
 namespace knot_utm {
 
@@ -34,6 +33,7 @@ const Elongations* part(const Source& of, const Elongations*) {
 const Relaxation* part(const Source& of, const Relaxation*) {
   return of.results.relaxation ? &*of.results.relaxation : nullptr;
 }
+const SpecimenFacts* part(const Source& of, const SpecimenFacts*) { return &of.facts; }
 const RunFacts* part(const Source& of, const RunFacts*) { return &of.facts; }
 const ReadingErrors* part(const Source& of, const ReadingErrors*) { return &of.errors; }
 
@@ -65,8 +65,153 @@ Number class_error_at(const Source& of) {
   return force ? class_error(of.facts.load_cell, *force) : std::nullopt;
 }
 
+// Why a key is null, where the reason depends on the test. Only asked for keys that have no value.
+
+constexpr const char* kNoClass = "the load cell has neither accuracy nor floor";
+constexpr const char* kFewForDrops = "the load was read fewer than 20 times before the lock";
+
+bool ended_in_plateau(const Results& results) { return results.ended_by == EndedBy::kPlateau; }
+
+/// Empty: something was pulled.
+std::string why_not_pulled(const Source& of) {
+  if (of.results.true_peak_force) return "";
+  return of.results.never_in_tension ? "the specimen was never in tension" : "nothing was pulled";
+}
+
+/// `reason` of a reading that any pull has.
+std::string if_pulled(const Source& of, const std::string& reason) {
+  const std::string not_pulled = why_not_pulled(of);
+  return not_pulled.empty() ? reason : not_pulled;
+}
+
+/// Empty: something was pulled, to the end of the pull.
+std::string why_no_whole_pull(const Source& of) {
+  return if_pulled(of, ended_in_plateau(of.results) ? kEndedInPlateau : "");
+}
+
+/// `reason` of a reading that any whole pull has.
+std::string of_the_pull(const Source& of, const std::string& reason) {
+  const std::string not_pulled = why_no_whole_pull(of);
+  return not_pulled.empty() ? reason : not_pulled;
+}
+
+std::string why_no_break(const Source& of) {
+  if (of.results.break_extension) return "it did not break in a pull";
+  return of.results.break_place == BreakPlace::kNone ? "the rod did not break"
+                                                     : "the rod parted before anything pulled it";
+}
+
+std::string why_no_peak(const Source& of) {
+  return of_the_pull(of, of.results.curve.peak_force ? "" : "the load never rose above its balanced zero");
+}
+
+std::string why_they_did_not_lock(const Results& results) {
+  if (results.knot_type == KnotType::kCrossed) return "the rod ran through itself";
+  if (results.untangled_at) return "the knot came undone";
+  if (results.curve.jump_force)
+    return "a knot jumped open at " + short_number(*results.curve.jump_force) +
+           " N, and the load-extension curve after it is that of another knot";
+  switch (results.motion_pattern) {
+    case MotionPattern::kSliding:
+      return ended_in_plateau(results) ? kEndedInPlateau : "the knots still slid at the end of the pull";
+    case MotionPattern::kStretching:
+      return "the motion pattern is stretching";
+    case MotionPattern::kUntangling:
+      return "a knot opened as the loop was mounted";
+    case MotionPattern::kNone:
+      break;
+  }
+  return "only two knots that slide towards each other lock, and there are none";
+}
+
+std::string why_the_load_has_no_stiffness(const Results& results) {
+  if (results.motion_pattern == MotionPattern::kNone && !results.curve.jump_force)
+    return "the load has no rise with three readings or more";
+  if (results.curve.jump_force || results.motion_pattern != MotionPattern::kSliding)
+    return why_they_did_not_lock(results);
+  if (results.curve.rises_at) return "the load was read fewer than three times between the lock and the peak";
+  return results.lock_extension ? "the lock does not show in the load" : why_they_did_not_lock(results);
+}
+
+/// `no_reading`: why there is no reading that could be off; empty: there is one. `error`: that of mesh and tolerances,
+/// or none; where it is known, it is larger than half of the reading if a reading has no error all the same.
+std::string why_no_error(const Source& of, const std::string& no_reading,
+                         std::optional<double> RelativeErrors::*error) {
+  const Results& results = of.results;
+  const bool hardly_closed = knots_hardly_closed(results, of.facts);
+  const RelativeErrors errors = hardly_closed ? errors_of_hardly_closed(of.facts.errors) : of.facts.errors;
+  const bool studied = error && errors.*error;
+  if (!why_not_at_rest(results, of.facts).empty()) return "unknown: the specimen was not at rest as its pull began";
+  if (results.curve.jump_force) return "unknown: a knot jumped open, which no convergence study covers";
+  if (results.opened_when_mounted)
+    return "unknown: the knots moved as the loop was mounted, which no convergence study covers";
+  if (hardly_closed && !studied) return "unknown: the knots were hardly closed, which no convergence study covers";
+  if (!no_reading.empty()) return no_reading;
+  return studied ? "unknown: the estimate is more than half of the reading"
+                 : "unknown: no convergence study covers this case";
+}
+
+std::string why_no_plateau(const Source& of) {
+  return of.results.curve.no_plateau.empty() ? "" : "see no_plateau_because";
+}
+
+std::string why_no_plateau_error(const Source& of) {
+  return why_no_error(of, why_no_plateau(of), &RelativeErrors::plateau_force);
+}
+
+std::string why_no_place_of_drop(const Source& of) {
+  return of.results.curve.largest_drop ? of_the_pull(of, "the load only rose before the lock")
+                                       : of_the_pull(of, kFewForDrops);
+}
+
+std::string why_no_lock(const Source& of) {
+  return of_the_pull(of, of.results.lock_extension ? "" : why_they_did_not_lock(of.results));
+}
+
+std::string why_no_lock_error(const Source& of) {
+  return why_no_error(of, why_no_lock(of), &RelativeErrors::lock_extension);
+}
+
+std::string why_no_lock_by_load(const Source& of) { return of_the_pull(of, of.results.curve.no_lock_by_load); }
+
+std::string why_no_stiffness(const Source& of) {
+  const Results& results = of.results;
+  return of_the_pull(of, results.curve.locked_stiffness ? "" : why_the_load_has_no_stiffness(results));
+}
+
+std::string why_no_stiffness_error(const Source& of) {
+  const std::string no_reading = why_no_stiffness(of);
+  const bool slides = no_reading.empty() && slid_to_the_end(of.results);
+  return why_no_error(of, slides ? why_they_did_not_lock(of.results) : no_reading, &RelativeErrors::locked_stiffness);
+}
+
+std::string why_no_peak_error(const Source& of) { return why_no_error(of, why_no_peak(of), nullptr); }
+
+std::string why_no_snap(const Source& of) {
+  return if_pulled(of, of.results.tied_knot_distance ? "a loop of two knots has jump_force" : "nothing snapped");
+}
+
+std::string why_no_efficiency(const Source& of) {
+  if (!of.facts.may_hold_a_knot) return "there is no knot";
+  if (!of.results.break_extension) return why_no_break(of);
+  if (!all_part_by_bending(of.facts.material))
+    return "not predicted: the rod parts where its tension is material.breaking_force, which was given";
+  return of_the_pull(of, "the load fell before the rod parted");
+}
+
+std::string why_no_hole(const Source& of) {
+  if (!of.facts.one_knot_in_a_strand) return "the specimen is no strand with one knot";
+  if (of.results.break_place != BreakPlace::kNone) return "the rod broke";
+  if (!of.facts.ends_with_hold) return "the test does not end with a hold, in which a knot is measured";
+  return of.results.knot_type == KnotType::kKept ? "no shape of the rod is known" : "the knot is another one";
+}
+
+std::string why_no_cell_error_in_plateau(const Source& of) {
+  return of.results.true_plateau_force ? kNoClass : why_no_plateau(of);
+}
+
 /// Readings at the largest load. A pull that ended within its plateau does not have one.
-bool has_peak(const Source& of) { return of.results.ended_by != EndedBy::kPlateau; }
+bool has_peak(const Source& of) { return !ended_in_plateau(of.results); }
 Number true_peak_force(const Source& of) { return has_peak(of) ? of.results.true_peak_force : std::nullopt; }
 Number peak_force_error(const Source& of) { return has_peak(of) ? of.errors.peak_force : std::nullopt; }
 Number load_cell_error(const Source& of) {
@@ -135,13 +280,11 @@ std::vector<std::string> specification_failed(const Source& of) { return of.verd
 std::vector<std::string> knot_readings(const Source& of) { return of.facts.knot_readings; }
 std::string why_no_reading(const Source& of) {
   if (of.facts.knot_readings.empty()) return "the knot's file reads nothing";
-  const std::string not_pulled = why_not_pulled(of);
-  return not_pulled.empty() ? "its ropes touch nowhere that ends a loop" : not_pulled;
+  return if_pulled(of, "its ropes touch nowhere that ends a loop");
 }
 std::string why_no_tail_slip(const Source& of) {
   if (of.facts.free_ends == 0) return "no end of a rope is free that a file describes";
-  const std::string not_pulled = why_not_pulled(of);
-  return not_pulled.empty() ? "no rope with a free end touched another one as the pull began" : not_pulled;
+  return if_pulled(of, "no rope with a free end touched another one as the pull began");
 }
 Flag specification_passed(const Source& of) { return of.verdict.passed; }
 Flag not_equilibrated(const Source& of) { return !why_not_at_rest(of.results, of.facts).empty(); }
@@ -390,6 +533,10 @@ YamlLines lines_of(const ResultSource& source, bool only_numbers) {
 
 }  // namespace
 
+std::string NullReason::operator()(const ResultSource& source) const {
+  return of_a_pull_ ? of_the_pull(source, always_) : find_ ? find_(source) : always_;
+}
+
 const char* ResultKey::kind() const {
   constexpr std::array kKinds{"number", "count", "flag", "word", "text", "numbers", "list"};
   static_assert(kKinds.size() == std::variant_size_v<ReadResult>);
@@ -411,6 +558,12 @@ const std::vector<ResultKey>& result_keys() {
   return keys;
 }
 
+const ResultKey* result_key(const std::string& name) {
+  const auto found =
+      std::find_if(result_keys().begin(), result_keys().end(), [&](const ResultKey& one) { return one.name == name; });
+  return found == result_keys().end() ? nullptr : &*found;
+}
+
 std::string result_keys_csv() {
   std::string all = "key,unit,kind,group,table,meaning\n";
   for (const ResultKey& key : result_keys())
@@ -424,27 +577,11 @@ std::string result_yaml(const Results& results, const RunFacts& facts) {
   source.verdict = verdict(facts.specification, lines_of(source, true));
   YamlLines lines = lines_of(source, false);
   lines.explain_nulls([&](const std::string& name) {
-    const std::vector<ResultKey>& keys = result_keys();
-    const auto key = std::find_if(keys.begin(), keys.end(), [&](const ResultKey& one) { return one.name == name; });
-    return key == keys.end() ? "" : key->why_null(source);
+    const ResultKey* key = result_key(name);
+    return key ? key->why_null(source) : "";
   });
   return lines.all();
 }
-
-namespace {
-
-/// Why a requirement is not met; empty: it is.
-std::string reason(const Requirement& required, const std::optional<double>& value) {
-  if (!value) return required.key + " has no value in this test";
-  const std::string is = required.key + " is " + format_number(*value);
-  if (required.min && !(*value >= *required.min))
-    return is + ", less than the least that is allowed, " + format_number(*required.min);
-  if (required.max && !(*value <= *required.max))
-    return is + ", more than the most that is allowed, " + format_number(*required.max);
-  return {};
-}
-
-}  // namespace
 
 void check_specification(const Specification& specification) {
   std::vector<std::string> known;
@@ -458,8 +595,14 @@ void check_specification(const Specification& specification) {
 Verdict verdict(const Specification& specification, const YamlLines& results) {
   Verdict verdict;
   for (const Requirement& required : specification) {
-    const std::string why = reason(required, results.value(required.key));
-    if (!why.empty()) verdict.failed.push_back(why);
+    const std::optional<double> value = results.value(required.key);
+    const std::string is = required.key + " is " + (value ? format_number(*value) : "");
+    if (!value)
+      verdict.failed.push_back(required.key + " has no value in this test");
+    else if (required.min && !(*value >= *required.min))
+      verdict.failed.push_back(is + ", less than the least that is allowed, " + format_number(*required.min));
+    else if (required.max && !(*value <= *required.max))
+      verdict.failed.push_back(is + ", more than the most that is allowed, " + format_number(*required.max));
   }
   if (!specification.empty()) verdict.passed = verdict.failed.empty();
   return verdict;

@@ -20,8 +20,7 @@ namespace {
 
 constexpr double kHardlyAny = 1e-6;  // accelerated mass, by choice: a smaller one helps no more [own mass]
 
-/// A node that is so many times as fast as the pull snaps. While shipped knots slide, nodes are 11 to 42 times as fast
-/// as the pull; where a strand or a frame lets go, 200 to 500 times.
+/// A node that is so many times as fast as the pull snaps.
 constexpr double kSnaps = 100.0;
 
 std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
@@ -45,8 +44,7 @@ class Warnings {
           " s, while it was pulled, so there is no sliding force");
     if (results_.knot_type == KnotType::kChanged && !results_.untangled_at)
       say("with its two ends joined, the rod is another knot than at the start; as it still bears the load, nothing "
-          "came "
-          "undone");
+          "came undone");
   }
 
   /// What the cell cannot tell: forces below its floor.
@@ -214,54 +212,7 @@ class Warnings {
   const RunFacts& facts_;
 };
 
-}  // namespace
-
-std::string trust_limits_csv() {
-  std::string all = "name,key,limit,unit,sentence\n";
-  for (const TrustLimit& of :
-       {kDeepContact, kDeepSoftContact, kEnergiesDiffer, kForcesDiffer, kPlateauUnsure, kMuchDrag, kMuchInertia})
-    all += std::string(of.name) + ',' + of.key + ',' + format_number(of.limit) + ',' + of.unit + ",\"" + of.sentence +
-           "\"\n";
-  return all;
-}
-
-std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
-  if (!errors.plateau_force) return {};
-  const double share = *errors.plateau_force / std::abs(*results.true_plateau_force);
-  if (!(share > kPlateauUnsure.limit)) return {};
-  return "the plateau force may be off by " + format_number(std::round(100.0 * share)) +
-         " %; a finer physics.accuracy, a higher specimen.refinement or several specimens tell more";
-}
-
-std::vector<std::string> printed_warnings(const Results& results, const RunFacts& facts) {
-  Warnings found(results, facts);
-  found.of_the_physics();
-  found.of_events();
-  found.of_a_loose_knot();
-  found.of_twist();
-  found.of_thrust();
-  found.of_speed();
-  found.of_snaps();
-  found.say(facts.warnings);
-  found.of_missed_marks();
-  found.of_what_moves();
-  found.say(accuracy_warning(results, known_errors(results, facts)));
-  return found.all;
-}
-
-std::vector<std::string> all_warnings(const Results& results, const RunFacts& facts) {
-  Warnings found(results, facts);
-  found.of_the_knot();
-  found.of_the_cell();
-  found.say(facts.foreseen);
-  found.say(printed_warnings(results, facts));
-  return found.all;
-}
-
-namespace {
-
-/// From here on L has no effect on a sliding force: with F_p = 50 N, e = 0.2 m and L = 0.25 m, which is 15.7 h more,
-/// polypropylene slides at 5.06 N, and with a longer loop at 6.60 N.
+/// From here on L has no effect on a sliding force.
 constexpr double kClearOfRollers = 19.0;  // L - e [h]
 
 /// Warns of a loop whose knots are tied near its rollers.
@@ -339,6 +290,48 @@ constexpr const char* kPulledFast =
     "; ten times that changes a sliding force by up to 3 %, so choose a lower program.pull.speed";
 
 }  // namespace
+
+std::string trust_limits_csv() {
+  std::string all = "name,key,limit,unit,sentence\n";
+  for (const TrustLimit& of :
+       {kDeepContact, kDeepSoftContact, kEnergiesDiffer, kForcesDiffer, kPlateauUnsure, kMuchDrag, kMuchInertia})
+    all += std::string(of.name) + ',' + of.key + ',' + format_number(of.limit) + ',' + of.unit + ",\"" + of.sentence +
+           "\"\n";
+  return all;
+}
+
+std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
+  if (!errors.plateau_force) return {};
+  const double share = *errors.plateau_force / std::abs(*results.true_plateau_force);
+  if (!(share > kPlateauUnsure.limit)) return {};
+  return "the plateau force may be off by " + format_number(std::round(100.0 * share)) +
+         " %; a finer physics.accuracy, a higher specimen.refinement or several specimens tell more";
+}
+
+std::vector<std::string> printed_warnings(const Results& results, const RunFacts& facts) {
+  Warnings found(results, facts);
+  found.of_the_physics();
+  found.of_events();
+  found.of_a_loose_knot();
+  found.of_twist();
+  found.of_thrust();
+  found.of_speed();
+  found.of_snaps();
+  found.say(facts.warnings);
+  found.of_missed_marks();
+  found.of_what_moves();
+  found.say(accuracy_warning(results, known_errors(results, facts)));
+  return found.all;
+}
+
+std::vector<std::string> all_warnings(const Results& results, const RunFacts& facts) {
+  Warnings found(results, facts);
+  found.of_the_knot();
+  found.of_the_cell();
+  found.say(facts.foreseen);
+  found.say(printed_warnings(results, facts));
+  return found.all;
+}
 
 std::vector<std::string> foreseen_warnings(const Method& method) {
   std::vector<std::string> all;

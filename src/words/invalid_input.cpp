@@ -39,6 +39,21 @@ std::size_t distance(const std::string& a, const std::string& b) {
 /// How many mistakes a name of this length may have: more would make it another name.
 std::size_t mistakes(std::size_t length) { return length < 3 ? 0 : length < 6 ? 1 : length < 10 ? 2 : 3; }
 
+/// Not a reason of its own: whoever asks was not content with what the file holds.
+constexpr const char* kReadable = "it is not a plain file with text in it";
+
+std::string why_unreadable(const std::string& file) {
+  // A pipe without a writer would keep a plain open waiting.
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return errno == ENOENT ? "no such file" : reason_of(errno);
+  struct stat status {};
+  const bool is_folder = fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode);
+  close(descriptor);
+  return is_folder ? reason_of(EISDIR) : kReadable;
+}
+
+std::string question(const std::string& nearest) { return nearest.empty() ? "" : "; did you mean " + nearest + "?"; }
+
 }  // namespace
 
 std::string listed(const std::vector<std::string>& names, const char* before_last) {
@@ -64,33 +79,14 @@ std::string nearest_name(const std::string& given, const std::vector<std::string
   return nearest;
 }
 
-namespace {
-
-/// Not a reason of its own: whoever asks was not content with what the file holds.
-constexpr const char* kReadable = "it is not a plain file with text in it";
-
-std::string why_unreadable(const std::string& file) {
-  // A pipe without a writer would keep a plain open waiting.
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return errno == ENOENT ? "no such file" : reason_of(errno);
-  struct stat status {};
-  const bool is_folder = fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode);
-  close(descriptor);
-  return is_folder ? reason_of(EISDIR) : kReadable;
-}
-
-std::string question(const std::string& nearest) { return nearest.empty() ? "" : "; did you mean " + nearest + "?"; }
-
-}  // namespace
-
 std::string shown(const std::string& text) {
-  constexpr std::size_t kLongest = 500;
-  std::string line = text.substr(0, kLongest);
+  constexpr std::size_t kLongestLine = 500;
+  std::string line = text.substr(0, kLongestLine);
   for (char& c : line) {
     const auto code = static_cast<unsigned char>(c);
     if (code < 0x20 || code == 0x7f) c = ' ';
   }
-  return text.size() > kLongest ? line + "..." : line;
+  return text.size() > kLongestLine ? line + "..." : line;
 }
 
 std::string reason_of(int error) {

@@ -6,13 +6,36 @@
 #include <limits>
 
 namespace knot_utm {
+namespace {
+
+constexpr int kAllDigits = std::numeric_limits<double>::max_digits10;
+
+/// `format`: that of std::to_chars, and a number of digits.
+template <class... Format>
+std::string chars(double value, Format... format) {
+  std::array<char, 48> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, format...).ptr};
+}
+
+std::string with_digits(double value, int digits) { return chars(value, std::chars_format::general, digits); }
+
+/// The nearest number of so many digits that is not below the limit; of the negative limit, not above the limit.
+std::string towards(double limit, int digits, int sign) {
+  const std::string exact = format_number(limit), rounded = with_digits(limit, digits);
+  if (!std::isfinite(limit) || limit == 0.0 || exact.size() <= rounded.size()) return exact;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(limit))) - (digits - 1));
+  std::string text = rounded;
+  for (double count = std::round(limit / unit); sign * (*parse_number(text) - limit) < 0.0; count += sign)
+    text = with_digits(count * unit, digits);
+  return text;
+}
+
+}  // namespace
 
 std::string format_number(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
-  std::array<char, 32> text{};
-  const std::to_chars_result end = std::to_chars(text.data(), text.data() + text.size(), value);
-  return std::string(text.data(), end.ptr);
+  return chars(value);
 }
 
 std::string format_yaml_number(double value) {
@@ -27,17 +50,11 @@ std::string format_yaml_number(double value) {
 std::string short_number(double value) {
   if (!std::isfinite(value)) return format_number(value);
   if (value == 0.0) value = 0.0;  // never "-0"
-  std::array<char, 32> text{};
-  const std::to_chars_result end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
-  const std::string short_text(text.data(), end.ptr);
+  const std::string text = with_digits(value, 3);
   // "1970" is read more easily than "1.97e+03".
-  const double rounded = parse_number(short_text).value_or(value);
+  const double rounded = parse_number(text).value_or(value);
   const bool plain = std::abs(rounded) >= 1e3 && std::abs(rounded) < 1e6;
-  if (!plain) return short_text;
-  const std::to_chars_result fixed =
-      std::to_chars(text.data(), text.data() + text.size(), rounded, std::chars_format::fixed);
-  return std::string(text.data(), fixed.ptr);
+  return plain ? chars(rounded, std::chars_format::fixed) : text;
 }
 
 std::optional<double> parse_number(std::string_view text) {
@@ -53,30 +70,6 @@ std::optional<double> parse_number(std::string_view text) {
   if (end.ec != std::errc() || end.ptr != text.data() + text.size()) return std::nullopt;
   return value;
 }
-
-namespace {
-
-constexpr int kAllDigits = std::numeric_limits<double>::max_digits10;
-
-std::string with_digits(double value, int digits) {
-  std::array<char, 48> text{};
-  const std::to_chars_result end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits);
-  return std::string(text.data(), end.ptr);
-}
-
-/// The nearest number of so many digits that is not below the limit; of the negative limit, not above the limit.
-std::string towards(double limit, int digits, int sign) {
-  const std::string exact = format_number(limit), rounded = with_digits(limit, digits);
-  if (!std::isfinite(limit) || limit == 0.0 || exact.size() <= rounded.size()) return exact;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(limit))) - (digits - 1));
-  std::string text = rounded;
-  for (double count = std::round(limit / unit); sign * (*parse_number(text) - limit) < 0.0; count += sign)
-    text = with_digits(count * unit, digits);
-  return text;
-}
-
-}  // namespace
 
 std::string least_text(double limit, int digits) { return towards(limit, digits, 1); }
 std::string most_text(double limit, int digits) { return towards(limit, digits, -1); }

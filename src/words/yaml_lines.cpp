@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
-namespace {
 
 std::string quoted(const std::string& value) {
   std::string result = "\"";
@@ -19,15 +17,10 @@ std::string quoted(const std::string& value) {
   return result + '"';
 }
 
-}  // namespace
-
-void YamlLines::number(const char* key, double value) {
-  numbers_.emplace_back(key, std::isnan(value) ? std::nullopt : std::optional<double>(value));
-  word(key, std::isnan(value) ? "null" : format_yaml_number(value == 0.0 ? 0.0 : value));  // never "-0"
-}
-
 void YamlLines::number(const char* key, const std::optional<double>& value) {
-  number(key, value.value_or(std::numeric_limits<double>::quiet_NaN()));
+  const bool known = value && !std::isnan(*value);
+  numbers_.emplace_back(key, known ? value : std::nullopt);
+  word(key, known ? format_yaml_number(*value + 0.0) : "null");  // never "-0"
 }
 
 void YamlLines::count(const char* key, const std::optional<std::uint64_t>& value) {

@@ -49,7 +49,7 @@ class Shipped(unittest.TestCase):
         for name in names:
             self.assertTrue(runs.read_yaml(f"config/{name}.yaml"), name)
         with open(os.path.join(ROOT, "doc/method.md"), encoding="utf-8") as page:
-            self.assertIn(f"(auto: {bends.TYING_SPEED:g} radii/s;", page.read())
+            self.assertIn(f"(`auto`: {bends.TYING_SPEED:g} radii/s;", page.read())
 
     def test_what_is_halved_is_what_is_shipped(self):
         with open(os.path.join(ROOT, "src/settings/measured.hpp"), encoding="utf-8") as source:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""README.md and doc/ against the code: keys and their ranges, launch arguments, names, tests, files, links."""
+"""README.md and doc/ against the code: generated tables, launch arguments, names, tests, files, links."""
 import glob
 import os
 import re
@@ -27,12 +27,6 @@ def rows(page):
             for word in re.findall(r"`([^`]+)`", cells[0]):
                 found.setdefault(word, []).append(cells)
     return found
-
-
-def numbers(cell):
-    """All numbers of a cell; infinities as they stand in YAML."""
-    return [float(number.replace(".inf", "inf"))
-            for number in re.findall(r"(?<![\w.])[-–]?(?:\d+(?:\.\d+)?(?:e-?\d+)?|\.inf)", cell.replace("–", "-"))]
 
 
 def files(folder, ending):
@@ -63,45 +57,6 @@ class Generated(unittest.TestCase):
     def test_tables_are_as_they_are_generated(self):
         done = subprocess.run([os.path.join(ROOT, "scripts/tables"), "--check"], check=False, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-
-
-class Method(unittest.TestCase):
-    page = text("doc/method.md")
-    rows = rows(page)
-
-    def test_has_every_key(self):
-        keys = re.findall(r'\b(?:f|top|friction|contact|until|units)\.\w+\("(\w+)"',
-                          text("src/method/method_fields.hpp") + text("src/method/method.cpp"))
-        keys += re.findall(r'(?:number|integer|text|flag|choice|vector)\("(\w+)"', text("src/method/method_fields.hpp"))
-        self.assertGreater(len(keys), 80)
-        # As scripts/fuzz finds them.
-        spans = [span for line in self.page.splitlines() for span in re.findall(r"`([^`]+)`", line)]
-        words = {word for span in spans for word in re.findall(r"\w+", span)}
-        for key in keys:
-            self.assertIn(key, words)
-
-    def test_names_and_keys_of_laws_and_knots_are_explained(self):
-        found = [name for file in [*files("include/knot_utm/contact", "_friction.hpp"), *files("include/knot_utm/rod", ".hpp")]
-                 for name in re.findall(r'kName = "(\w+)"|LawKey(?: \w+)?\{"(\w+)"', text(file))]
-        names = [law or key for law, key in found]
-        names += [name for file in files("src/specimen", ".cpp") for name in re.findall(r'about_\.name = "(\w+)"', text(file))]
-        self.assertGreater(len(names), 20)
-        for name in names:
-            self.assertTrue(re.search(rf"`(\w+\.)*{name}`", self.page), name)
-
-    def test_ranges_are_those_of_the_code(self):
-        allowed = {}  # a name may stand in two sections, with a range in each
-        for key, low, high in re.findall(r'number\("(\w+)", [\w.]+, Range\{([^,]+), ([^,]+),',
-                                         text("src/method/method_fields.hpp")):
-            allowed.setdefault(key, []).append([float(low), float(high.replace("kInfinity", "inf"))])
-        checked = 0
-        for word, found in self.rows.items():
-            ranges = allowed.get(word.split(".")[-1])
-            for cells in found:
-                if ranges and len(cells) == 5 and cells[1] == "number":
-                    self.assertTrue(numbers(cells[3])[:2] in ranges or len(found) > 1, f"{word}: {cells[3]}")
-                    checked += 1
-        self.assertGreater(checked, 20)
 
 
 class Measured(unittest.TestCase):
@@ -142,6 +97,17 @@ class Ros(unittest.TestCase):
                 elif re.match(r"[\w/]+(\[\])? \w+$", line):
                     self.assertRegex(comment, r"\[[^]]+\]|, in that unit$", f"{file}: {line}")
                     comment = ""
+
+
+class Contributing(unittest.TestCase):
+    def test_diffs_fit_the_files_that_they_change(self):
+        blocks = re.findall(r"\n\n(.*?)\n\n *```diff\n(.*?)```", text("CONTRIBUTING.md"), re.DOTALL)
+        self.assertGreater(len(blocks), 7)
+        for before, diff in blocks:
+            file = re.findall(r"`((?:src|include)/\S+)`", before)[-1]
+            for line in diff.splitlines():
+                if not line.startswith("+") and "…" not in line:
+                    self.assertIn(" ".join(line[1:].split()), " ".join(text(file).split()), file)
 
 
 class Readme(unittest.TestCase):
@@ -192,7 +158,7 @@ class Documents(unittest.TestCase):
         suites = set()
         for file in files("test", "_test.cpp"):
             suites.update(re.findall(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),", text(file), re.MULTILINE))
-        for name in re.findall(r"`((?:[RKX]\d+)\w+|StencilAt|StretchingLaw|IsotropicBendingBy|SmoothContactJacobian)",
+        for name in re.findall(r"`((?:R\d+|K\d+)\w+|StencilAt|StretchingLaw|IsotropicBendingBy|SmoothContactJacobian)",
                                text("doc/references.md")):
             self.assertTrue(name in suites, name)
 

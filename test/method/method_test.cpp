@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <set>
+#include <map>
 #include <string>
 
 #include "knot_utm/contact/friction.hpp"
@@ -218,13 +218,19 @@ TEST(Method, AsItIsWrittenItHasNoKeysWithoutEffect) {
   for (const char* key : {"roller_diameter", "far_side"}) EXPECT_TRUE(loop["machine"][key].IsDefined()) << key;
 }
 
-TEST(MethodKeys, StandThereOnceAndHaveALabelAndAUnit) {
-  std::set<std::string> seen;
+TEST(MethodKeys, StandThereOnceAndSayAllThatAPageNeeds) {
+  std::map<std::string, MethodKey> keys;
   for (const MethodKey& one : method_keys()) {
-    EXPECT_TRUE(seen.insert(one.key).second) << one.key;
-    EXPECT_NE(one.label, "") << one.key;
-    EXPECT_NE(one.unit, "") << one.key;
+    EXPECT_TRUE(keys.emplace(one.key, one).second) << one.key;
+    for (const std::string& said : {one.label, one.unit, one.otherwise, one.allowed}) EXPECT_NE(said, "") << one.key;
   }
+  EXPECT_EQ(keys["specimen.tail"].label + "; " + keys["specimen.tail"].note, "tails; of a capstan from post to load");
+  EXPECT_THAT(keys["specimen.knot_distance"].otherwise, HasSubstr("`auto`: 47.2 radii"));
+  EXPECT_EQ(keys["specimen.knot_distance"].with, loops());
+  EXPECT_EQ(keys["material.radius"].otherwise, "required");
+  EXPECT_EQ(keys["other_material.radius"].allowed, "1e-5 to 0.05");
+  EXPECT_EQ(keys["material.hardening"].with, "plastic");
+  EXPECT_EQ(keys["machine.far_side"].allowed, "`held`, `free`");
 }
 
 TEST(MethodKeys, AreThoseOfEveryKnotLawAndStep) {

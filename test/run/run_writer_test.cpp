@@ -27,7 +27,7 @@ const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
 class RunFolder : public OwnFolder {
  protected:
   void begin(const Method& method) {
-    make_run_folder(folder_.string());
+    make_folder(folder_.string(), "--out");
     begin_run_folder(folder_.string(), method);
   }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <variant>
 
 #include "knot_utm/numeric/law_registry.hpp"
@@ -59,8 +58,9 @@ struct TensionBreaking {
 struct FibreBreaking {
   static constexpr const char* kName = "tension_and_bending";
   static constexpr LawKey kBendingShare{
-      "bending_share", 0.0, 1.0, "-", LawDefault::kNone, std::numeric_limits<double>::quiet_NaN()};
-  static constexpr LawKey kCrushingShare{"crushing_share", 0.0, 100.0, "-", LawDefault::kPlain, 0.0};
+      "bending_share", 0.0, 1.0, "-", LawDefault::kNone, LawKey::kNoValue, "share of its bend that a fibre bears"};
+  static constexpr LawKey kCrushingShare{
+      "crushing_share", 0.0, 100.0, "-", LawDefault::kPlain, 0.0, "strength lost by being pressed flat; by F_b/h"};
   static constexpr std::array kKeys{kBendingShare, kCrushingShare};
   static constexpr bool kStudied = false;
   static constexpr bool kBends = true;

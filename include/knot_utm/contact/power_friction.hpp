@@ -23,7 +23,8 @@ struct PowerFriction : FrictionLawDefaults {
   static constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
   static constexpr std::array kKeys{LawKey{"presliding", 1e-5, 0.5, "of the radius", LawDefault::kAccuracy, kNoValue},
                                     LawKey{"exponent", 0.5, 1.0, "of the pressure", LawDefault::kNone, kNoValue},
-                                    LawKey{"reference_pressure", 1e-3, 1e9, "N/m", LawDefault::kNone, kNoValue}};
+                                    LawKey{"reference_pressure", 1e-3, 1e9, "N/m", LawDefault::kNone, kNoValue,
+                                           "reference pressure; at which `friction_coefficient` holds"}};
 
   double coefficient = 0.0;         ///< mu at p_r [-]
   double presliding = 0.0;          ///< xi_s [m]

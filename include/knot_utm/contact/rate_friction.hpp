@@ -26,9 +26,10 @@ namespace knot_utm {
 struct RateFriction : FrictionLawDefaults {
   static constexpr const char* kName = "rate";
   static constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-  static constexpr std::array kKeys{LawKey{"presliding", 1e-5, 0.5, "of the radius", LawDefault::kAccuracy, kNoValue},
-                                    LawKey{"rate", 0.0, 1.0, "-", LawDefault::kNone, kNoValue},
-                                    LawKey{"rate_speed", 1e-9, 1.0, "m/s", LawDefault::kNone, kNoValue}};
+  static constexpr std::array kKeys{
+      LawKey{"presliding", 1e-5, 0.5, "of the radius", LawDefault::kAccuracy, kNoValue},
+      LawKey{"rate", 0.0, 1.0, "-", LawDefault::kNone, kNoValue, "rate; growth for an e-fold of speed"},
+      LawKey{"rate_speed", 1e-9, 1.0, "m/s", LawDefault::kNone, kNoValue, "rate speed; where the growth begins"}};
 
   double coefficient = 0.0;  ///< mu_0 [-]
   double presliding = 0.0;   ///< xi_s [m]

@@ -86,25 +86,18 @@ struct Method {
   std::vector<std::string> overruled;  ///< what nearer keys left without effect and took away, a sentence each
 };
 
-/// Reads a method file. Materials and load cells are given as maps in the method, or by name. A name is looked up as
-/// materials/NAME.yaml or load_cells/NAME.yaml in these places, in this order:
-///   1. the method's own folder, its config/ and its ../config,
-///   2. share/knot_utm/config of the installation to which the running executable belongs,
-///   3. the config/ of the sources from which it was built.
-/// After reading, `specimen.preload` and the load cell are resolved. `specimen.file` and the records that are
-/// followed are absolute paths. Records are not read, nor is a specification compared with the results that
-/// there are: load_test (run/load_test.hpp) does that.
+/// Reads a method file. Materials and load cells are given as maps, or by the name of a file in materials/ or
+/// load_cells/ of the method's own folder, its config/, its ../config, the current folder, or what comes with the
+/// package (shipped_folders). After reading, `specimen.preload` and the load cell are resolved, and `specimen.file` and
+/// the records that are followed are absolute paths. Records are not read, nor is a specification compared with the
+/// results that there are: load_test (run/load_test.hpp) does that.
 ///
-/// Each override has the form "dotted.key=YAML", as `--set` takes it. An entry of a list is named by its index from 0
-/// or, in the program, by the name of the step ("program.pull.speed"). A key inside a material or load cell that is
-/// given by name changes a copy of it. Overrides whose keys have fewer parts are applied first; others keep the order
-/// given.
+/// Each override has the form "dotted.key=YAML", as `--set` takes it; `option`: what messages call it. An entry of a
+/// list is named by its index from 0 or, in the program, by the name of the step ("program.pull.speed"). A key inside a
+/// material or load cell that is given by name changes a copy of it. Overrides whose keys have fewer parts are applied
+/// first; others keep the order given.
 ///
-/// `option`: what messages call an override.
-///
-/// Throws InvalidInput with one line that names file, key, value and what is allowed. Reasons are a file that is
-/// missing, longer than 64 KiB or not YAML, an unknown or repeated key, a value of the wrong type or out of range, and
-/// values that do not go together.
+/// Throws InvalidInput with one line that names file, key, value and what is allowed.
 Method load_method(const std::string& file, const std::vector<std::string>& overrides = {},
                    const std::string& option = "--set");
 
@@ -116,8 +109,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
 /// needed than `specimen.file` and records that are followed.
 std::string method_yaml(const Method& method);
 
-/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it ("program.pull.speed").
-/// Empty where no number stands at the key.
+/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it; empty: none.
 std::optional<double> number_at(const Method& method, const std::string& key);
 
 /// Checks values that must go together, as `load_method` does. Throws InvalidInput.

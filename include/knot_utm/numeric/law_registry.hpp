@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,11 +21,14 @@ enum class LawDefault {
 
 /// A number that a law takes from a method. A method gives it only with a law that has it.
 struct LawKey {
+  static constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
   const char* name;
   double min, max;  ///< both allowed
   const char* unit;
   LawDefault otherwise;
-  double plain;  ///< value that may stand although the law does not have the key, as in older methods; NaN: none
+  double plain;  ///< value that may stand although the law does not have the key, as in older methods; kNoValue: none
+  const char* meaning = "";  ///< in words, for a report and doc/method.md (Fields::says)
 };
 
 /// The keys of a law that has none.

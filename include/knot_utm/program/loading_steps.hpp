@@ -23,7 +23,7 @@ struct PullStep : Step {
   std::optional<double> load_rate;  ///< of load instead of extension [N/s]
   Until until;
 
-  PullStep() : Step("pull", kMoves | kLoads | kPulls | kCanBreak) {}
+  PullStep() : Step("pull", kMoves | kLoads | kPulls | kCanBreak, "at the first of `until`") {}
   void keys(fields::Fields& f, double usual_extension) override;
   void check(const StepPlace& place) const override;
   void begin(const Sample& now, CrossheadCourse& course) override;
@@ -37,7 +37,7 @@ struct HoldStep : Step {
   bool hold_load = false;           ///< the load, not the crosshead
   std::optional<double> held_load;  ///< at this load [N]; unset: at that of the step's beginning
 
-  HoldStep() : Step("hold", kRests | kCanBreak) {}
+  HoldStep() : Step("hold", kRests | kCanBreak, "when the time is over") {}
   void keys(fields::Fields& f, double usual_extension) override;
   void check(const StepPlace& place) const override;
   bool loads() const override { return hold_load && held_load.value_or(0.0) > 0.0; }
@@ -55,7 +55,7 @@ struct CycleStep : Step {
   int cycles = 0;                            ///< 0: until `time` is over
   std::optional<double> time;                ///< [s]
 
-  CycleStep() : Step("cycle", kMoves | kLoads | kPulls | kCanBreak) {}
+  CycleStep() : Step("cycle", kMoves | kLoads | kPulls | kCanBreak, "after `count` cycles or `time`") {}
   void keys(fields::Fields& f, double usual_extension) override;
   void check(const StepPlace& place) const override;
   void begin(const Sample& now, CrossheadCourse& course) override;
@@ -76,7 +76,7 @@ struct ReturnStep : Step {
   double extension = 0.0;      ///< [m]
   std::optional<double> load;  ///< [N]
 
-  ReturnStep() : Step("return", kMoves) {}
+  ReturnStep() : Step("return", kMoves, "at the first of both, inwards") {}
   void keys(fields::Fields& f, double usual_extension) override;
   void steer(const Sample& now, CrossheadCourse& course) override;
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;
@@ -92,7 +92,7 @@ struct TwistStep : Step {
   std::optional<double> torque;  ///< magnitude [N m]
   bool hold_load = false;        ///< the load, not the crosshead
 
-  TwistStep() : Step("twist", kMoves) {}
+  TwistStep() : Step("twist", kMoves, "at the first of both") {}
   void keys(fields::Fields& f, double usual_extension) override;
   void check(const StepPlace& place) const override;
   void steer(const Sample& now, CrossheadCourse& course) override;
@@ -110,8 +110,13 @@ struct FollowStep : Step {
   std::string record;                   ///< the file of the record
   std::vector<RecordedPlace> recorded;  ///< its rows once the file has been read, times ascending from 0
 
-  FollowStep() : Step("follow", kMoves | kLoads | kPulls) {}
-  void keys(fields::Fields& f, double) override { f.file("record", record); }
+  FollowStep() : Step("follow", kMoves | kLoads | kPulls, "with the record") {}
+  void keys(fields::Fields& f, double) override {
+    f.says(
+         "record; of the crosshead: a `curve.csv`, which [`import_instron`](results.md#raw-data) makes of raw data, or "
+         "the folder of a run")
+        .file("record", record);
+  }
   void check(const StepPlace& place) const override;
   void steer(const Sample& now, CrossheadCourse& course) override;
   EndedBy ended(const Sample& now, CrossheadCourse& course) override;

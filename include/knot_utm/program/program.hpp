@@ -61,6 +61,7 @@ class Step {
 
   const char* name() const { return name_; }  ///< in methods, messages and curve files
   unsigned traits() const { return traits_; }
+  const char* ends_when() const { return ends_; }  ///< for the page of the keys
   Phase phase() const { return phase_named(name_).value_or(Phase::kIdle); }
 
   /// Its keys in a method. `usual_extension`: that which the knot's pull has by default [m].
@@ -84,13 +85,15 @@ class Step {
   static constexpr fields::Range kLoadRates{1e-6, 1e8, "N/s"};
   static constexpr double kUsualDistance = 0.01;  ///< that stands for one which only the specimen knows [m]
 
-  Step(const char* name, unsigned traits) : name_(name), traits_(traits) {}
+  Step(const char* name, unsigned traits, const char* ends) : name_(name), traits_(traits), ends_(ends) {}
+  void speed_key(fields::Fields& f) { f.says("speed", "1.04 radii/s").scaled_number("speed", speed, kSpeeds); }
   Step(const Step&) = default;
   Step& operator=(const Step&) = default;
 
  private:
   const char* name_;
   unsigned traits_;
+  const char* ends_;
 };
 
 /// A step of any kind, as a value.

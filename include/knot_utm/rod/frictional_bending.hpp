@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "knot_utm/numeric/law_registry.hpp"
 #include "knot_utm/rod/material.hpp"
@@ -30,10 +29,12 @@ namespace knot_utm {
 /// hysteresis of bending. Source: the law of Grosberg 1966 for fabrics; compaction is our own.
 struct FrictionalBending {
   static constexpr const char* kName = "frictional";
-  static constexpr LawKey kStickRatio{"stick_ratio", 1.01, 1e3, "-", LawDefault::kPlain, 20.0};
+  static constexpr LawKey kStickRatio{
+      "stick_ratio", 1.01, 1e3, "-", LawDefault::kPlain, 20.0, "stiffness of a bend before fibres slide"};
   static constexpr LawKey kFrictionMoment{
-      "friction_moment", 0.0, 1.0, "k_b/h", LawDefault::kNone, std::numeric_limits<double>::quiet_NaN()};
-  static constexpr LawKey kCompaction{"compaction", 0.0, 1.0, "-", LawDefault::kPlain, 0.0};
+      "friction_moment", 0.0, 1.0, "k_b/h", LawDefault::kNone, LawKey::kNoValue, "friction moment of a bent rope"};
+  static constexpr LawKey kCompaction{
+      "compaction", 0.0, 1.0, "-", LawDefault::kPlain, 0.0, "friction moment by tension borne; over the radius"};
   static constexpr std::array kKeys{kStickRatio, kFrictionMoment, kCompaction};
   static constexpr bool kStudied = true;
   static constexpr bool kRemembers = true;

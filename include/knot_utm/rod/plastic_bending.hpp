@@ -19,7 +19,8 @@ namespace knot_utm {
 /// curvature kappa and released keeps kappa - M/k_b.
 struct PlasticBending {
   static constexpr const char* kName = "plastic";
-  static constexpr LawKey kHardening{"hardening", 0.01, 1.0, "-", LawDefault::kPlain, 0.1};
+  static constexpr LawKey kHardening{
+      "hardening", 0.01, 1.0, "-", LawDefault::kPlain, 0.1, "share of stiffness that does not yield; experimental"};
   static constexpr std::array kKeys{kHardening};
   static constexpr bool kStudied = false;
   static constexpr bool kRemembers = true;

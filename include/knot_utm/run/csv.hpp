@@ -13,11 +13,10 @@ namespace knot_utm {
 
 struct Sample;
 
-/// Writes curve.csv and curve_full.csv. Row 1 holds the names of the columns and row 2 their units; one row for each
-/// sample follows. Columns are separated by commas. Every number has the shortest form that reads back to the same
-/// double, and "nan" stands for a value that does not exist. Each row is passed to the operating system before `write`
-/// returns, so a run that is killed keeps what it measured. The last column, crosshead_travel, is written for a
-/// compliant frame only.
+/// Writes curve.csv and curve_full.csv: a row with the names of the columns, one with their units, and one for each
+/// sample. Every number reads back to the same double; "nan" stands for a value that does not exist. Each row is passed
+/// to the operating system before `write` returns, so a run that is killed keeps what it measured. The last column,
+/// crosshead_travel, is written for a compliant frame only.
 class CurveWriter {
  public:
   /// Throws std::runtime_error where the file cannot be written.
@@ -35,9 +34,8 @@ class CurveWriter {
   std::size_t rows_ = 0;
 };
 
-/// Reads a file of CurveWriter, with or without crosshead_travel. Columns are found by name,
-/// in any order, and unknown ones are ignored. Throws InvalidInput where the file cannot be read, a column is missing,
-/// a unit differs, a row is malformed, or there are more rows than TextRows allows.
+/// Reads a file of CurveWriter, whose columns are found by name. Throws InvalidInput where the file cannot be read, a
+/// column is missing, a unit differs, a row is malformed, or there are more rows than TextRows allows.
 std::vector<CurveRow> read_curve(const std::string& file);
 /// The same from a stream; `file` is its name in messages.
 std::vector<CurveRow> read_curve(std::istream& in, const std::string& file);
@@ -56,9 +54,8 @@ bool is_curve_file(const std::string& file);
 
 /// Reads the readings of a test whose crosshead motion another test follows. They begin with the reading before the
 /// first that pulls (pulls(phase)) and end with the record, or where it was balanced behind the last that pulls, which
-/// `tell` receives. Throws InvalidInput where the file is no curve.csv. It also throws, naming file and reading,
-/// where a number is not finite, a time is smaller than the one before, or a balance before the last that pulls makes
-/// two zeros of extension.
+/// `tell` receives. Throws InvalidInput where the file is no curve.csv, a number is not finite, a time is smaller than
+/// the one before, or a balance before the last that pulls makes two zeros of extension.
 std::vector<CurveRow> read_course(const std::string& file, const Tell& tell = nullptr);
 
 }  // namespace knot_utm

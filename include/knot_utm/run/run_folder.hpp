@@ -15,21 +15,18 @@
 
 namespace knot_utm {
 
-/// A file that cannot be written. The message has the form "cannot write FILE: no space left on device", with the
-/// reason that the operating system gave last (errno).
+/// A file that cannot be written: "cannot write FILE: no space left on device", with the reason that errno has.
 struct CannotWrite : std::runtime_error {
   explicit CannotWrite(const std::string& file, int error_ = errno)
       : std::runtime_error("cannot write " + file + (error_ == 0 ? "" : ": " + reason_of(error_))), error(error_) {}
 
-  /// Whether the file did not fit: the disk is full, the quota is used up or the file is too large. Otherwise the
-  /// folder was a wrong choice.
+  /// Whether the file did not fit. Otherwise the folder was a wrong choice.
   bool out_of_room() const { return error == ENOSPC || error == EDQUOT || error == EFBIG; }
 
-  int error;  ///< value of errno
+  int error;  ///< errno
 };
 
-/// Makes the folder that a command-line argument such as "--report" names. Throws InvalidInput where that cannot be
-/// done.
+/// Makes the folder that a command-line argument such as "--report" names. Throws InvalidInput.
 void make_folder(const std::string& folder, const char* argument);
 
 /// Throws InvalidInput where the file that a command-line argument names must not be written: it is one of `inputs`,
@@ -38,19 +35,13 @@ void make_folder(const std::string& folder, const char* argument);
 void require_new_file(const char* argument, const std::string& file, const std::vector<std::string>& inputs,
                       bool overwrite, const std::string& begins = "");
 
-/// Makes the folder of a run. Throws InvalidInput (key "--out") where that cannot be done.
-void make_run_folder(const std::string& folder);
-
 /// The text of a run's method.yaml. It refers to a specimen from a file as specimen.csv, and to a user's knot as
 /// knot.yaml: the copies beside it.
 std::string method_file_text(const Method& method);
 
-/// Throws InvalidInput (key "--out") where the folder holds a record that the method follows. The run would overwrite
-/// its own input.
+/// Throw InvalidInput (key "--out") where a run would overwrite its own input: the folder holds a record that the
+/// method follows, or the method itself as method.yaml that no run wrote.
 void require_no_record_in(const std::string& folder, const Method& method);
-
-/// Throws InvalidInput (key "--out") where the method stands in the folder as method.yaml, and no run wrote it. The run
-/// would write over what somebody wrote by hand.
 void require_no_method_in(const std::string& folder, const std::string& method_file);
 
 /// Writes method.yaml and copies of the files that it names, specimen.csv and knot.yaml, and removes the
@@ -71,7 +62,7 @@ std::vector<std::string> specimen_folders(const std::string& folder);
 /// report, a comparison, or the folder of a specimen.
 bool holds_run(const std::string& folder);
 
-/// The folder with this number in the sequence `folder`, `folder-2`, `folder-3` and so on, which begins at 1.
+/// The folder with this number, from 1 on, in the sequence `folder`, `folder-2`, `folder-3` and so on.
 std::string numbered_folder(const std::string& folder, int number);
 
 /// The `reason` in result.yaml of a test that was interrupted.
@@ -83,28 +74,25 @@ bool has_complete_result(const std::string& folder);
 /// The value of a key in the result.yaml of a folder, as it stands there; empty where there is none.
 std::optional<std::string> result_of(const std::string& folder, const std::string& key);
 
-/// The end of an error message for a run that cannot write any more: what stands, and how to make results of it. Empty
-/// where nothing stands.
+/// The end of a message for a run that cannot write any more: what stands, and how to make results of it; or empty.
 std::string what_stands(const std::string& folder);
 
 /// Writes a file so that it appears either completely or not at all. Throws std::runtime_error.
 void write_whole(const std::string& file, const std::string& text);
 
-/// Reads a whole file. Throws std::runtime_error where it cannot be read.
+/// Reads a whole file. Throws std::runtime_error, or where the user named it InvalidInput, if it cannot be read.
 std::string read_whole(const std::string& file);
-/// The same for a file that the user named. Throws InvalidInput where it cannot be read.
 std::string read_input(const std::string& file);
 
 /// The folder of a run or a batch, which no other program writes to as long as this object is there. The operating
 /// system holds the claim, and lets it go when the process ends, however it does.
 class ClaimedFolder {
  public:
-  /// Makes the folder where it is not there, and claims it whatever it holds. Throws InvalidInput (key "--out") where
-  /// it cannot be made, or another program is writing to it.
+  /// Makes the folder where it is not there, and claims it whatever it holds. Throws InvalidInput (key "--out").
   explicit ClaimedFolder(const std::string& folder);
 
-  /// The folder or, where that holds a run already (complete, cut off or under way), the first free one of `folder-2`,
-  /// `folder-3` and so on, so that nothing measured is overwritten. Throws InvalidInput where it cannot be made.
+  /// The folder or, where that holds a run already (complete, cut off or under way), the first free one of
+  /// numbered_folder. Throws InvalidInput where it cannot be made.
   static ClaimedFolder first_free(const std::string& folder);
 
   const std::string& path() const { return path_; }
@@ -123,10 +111,9 @@ std::string free_folder(const std::string& folder);
 /// The notice for the user when a run goes to another folder than the one asked for.
 std::string moved_notice(const std::string& asked, const std::string& used);
 
-/// Makes the link `out/latest` lead to the folder of a run that stands in a folder called `out`, such as `out/tighten`
-/// or `out/tighten-2`, so that a command that reads `out/latest` reads the run that was written last. Returns the path
-/// of the link. Returns an empty text, and makes no link, where the run stands elsewhere, where something that is no
-/// link has that name, or where the file system has no links.
+/// Makes the link `out/latest` lead to the folder of a run that stands in a folder called `out`, so that a command that
+/// reads `out/latest` reads the run that was written last. Returns its path; empty, and no link, where the run stands
+/// elsewhere, something else has that name, or the file system has no links.
 std::string point_latest_to(const std::string& folder);
 
 /// A command line that a shell reads back to the same words: those with blanks and the like are quoted.

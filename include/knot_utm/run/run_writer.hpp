@@ -18,8 +18,7 @@
 namespace knot_utm {
 
 /// The rod over the time of a test, for pictures: what becomes shapes.csv. Of all records that have readings of the rod
-/// it keeps each 2^k-th, with the smallest k that leaves no more than `kMost`, and the last one: how long a test takes
-/// is not known before it has ended.
+/// it keeps each 2^k-th, with the smallest k that leaves no more than `kMost`, and the last one.
 class ShapeSeries {
  public:
   static constexpr std::size_t kMost = 120;
@@ -55,12 +54,11 @@ class ShapeSeries {
 
 struct Centreline;
 
-/// Writes a further file of a run's folder, such as a bag.
+/// Writes a further file of a run's folder, such as a bag, which MakeFurther begins.
 struct FurtherWriter {
   std::function<void(const Record&)> add;
   std::function<void()> close;  ///< called after the last record
 };
-/// Makes the writer of a further file in this folder.
 using MakeFurther = std::function<FurtherWriter(const std::string& folder, const Method& method)>;
 
 /// What the samples of a run do not say.
@@ -95,8 +93,7 @@ class RunWriter {
  private:
   RunWriter(const std::string& folder, const Method& method, const Centreline& drawn);
   void add_to_files(const Record& record);
-  RunFacts facts() const;
-  void write_ends(const Results& results, RunFacts facts, const Points& final_shape);
+  std::vector<std::string> warnings_of_turn(double weight) const;  // one, where the loop turned far
 
   std::string folder_;
   FurtherWriter further_;
@@ -116,8 +113,7 @@ class RunWriter {
   ShapeSeries shapes_;
 };
 
-/// Makes the same files of a run from samples.csv in its folder: of one that was cut off, of one under ROS, and by
-/// `tensile_test --from-samples`.
+/// Makes the same files from samples.csv in the folder of a run: of one under ROS, or by `tensile_test --from-samples`.
 MadeResults make_results(const std::string& folder, const Method& method, const ResultsOptions& options);
 
 }  // namespace knot_utm

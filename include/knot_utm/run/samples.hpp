@@ -38,13 +38,11 @@ struct Record {
 };
 
 /// The row of curve.csv that belongs to a command; null: none does. It is the answer at a sampling instant of the load
-/// cell, and also where the cell was balanced, so that the curve contains its zero. If the rod parted, it is the time
-/// step in which it parted; this step ends the curve, and lies between two sampling instants as a rule. A machine that
-/// failed gives no row.
+/// cell, and also where the cell was balanced, so that the curve contains its zero. The time step in which the rod
+/// parted ends the curve, mostly between two sampling instants. A machine that failed gives no row.
 const Sample* cell_reading(const Record& record);
 
-/// Whether the rod's shape is part of the record of a command: it is, at every reading of the load cell, and once the
-/// rod has parted.
+/// Whether a command's record has the rod's shape: at every reading of the load cell, and once the rod has parted.
 inline bool shape_is_due(const Command& command, const Sample& answer) {
   return command.read_cell || answer.status == BenchStatus::kBroken;
 }
@@ -65,8 +63,7 @@ struct TestEnd {
 ///                 follows [8 bytes, little-endian], then the shape as a bare Archive saves it.
 ///
 /// The rows of a command are passed to the operating system, by one write, before the command counts as answered. They
-/// therefore outlive the process, however it ends. A power failure may lose what the system has not yet written to the
-/// disk.
+/// therefore outlive the process, but what is not on the disk yet may not outlive a power failure.
 std::string samples_file(const std::string& folder);
 
 /// Reads the records in order, up to the last command that is whole.

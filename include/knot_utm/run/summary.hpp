@@ -44,14 +44,12 @@ class ProgressLine {
 };
 
 /// Writes the input of a report on a comparison: comparison.yaml, as printed, and the two curves as compared, a.csv and
-/// b.csv. Makes the folder and returns its path.
+/// b.csv. Makes the folder and returns its path: `folder`, or, unless `overwrite`, the first numbered_folder of it that
+/// has no other comparison, nor curves and pages of something else. The same two files compared again replace their
+/// former comparison.
 ///
-/// The folder is `folder`, unless another comparison, or curves and pages of something else, stand there. Then it is
-/// the first of `folder-2`, `folder-3` and so on without such files. With `overwrite` it is always `folder`. The same
-/// two files compared again replace their former comparison.
-///
-/// Throws InvalidInput (key "--report") where the files cannot be written, the folder holds a run, or one of them would
-/// replace a file that was compared. Then nothing is written.
+/// Throws InvalidInput (key "--report"), and writes nothing, where the files cannot be written, the folder holds a run,
+/// or one of them would replace a file that was compared.
 std::string write_comparison(const std::string& folder, const std::string& yaml, const Pull& a, const Pull& b,
                              const std::string& file_a, const std::string& file_b, bool overwrite = false);
 

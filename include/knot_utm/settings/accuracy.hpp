@@ -39,11 +39,10 @@ struct RelativeErrors {
 /// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long, a quarter of
 /// the presliding displacement and shorter steps. Its size at `normal` was found over loops drawn at random
 /// (`scripts/bench readings`). It depends on the handedness of the knots, on friction and, for rods that stretch, on
-/// the length of the loop. Other edges and tolerances raise or lower it. The contribution of the edges is proportional
-/// to the square of their length. Those of contact tolerance, presliding displacement, longest step and residual are
-/// proportional to their values. Three kinds of sections were studied: elastic ones with friction on the centrelines,
-/// ones whose fibres rub with friction's whole couple, and soft ones of rubber. Of knots that files describe, their
-/// largest load was studied in the same way (bench/results/knots.md), in one material at a time.
+/// the length of the loop. The contribution of the edges is proportional to the square of their length, those of
+/// contact tolerance, presliding displacement, longest step and residual to their values. Studied were elastic sections
+/// with friction on the centrelines, ones whose fibres rub with friction's whole couple, and soft ones of rubber; of
+/// knots that files describe, their largest load (bench/results/knots.md), in one material at a time.
 RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                                const PhysicsOptions& physics);
 

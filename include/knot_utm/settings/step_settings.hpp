@@ -41,8 +41,6 @@ double pair_friction(const Material& material, const PhysicsOptions& physics);
 /// Whether friction turns the rod about itself, so that the scene must solve for twist.
 bool friction_rolls(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics);
 
-struct Material;
-
 /// The rod's centreline in the machine before anything moves, with the lower grip at the origin, pulled along +z, and
 /// with the edges of the chosen accuracy.
 Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,

@@ -25,9 +25,8 @@ enum class Readings {
 
 /// The option and its value as the command line has them, "--readings plateau"; empty for kAll.
 std::string words_of(Readings readings);
-/// The readings of a word, which is "plateau".
-Readings readings_named(const std::string& word);
-
+Readings readings_named(const std::string& word);  ///< of "plateau"
+/// Throws InvalidInput where the test of this method has no such readings.
 void require_readings(const Method& method, Readings readings);
 
 /// Ends a test whose readings are complete before its program ends.
@@ -45,7 +44,7 @@ class EarlyEnd {
   std::string reason_;                 ///< empty: the test goes on
 };
 
-/// How a test, or a batch of tests, is run without ROS. Functions may be empty, except `interrupted`.
+/// How a test, or a batch of tests, is run without ROS. Only `interrupted` must not be empty.
 struct RunOptions {
   std::string folder;      ///< folder to write to
   bool overwrite = false;  ///< overwrites the contents of `folder`, instead of using the next free folder
@@ -90,24 +89,21 @@ HeadlessOutcome run_headless(const Method& method, const HeadlessOptions& option
 /// Makes the files of the run in `options.folder` anew from its samples.
 HeadlessOutcome results_from_samples(const HeadlessOptions& options);
 
-/// The first step of a program that does something else than to tie, release or mount the specimen or to let it rest.
-/// What comes before it does not depend on what follows. Empty where the specimen is not tied before that step, or
-/// where there is no such step.
+/// The first step of a program that does something else than to tie, release or mount the specimen or to let it rest;
+/// empty where there is none, or no tying before it. What comes before does not depend on what follows.
 std::optional<int> step_after_tying(const Program& program);
 
 /// All that a tied specimen depends on, as text: the program that computes it, the values of specimen, material,
-/// machine and physics, and the steps of the method before `step`. `shapes`: whether its records have the readings of
-/// the rod.
+/// machine and physics, and the steps of the method before `step`. `shapes`: its records have the readings of the rod.
 std::string tied_from(const Method& method, int step, bool shapes);
 
 /// A specimen that is tied once and restored by every later test beside it that ties the same one. A file keeps the
 /// state of the machine before the step after tying, and all records up to there. A test that restores it has the same
 /// bytes as one that ties it, but for wall times.
 ///
-/// The file stands in the hidden folder `.tied` beside the folder of the run, so in that of its sweep or batch. There
-/// are kFiles such files at most: what a specimen is tied from says which of them is its own, and the last specimen
-/// that was kept there replaces the one before. Several processes may share them, since a file appears as a whole. One
-/// that does not suit is as good as none.
+/// The file is one of kFiles in the hidden folder `.tied` beside the folder of the run, so in that of its sweep or
+/// batch. What a specimen is tied from says which, and the last one that was kept there replaces the one before.
+/// Several processes may share them, since a file appears as a whole. One that does not suit is as good as none.
 class TiedSpecimen {
  public:
   static constexpr std::size_t kFiles = 32;
@@ -119,15 +115,14 @@ class TiedSpecimen {
   const std::string& file() const { return file_; }
 
   /// Brings machine and program, which have just been made from the method, to the step after tying, and gives the
-  /// records up to there: a test that goes on from them has the same bytes as one from the start, since its program has
-  /// asked for all of them, and the state of the machine is whole. Empty, and machine and program are as they were,
+  /// records up to there, all of which its program has asked for. Empty, and machine and program are as they were,
   /// where the file does not have the specimen, or has it damaged.
   std::optional<std::vector<Record>> restore(const Method& method, TestingMachine& bench, ProgramRunner& program) const;
 
   /// Of a test that ties it: to be called with every record until it is kept.
   void add(const Record& record);
-  /// To be called between all commands: keeps it once the program has come to the step after tying. It is written in
-  /// `folder`, which is the run's own, and then moved to its place.
+  /// To be called between all commands: keeps it once the program has come to the step after tying. `folder`: that of
+  /// the run, in which it is written before it is moved to its place.
   void keep(TestingMachine& bench, const ProgramRunner& program, const std::string& folder);
 
  private:

@@ -8,12 +8,11 @@
 
 namespace knot_utm {
 
-/// Why the specimen was not at rest when its pull began, as one sentence; empty: it was. At rest tying and release have
-/// ended in time, and both grips bear the same force, apart from the rod's weight.
+/// Why the specimen was not at rest when its pull began, as one sentence; empty: it was. Then tying and release had
+/// ended in time, and both grips bore the same force, apart from the rod's weight.
 std::string why_not_at_rest(const Results& results, const RunFacts& facts);
 
-/// Whether the knots slid until the end without locking. A load that rose all the same rose while they were still
-/// sliding.
+/// Whether the knots slid until the end without locking. A rising load alone is no lock: it may rise while they slide.
 bool slid_to_the_end(const Results& results);
 
 /// By how many weights of the rod the forces on two grips may differ at rest. What holds the middle of a loop's far
@@ -32,10 +31,9 @@ struct ReadingErrors {
 };
 
 /// The errors consist of the effects of mesh and tolerances (`RunFacts::errors`) and, for forces and their slopes, of
-/// those of drag, inertia and the noise of the load cell. They are empty where the specimen had not come to rest or a
-/// knot opened, since no convergence study covers these cases, and where the knots were hardly closed and do not roll;
-/// where they roll, they are larger then (errors_of_hardly_closed). Those of more than half of the reading are left
-/// out.
+/// those of drag, inertia and the noise of the load cell. They are empty where no convergence study covers the case:
+/// the specimen had not come to rest, a knot opened, or knots that do not roll were hardly closed (else
+/// errors_of_hardly_closed). Those of more than half of the reading are left out.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts);
 
 }  // namespace knot_utm

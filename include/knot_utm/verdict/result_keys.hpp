@@ -14,15 +14,14 @@
 
 namespace knot_utm {
 
-/// Whether a test meets its specification.
+/// Whether a test meets its specification. A number that it does not have meets no requirement.
 struct Verdict {
   std::optional<bool> passed;       ///< empty: there are no requirements
   std::vector<std::string> failed;  ///< one line for each requirement that was not met, with the reason
 };
 
+/// Throws InvalidInput where a key of a specification is no number of result.yaml.
 void check_specification(const Specification& specification);
-
-/// Compares the results with the specification. A number that the test does not have meets no requirement.
 Verdict verdict(const Specification& specification, const YamlLines& results);
 
 /// Everything from which result.yaml is made.
@@ -33,8 +32,7 @@ struct ResultSource {
   Verdict verdict;       ///< the verdict on the specification
 };
 
-/// Functions that read the value of a key. The type of the value is the kind of the key, and an empty value is written
-/// as null.
+/// Functions that read the value of a key, whose type is its kind. An empty value is written as null.
 template <typename Value>
 using ReadAs = Value (*)(const ResultSource&);
 using ReadNumber = ReadAs<std::optional<double>>;
@@ -89,16 +87,15 @@ constexpr char kBeside[] = "beside";  ///< in the row of the reading whose name 
 constexpr char kCertificate[] = "certificate";  ///< among the checks of the certificate
 }  // namespace result_place
 
-/// All keys of result.yaml, in the order of the file. result.yaml, the keys that a specification may name, and
-/// labels and units of the report (`tensile_test --list-results`) are made from this table, and by `scripts/tables` the
-/// list in doc/results.md.
+/// All keys of result.yaml, in its order. From this table are made the file, the keys that a specification may name,
+/// labels and units of the report (`tensile_test --list-results`), and by `scripts/tables` the list in doc/results.md.
 const std::vector<ResultKey>& result_keys();
+const ResultKey* result_key(const std::string& name);  ///< null: no key has this name
 
 /// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning.
 std::string result_keys_csv();
 
-/// The text of result.yaml. The keys have a fixed order and SI units, and null stands for a value that does not exist.
-/// Among the warnings, those that follow from the results come first.
+/// The text of result.yaml. Among the warnings, those that follow from the results come first.
 std::string result_yaml(const Results& results, const RunFacts& facts);
 
 }  // namespace knot_utm

@@ -7,8 +7,6 @@
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/verdict/known_errors.hpp"
 
-/// What is said of a method, before anything is simulated or where its knot came undone.
-
 namespace knot_utm {
 
 /// A limit up to which a result is trusted. Warnings, the report's certificate, diagnostics of nodes and the pages take
@@ -35,7 +33,7 @@ inline constexpr TrustLimit kPlateauUnsure{"plateau_unsure", "plateau_force_erro
 inline constexpr TrustLimit kMuchDrag{"much_drag", "drag_share", 0.01, "-", "drag has a part in the force"};
 inline constexpr TrustLimit kMuchInertia{"much_inertia", "inertia_share", 0.01, "-", "inertia has a part in the force"};
 
-/// The one up to which a contact of this rod represents its contact.
+/// The one up to which a contact of this rod is right.
 inline const TrustLimit& deepest(const RodMaterial& material) {
   return material.is_soft() ? kDeepSoftContact : kDeepContact;
 }
@@ -47,15 +45,12 @@ std::string trust_limits_csv();
 /// A warning, one line, where the plateau force may be wrong by more than a tenth. Otherwise empty.
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors);
 
-/// The warnings that are also printed on the console, one line each.
+/// All warnings that a reader of the results should know, one line each, and those of them that the console has.
 std::vector<std::string> printed_warnings(const Results& results, const RunFacts& facts);
-
-/// All warnings that a reader of the results should know, one line each. The printed ones are among them.
 std::vector<std::string> all_warnings(const Results& results, const RunFacts& facts);
 
 /// Warnings that are known of a method before anything is simulated, one line each. Among them are questions about a
-/// rod that is like no rod there is: most likely a slip of a unit, such as a modulus in MPa. Their limits lie far
-/// beyond those of threads, ropes, wires and gels.
+/// rod that is like no rod there is, far beyond threads, ropes, wires and gels: most likely a slip of a unit.
 std::vector<std::string> foreseen_warnings(const Method& method);
 
 /// Warnings about speeds of the method.

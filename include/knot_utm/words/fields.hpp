@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace knot_utm::fields {
@@ -35,8 +36,17 @@ class Fields {
  public:
   virtual ~Fields() = default;
 
+  /// What is said of the key that comes next, on the page of the keys (doc/method.md) and in a report. `meaning`: in
+  /// words, by which a report calls it; what follows a semicolon stands on the page alone; "; experimental" ends it
+  /// where no shipped method uses it. `otherwise`: what it is where a method does not give it, if that is more than a
+  /// value. `with`: what alone has it, knots or laws; empty: all.
+  virtual Fields& says(std::string_view /*meaning*/, std::string_view /*otherwise*/ = {},
+                       std::string_view /*with*/ = {}) {
+    return *this;
+  }
+
   void number(const char* key, double& value, const Range& range) { visit_number(key, value, range, Unset::kKept); }
-  /// A number that may be `auto`, which stands for its default (method_defaults.hpp).
+  /// A number that may be `auto`, which stands for its default.
   void scaled_number(const char* key, double& value, const Range& range) {
     visit_number(key, value, range, Unset::kAuto);
   }

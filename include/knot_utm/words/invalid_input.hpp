@@ -21,9 +21,8 @@ std::string shown(const std::string& text);
 std::string reason_of(int error);
 
 /// Input outside what is allowed. `what()` is one line, a sentence that says what is wrong, where, and what is allowed.
-/// Its most frequent form is "KEY is VALUE, but must be ALLOWED"; the functions below make the others. A file's name
-/// stands before the sentence, "FILE: ", where it is known: whoever read the input from a file adds it with `in_file`.
-/// Whatever comes from outside is shown as `shown` does. Whatever reads or checks what a user gave may throw it.
+/// Its most frequent form is "KEY is VALUE, but must be ALLOWED"; the functions below make the others. Whoever read the
+/// input from a file adds "FILE: " with `in_file`. What comes from outside is `shown`.
 struct InvalidInput : std::runtime_error {
   /// "specimen.turns is 7, but must be 1 to 4".
   InvalidInput(const std::string& key, const std::string& value, const std::string& allowed);

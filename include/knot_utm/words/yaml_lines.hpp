@@ -9,10 +9,12 @@
 
 namespace knot_utm {
 
+/// A text in quotes, for YAML and JSON; characters that are no text are blanks.
+std::string quoted(const std::string& text);
+
 /// A YAML map, written as one "key: value" line after the other. Values that are missing or NaN are null.
 class YamlLines {
  public:
-  void number(const char* key, double value);
   void number(const char* key, const std::optional<double>& value);
   void count(const char* key, const std::optional<std::uint64_t>& value);
   void flag(const char* key, const std::optional<bool>& value);

@@ -1,5 +1,3 @@
-#include "specimens_section.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/tying/before_tying.hpp"
 #include "knot_utm/words/number.hpp"
+#include "method_parts.hpp"
 #include "method_reader.hpp"
 
 namespace knot_utm {

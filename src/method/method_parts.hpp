@@ -2,7 +2,6 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +10,7 @@
 
 namespace knot_utm {
 
-/// Writes overrides, each "dotted.key=YAML", into the map of a method. `option`: what messages call them. A key inside
-/// a material or load cell that is given by name changes a copy of it. Overrides whose keys have fewer parts are
-/// applied first; others keep the order given.
+/// Writes overrides into the map of a method, as load_method says.
 void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const std::string& option,
                      const ConfigLibrary& library);
 
@@ -27,6 +24,11 @@ GivenBy given_by(const std::string& key, const YAML::Node& method, const std::ve
 /// The value at a dotted key; undefined where there is none.
 YAML::Node value_at(const YAML::Node& root, const std::string& key);
 
+/// The checks of check_method on keys that another choice leaves without effect, and on what two materials share, as
+/// nothing in a time step tells them apart by it.
+void check_effects(const Method& method);
+void check_other_material(const Method& method);
+
 /// Takes away the keys of a material and of friction that a choice nearer to the user has left without effect: what a
 /// material's file says of its own bending law where an override chooses another one; its resistance to rolling where
 /// the method or an override has strands that do not roll or rub; its soft section where one needs a round one. The
@@ -34,27 +36,26 @@ YAML::Node value_at(const YAML::Node& root, const std::string& key);
 /// map before the overrides.
 void drop_overruled_keys(const YAML::Node& given, const std::vector<std::string>& overrides, Method& method);
 
-/// What `rolling_resistance` of this material takes to have an effect, and lacks. `section`: that of the material, with
-/// a dot.
-std::string what_rolling_takes(const Material& material, const PhysicsOptions& physics, const std::string& section);
-
-/// What a soft section of this material does not go with, and the keys that say so.
-struct NeedsRound {
-  std::string where;
-  std::vector<std::string> keys;
-};
-std::optional<NeedsRound> needs_round(const Material& material, const PhysicsOptions& physics,
-                                      const std::string& section);
-
 /// A law has the plain values of its own keys that were not given. Keys of other laws, which have no effect, go.
 void keep_own_keys(Method& method);
 
-/// Replaces the material of the other ropes by one that `change` has changed.
+/// Replaces the material of the other ropes by one that `change` has changed, where there are two materials.
 template <class Change>
 void change_other(Material& material, const Change& change) {
+  if (!material.other) return;
   Material other = *material.other;
   change(other);
   material.other = std::make_shared<const Material>(std::move(other));
 }
+
+/// Reads the `specimens` section. `automatic` is true where it says `scatter: auto`; default_scatter then gives the
+/// values that scatter: those that a person cannot reproduce exactly from one specimen of this method to the next.
+SpecimensOptions read_specimens(const YAML::Node& node, const std::string& file, bool& automatic);
+std::vector<Scatter> default_scatter(const Method& method);
+
+/// Checks that every key that scatters is a number of the method.
+void check_scatter(const Method& method);
+
+YAML::Node specimens_map(const SpecimensOptions& specimens);
 
 }  // namespace knot_utm
