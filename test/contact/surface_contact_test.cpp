@@ -390,6 +390,53 @@ TEST(SoftSections, ForcesAreTheDerivativeOfTheEnergy) {
   expect_forces_of_energy<SoftOnARoller>();
 }
 
+/// How much the overlap of each contact changes with the nodes, by which Newton's method predicts its pressure.
+template <typename Kind>
+void expect_predicted_overlaps() {
+  Wound scene{Kind::kSecond};
+  Kind kind(scene, MemoryFriction{0.0, kRadius});
+  kind.contact.act_at_surface(1.0, scene.turns);
+  const Points at = scene.position;
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 1e-6 * kRadius);
+  Points change(3, at.cols());
+  for (double& one : change.reshaped()) one = noise(random);
+  const auto contacts_at = [&](double factor) {
+    scene.position = at + factor * change;
+    scene.set_lengths();
+    kind.evaluate();
+    return kind.contact.contacts();
+  };
+  const std::vector<ContactPoint> behind = contacts_at(-1.0), ahead = contacts_at(1.0), contacts = contacts_at(0.0);
+  ASSERT_EQ(ahead.size(), contacts.size());
+  ASSERT_EQ(behind.size(), contacts.size());
+  double largest = 0.0, apart = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactPoint& contact = contacts[i];
+    if (!contact.touches()) continue;
+    const SurfacePoint& surface = kind.contact.surfaces()[i];
+    Vec3 shift = Vec3::Zero(), turn_a = Vec3::Zero(), turn_b = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      shift += contact.c[k] * change.col(contact.a0 + k);
+      turn_a += surface.d_a[k] * change.col(contact.a0 + k);
+      if (contact.on_roller()) continue;
+      shift += contact.c[3 + k] * change.col(contact.b0 + k);
+      turn_b += contact.beta[3 + k] * change.col(contact.b0 + k);
+    }
+    const double predicted = overlap_change(contact, surface, kind.contact.soft_points()[i], shift, turn_a, turn_b);
+    largest = std::max(largest, std::abs(predicted));
+    apart = std::max(apart, std::abs(predicted - 0.5 * (ahead[i].overlap - behind[i].overlap)));
+  }
+  ASSERT_GT(largest, 0.0);
+  EXPECT_LT(apart, 1e-6 * largest);
+}
+
+TEST(SoftSections, PredictedOverlapsAreTheirDerivatives) {
+  expect_predicted_overlaps<Soft>();
+  expect_predicted_overlaps<SoftOfTwoMaterials>();
+  expect_predicted_overlaps<SoftOnARoller>();
+}
+
 /// The work of all forces and torques on what nodes and spins did in the step is that of g on the slip, less what
 /// resistance to rolling takes up.
 TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
