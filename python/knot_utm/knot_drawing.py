@@ -5,11 +5,13 @@ from scipy.spatial import cKDTree
 
 from knot_utm.errors import WrongInput
 
-UP = np.array([0.0, 0.0, 1.0])
+X, UP = np.eye(3)[[0, 2]]
 APART = 2.2            # least distance of strands [radii]
 ALONG = 1.5 * np.pi    # places nearer along a strand are the same one's [radii]
 DENSE = 0.5            # of the points that are measured [radii]
 OPENING = 5.0          # from the place where a closed curve is opened to its new ends [radii]
+SIGHT = 8.0            # around a place where one of several closed curves is opened, and of their ends from each other [radii]
+VIEWS = 300            # from which they are looked at
 TURN = 3.0             # radius of the bend by which a held end turns to its grip [radii]
 STRAIGHT = 3.0         # of a held strand, twice, behind it [radii]
 DEVIATION = 0.1        # of the drawn curve [radii]
@@ -19,25 +21,39 @@ LONGEST = 5000.0       # rope of a file, three times as long as that of any ship
 BLOCK = 64             # segments that are compared with all others at a time
 
 
-def strands_of(curves, smaller=1.0):
-    """[points] of each strand in radii, along z and around the origin; and an outward direction. A closed curve is opened.
-    `smaller`: radius of the rope against that by which strands are APART."""
-    closed = any(one.closed for one in curves)
-    if closed and len(curves) > 1:
-        raise WrongInput(f"it holds {len(curves)} curves, but a rope has ends: a closed curve must be the only one")
+class TooTight(WrongInput):
+    """No rope of any thickness can be laid along curves as they are."""
+
+
+def lines_of(curves):
+    """The curves as polylines of the size 1, and whether they are closed, which they end where they begin then. Raises WrongInput."""
+    closed = curves[0].closed
+    if any(one.closed != closed for one in curves):
+        raise WrongInput("some of its curves are closed and others are not")
     size = np.ptp(np.vstack([one.points for one in curves]), axis=0).max()
-    lines = [dense((np.vstack([one.points, one.points[:1]]) if closed else one.points) / size) for one in curves]
+    return [(np.vstack([one.points, one.points[:1]]) if closed else one.points) / size for one in curves], closed
+
+
+def ropes_of(lines, closed, curves):
+    """[points] of each rope whose strands are APART, in its radii. Raises TooTight, which names places of the curves."""
+    lines = [dense(line) for line in lines]
     if near := crossing(lines, closed):
-        raise WrongInput(f"{places_of(curves, near)}: there it comes nearer to itself than 1/{LARGEST / APART:.0f} of its size, as "
-                         "where it crosses itself or turns back, but strands must lie apart")
+        raise TooTight(f"{places_of(curves, near)}: there it comes nearer to itself than 1/{LARGEST / APART:.0f} of its size, as "
+                       "where it crosses itself or turns back, but strands must lie apart")
     radius, near = tightest(lines, closed)
     length = sum(map(length_of, lines)) / radius
     if length > LONGEST:
-        raise WrongInput(f"{places_of(curves, near)}: there its strands come so near to each other, or bend so sharply, that the rope is "
-                         f"{length:.0f} radii long, but it must be at most {LONGEST:.0f}")
-    radius, middle = smaller * radius, np.vstack(lines).mean(axis=0)
-    lines = [resampled((line - middle) / radius, DENSE) for line in lines]
-    return opened(lines[0]) if closed else upright(lines)
+        raise TooTight(f"{places_of(curves, near)}: there its strands come so near to each other, or bend so sharply, that the rope is "
+                       f"{length:.0f} radii long, but it must be at most {LONGEST:.0f}")
+    middle = np.vstack(lines).mean(axis=0)
+    return [(line - middle) / radius for line in lines]
+
+
+def strands_of(ropes, closed, smaller=1.0):
+    """[points] of each strand in radii, along z and around the origin; and an outward direction. A closed curve is opened.
+    `smaller`: radius of the rope against that by which strands are APART."""
+    lines = [resampled(rope / smaller, DENSE) for rope in ropes]
+    return opened(lines) if closed else upright(lines)
 
 
 def places_of(curves, near):
@@ -75,6 +91,12 @@ def crossing(lines, closed):
 
 def segments_apart(p, u, q, v):
     """Distances of the segments from p to p + u and from q to q + v."""
+    return np.linalg.norm(closest_ways(p, u, q, v)[0], axis=1)
+
+
+def closest_ways(p, u, q, v):
+    """From the place of each segment from q to q + v that is nearest to the one from p to p + u to that one's, and both places, from
+    0 to 1: way, s, t."""
     def dot(a, b):
         return np.einsum("ij,ij->i", a, b)
 
@@ -84,7 +106,7 @@ def segments_apart(p, u, q, v):
         s = np.where(area > 1e-12 * uu * vv, np.clip((uv * dot(v, w) - dot(u, w) * vv) / area, 0.0, 1.0), 0.0)
     t = np.clip((uv * s + dot(v, w)) / vv, 0.0, 1.0)
     s = np.clip((uv * t - dot(u, w)) / uu, 0.0, 1.0)
-    return np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=1)
+    return w + s[:, None] * u - t[:, None] * v, s, t
 
 
 def dense(line, count=1500):
@@ -118,14 +140,15 @@ def tightest(lines, closed):
         way = np.abs(place[:, None] - place)
         along[begin:begin + len(line), begin:begin + len(line)] = np.minimum(way, place[-1] - way) if closed else way
         begin += len(line)
-    size = distance.max()
-    for radius in np.geomspace(1e-4 * size, 0.2 * size, 400):
-        far = along > ALONG * radius
-        if far.any() and distance[far].min() < APART * radius:
-            nearest = np.unravel_index(np.argmin(np.where(far, distance, np.inf)), distance.shape)
-            shares = [(number, i / (len(line) - 1)) for number, line in enumerate(lines) for i in range(len(line))]
-            return radius / 1.02, [shares[i] for i in nearest]  # the one before
-    raise WrongInput("no strand comes near another one: there is no knot")
+    radii = np.geomspace(1e-4, 0.2, 400) * distance.max()
+    # The first radius of which a pair lies nearer than APART, but further along than ALONG.
+    tight = np.searchsorted(radii, distance / APART, side="right")
+    first = np.where(ALONG * np.append(radii, np.inf)[tight] < along, tight, len(radii)).min()
+    if first == len(radii):
+        raise WrongInput("no strand comes near another one: there is no knot")
+    nearest = np.unravel_index(np.argmin(np.where(along > ALONG * radii[first], distance, np.inf)), distance.shape)
+    shares = [(number, i / (len(line) - 1)) for number, line in enumerate(lines) for i in range(len(line))]
+    return radii[first] / 1.02, [shares[i] for i in nearest]  # the radius before
 
 
 def apart(one, other):
@@ -137,23 +160,55 @@ def upright(lines):
     axes = np.linalg.svd(np.vstack(lines), full_matrices=False)[2]
     z = axes[0] if lines[0][0] @ axes[0] <= lines[0][-1] @ axes[0] else -axes[0]
     frame = np.array([axes[1], np.cross(z, axes[1]), z])
-    return [line @ frame.T for line in lines], np.array([1.0, 0.0, 0.0])
+    return [line @ frame.T for line in lines], X
 
 
-def opened(line):
-    """At its outermost point, where x points outwards and z along the curve: what lies beyond is free for the ends."""
-    line = line[:-1]
+def opened(lines):
+    """Each at a place where nothing lies before it, so that its ends can be led out there: a single one at its outermost point, where
+    x points outwards and z along the curve."""
+    gap = round(OPENING / DENSE)
+    if min(map(len, lines)) < 4 * gap:
+        raise WrongInput("it is too short to be opened")
+    if len(lines) > 1:
+        return [led_out(line[:-1], begin, gap, reach) for line, begin, reach in in_sight(lines)], X
+    line = lines[0][:-1]
     out = int(np.argmax(np.linalg.norm(line, axis=1)))
     line = np.roll(line, -out, axis=0)
     x = line[0] / np.linalg.norm(line[0])
     z = line[1] - line[-1]
     z = (z - x * (z @ x)) / np.linalg.norm(z - x * (z @ x))
-    turned = line @ np.array([x, np.cross(z, x), z]).T
-    gap = round(OPENING / DENSE)
-    if len(turned) < 4 * gap:
-        raise WrongInput("it is too short to be opened")
     # From above to below, so that the first end is led upwards, away from the last one.
-    return [turned[gap:-gap]], np.array([1.0, 0.0, 0.0])
+    return [(line @ np.array([x, np.cross(z, x), z]).T)[gap:-gap]], X
+
+
+def in_sight(lines):
+    """[(line, number of its point to open it at, x before all of them)], turned so that nothing lies before these points, and their
+    ends can be led up and down beside each other."""
+    random = np.random.default_rng(1)
+    for _ in range(VIEWS):
+        turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+        turned = [line @ turn * np.linalg.det(turn) for line in lines]
+        everything = np.vstack(turned)
+        places = []
+        for line in turned:
+            near = cKDTree(everything[:, 1:]).query_ball_point(line[:, 1:], SIGHT)
+            seen = [k for k, others in enumerate(near[:-1]) if everything[others, 0].max() < line[k, 0] + 1.0]
+            places += [max(seen, key=lambda k: line[k, 0])] if seen else []
+        aside = np.sort([line[k, 1] for line, k in zip(turned, places)])
+        if len(places) == len(lines) and np.diff(aside).min() > SIGHT:
+            return [(line, k, everything[:, 0].max() + SIGHT) for line, k in zip(turned, places)]
+    raise WrongInput("its curves cannot be opened: from no side all of them can be seen beside each other")
+
+
+def led_out(line, begin, gap, reach):
+    """A closed line, opened at a point, and its ends led to x = `reach`, that of the first one above."""
+    line = np.roll(line, -begin, axis=0)[gap:-gap]
+    line = line if line[0][2] > line[-1][2] else line[::-1]
+    ways = []
+    for end, direction in ends_of([line]).values():
+        bend = run_out(end, direction, X, X)[:-2]
+        ways.append(resampled(np.vstack([end, *bend, [[reach, *(bend[-1] if bend else end)[1:]]]]), DENSE)[1:])
+    return np.vstack([ways[0][::-1], line, ways[1]])
 
 
 def ends_of(strands):
@@ -230,8 +285,8 @@ def knot_text(title, source, strands, outwards, lower=(), upper=()):
             more = [] if target is None else run_out(*ends[name], target, outwards)
             points = points + more if place else more[::-1] + points
         if np.abs(points).max() > FARTHEST:
-            raise WrongInput(f"it is {2.0 * np.abs(points).max():.0f} radii large where its strands lie {APART} radii apart, but must "
-                             f"be at most {2.0 * FARTHEST:.0f}")
+            raise TooTight(f"it is {2.0 * np.abs(points).max():.0f} radii large where its strands lie {APART} radii apart, but must "
+                           f"be at most {2.0 * FARTHEST:.0f}")
         rows = "".join(f"      - [{x:.3f}, {y:.3f}, {z:.3f}]\n" for x, y, z in np.add(points, 0.0))
         entries.append(f"  - ends: [{letter}1, {letter}2]\n    points:\n{rows}")
     free = [name for name in ends if name not in lower and name not in upper]

@@ -1,4 +1,6 @@
-"""Curves in space as other programs write them: VECT of Geomview, CSV, and KnotPlot's text."""
+"""Curves in space as other programs write them: VECT of Geomview, CSV, JSON, KnotPlot's text, and codes of diagrams."""
+import itertools
+import json
 import os
 import re
 import stat
@@ -7,21 +9,25 @@ from collections import namedtuple
 import numpy as np
 
 from knot_utm.errors import WrongInput
+from knot_utm.knot_diagram import diagram_in
 
 MOST = 20000       # points of a file
 MOST_BYTES = 16_000_000  # some hundreds for each
 MOST_CURVES = 8    # each is a rope, and time grows with their square
 FARTHEST = 1e100   # coordinate: squares of distances must be numbers
 
-# `points`: N x 3; a `closed` one goes on from the last to the first. `places`: what each point is called in its file.
-Curve = namedtuple("Curve", "points closed places")
+# `points`: N x 3; a `closed` one goes on from the last to the first. `places`: what each point is called in its file. `is_flat`: it
+# is a diagram, and no shape in space.
+Curve = namedtuple("Curve", "points closed places is_flat", defaults=[False])
 
 
 def curves_of(file):
     """All curves of a file. Raises WrongInput."""
     text = text_in(file)
-    read = vect if text.lstrip().startswith("VECT") else csv if "," in text else rows_of_knotplot
-    curves = read(file, text)
+    try:
+        curves = joined(read(file, text))
+    except RecursionError as error:
+        raise WrongInput(f"{file}: its brackets stand too deep in each other") from error
     if len(curves) > MOST_CURVES:
         raise WrongInput(f"{file}: it holds {len(curves)} curves, but a knot may have at most {MOST_CURVES} ropes")
     if sum(len(curve.points) for curve in curves) > MOST:
@@ -32,6 +38,21 @@ def curves_of(file):
     if not curves:
         raise WrongInput(f"{file}: it holds no curve: give a VECT file, a CSV of x,y,z, or rows of three numbers")
     return curves
+
+
+def read(file, text):
+    bare = re.sub(r"#.*", "", text).strip()
+    if "VECT" in bare:
+        return vects(file, blocks(iter(re.findall(r"[{}]|[^\s{}()]+", bare))), np.eye(4))
+    diagram = None if re.search(r"\d\.", bare) else diagram_in(file, bare)
+    if diagram is not None:
+        return [Curve(points, True, places, True) for points, places in diagram]
+    if bare.startswith(("[", "{")):
+        try:
+            return json_curves(file, json.loads(bare))
+        except json.JSONDecodeError as error:
+            raise WrongInput(f"{file}: it is neither JSON nor the code of a diagram: {error}") from error
+    return (csv if "," in bare else rows_of_knotplot)(file, text)
 
 
 def text_in(file):
@@ -49,23 +70,76 @@ def text_in(file):
         raise WrongInput(f"{file}: cannot be read: {error.strerror}") from error
 
 
-def vect(file, text):
-    """Geomview: numbers of polylines, points and colours; of points and of colours of each polyline; points; colours. A polyline
-    with a negative number of points is closed."""
-    words = re.sub(r"#.*", "", text).split()[1:]
-    numbers = [to_number(file, "a VECT file", word) for word in words]
+def blocks(words):
+    """The words of a file of Geomview, those between { and } as a list of their own."""
+    found = []
+    for word in words:
+        if word == "}":
+            break
+        found.append(blocks(words) if word == "{" else word)
+    return found
+
+
+def flat(block):
+    return [word for one in block for word in (flat(one) if isinstance(one, list) else [one])]
+
+
+def numbers_behind(block, place):
+    """Those that follow a word of a block, within a block of their own or not."""
+    behind = block[place + 1:]
+    if behind and isinstance(behind[0], list):
+        return [float(word) for word in flat(behind[0]) if is_number(word)]
+    return [float(word) for word in itertools.takewhile(is_number, behind)]
+
+
+def vects(file, block, moved):
+    """The polylines of a block of Geomview and of those within it. `moved`: by an INST around it, x y z 1 times a matrix."""
+    transform = next((k for k, word in enumerate(block) if word in ("transform", "transforms")), None)
+    moves = [] if transform is None else numbers_behind(block, transform)
+    curves = []
+    for move in np.reshape(moves[:len(moves) // 16 * 16], (-1, 4, 4)) @ moved if moves else [moved]:
+        for k, word in enumerate(block):
+            if isinstance(word, list) and k - 1 != transform:
+                curves += vects(file, word, move)
+            elif word in ("VECT", "4VECT"):
+                curves += vect(file, numbers_behind(block, k), 4 if word == "4VECT" else 3, move)
+    return curves
+
+
+def vect(file, numbers, size, move):
+    """Numbers of polylines, points and colours; of points and of colours of each polyline; points; colours. A polyline with a
+    negative number of points is closed."""
     lines = whole(file, numbers[0]) if numbers else 0
     counts = [whole(file, number) for number in numbers[3:3 + lines]]
     begin = 3 + 2 * lines
-    curves, read = [], 0
+    curves, done = [], 0
     for count in counts:
-        end = begin + 3 * abs(count)
+        end = begin + size * abs(count)
         if end > len(numbers):
             raise WrongInput(f"{file}: it names more points than it has")
-        places = [f"point {read + i + 1}" for i in range(abs(count))]
-        curves.append(curve(np.reshape(numbers[begin:end], (-1, 3)), count < 0, places))
-        begin, read = end, read + abs(count)
+        points = np.reshape(numbers[begin:end], (-1, size))
+        points = np.hstack([points, np.ones((len(points), 4 - size))]) @ move
+        places = [f"point {done + i + 1}" for i in range(abs(count))]
+        curves.append(curve(points[:, :3] / points[:, 3:], True if count < 0 else None, places))
+        begin, done = end, done + abs(count)
     return curves
+
+
+def json_curves(file, found, closed=None):
+    """All lists of points [x, y, z] or {x, y, z}, wherever they stand. One whose ends are near is closed unless it says it is not."""
+    if isinstance(found, dict):
+        if not {"x", "y", "z"} <= set(found):
+            return [one for part in found.values() for one in json_curves(file, part, found.get("closed", closed))]
+        found = [list(point) for point in zip(found["x"], found["y"], found["z"])]
+    if not isinstance(found, list):
+        return []
+    rows = [[row.get(name) for name in ("x", "y", "z")] if isinstance(row, dict) else row for row in found]
+    if not rows or not all(isinstance(row, list) and len(row) == 3 and all(is_number(str(one)) for one in row) for row in rows):
+        return [one for part in found for one in json_curves(file, part, closed)]
+    points = np.array([[to_number(file, f"point {k}", str(one)) for one in row] for k, row in enumerate(rows, 1)])
+    if closed is None and len(points) > 2:
+        closed = np.linalg.norm(points[0] - points[-1]) < 1.5 * np.linalg.norm(np.diff(points, axis=0), axis=1).max()
+    return [curve(points, bool(closed), [f"point {k}" for k in range(1, len(points) + 1)])]
 
 
 def csv(file, text):
@@ -82,7 +156,7 @@ def csv(file, text):
             raise WrongInput(f"{file}: row {number} is \"{line}\", but must be {','.join(names)}")
         row = {name: to_number(file, f"row {number}", cell) for name, cell in zip(names, cells) if name in ("x", "y", "z", "rope")}
         found.setdefault(row.get("rope", 1.0), []).append(([row["x"], row["y"], row["z"]], f"row {number}"))
-    return [curve_of_rows(rows, False) for rows in found.values()]
+    return [curve_of_rows(rows, None) for rows in found.values()]
 
 
 def rows_of_knotplot(file, text):
@@ -107,13 +181,31 @@ def curve_of_rows(rows, closed):
 
 
 def curve(points, closed, places):
-    """Without points that are where the one before is; one that ends where it begins is closed."""
+    """Without points that are where the one before is; one that ends where it begins is closed. So is one of which nothing else is known
+    (None) whose ends are no further from each other than its points are."""
     size = np.ptp(points, axis=0).max() if len(points) else 0.0
-    differs = np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9 * size
-    kept = np.concatenate([[True], differs]) if len(points) else []
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    kept = np.concatenate([[True], steps > 1e-9 * size]) if len(points) else []
     points, places = points[kept] if len(points) else points, [place for place, is_kept in zip(places, kept) if is_kept]
-    returns = len(points) > 3 and np.linalg.norm(points[0] - points[-1]) <= 1e-9 * size
-    return Curve(points[:-1], True, places[:-1]) if returns else Curve(points, closed, places)
+    gap = np.linalg.norm(points[0] - points[-1]) if len(points) > 3 else np.inf
+    if gap <= 1e-9 * size:
+        return Curve(points[:-1], True, places[:-1])
+    if closed is None:
+        closed = len(points) > 5 and gap <= 1.001 * np.median(steps)
+    return Curve(points, closed, places)
+
+
+def joined(curves):
+    """Pieces of a curve, each of which ends where the next one begins, as one."""
+    found = []
+    for one in curves:
+        before = found[-1] if found else one
+        if found and not before.closed and not one.closed and len(one.points) and len(before.points) \
+                and np.linalg.norm(before.points[-1] - one.points[0]) <= 1e-9 * np.ptp(np.vstack([before.points, one.points]), axis=0).max():
+            found[-1] = curve(np.vstack([before.points, one.points]), None, before.places + one.places)
+        else:
+            found.append(one)
+    return found
 
 
 def is_number(word):

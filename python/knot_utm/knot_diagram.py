@@ -1,0 +1,131 @@
+"""Codes of planar diagrams, as tables of knots have them, as curves in space: PD codes (the four strands of each crossing,
+counterclockwise from the lower one that comes in) and Gauss codes (the crossings along each strand, signed where they are told)."""
+import itertools
+import re
+
+import numpy as np
+
+from knot_utm.errors import WrongInput
+
+MOST_CROSSINGS = 60
+MOST_UNSIGNED = 16  # crossings: all their signs are tried
+EVENING = 8         # rounds by which the edges of a drawing become alike
+
+
+def diagram_in(file, text):
+    """The closed polygons of a text that is a code, each point named by its crossing; None of any other text. Raises WrongInput."""
+    crossings = planar(text) or gauss(file, text)
+    if not crossings:
+        return None
+    if len(crossings) > MOST_CROSSINGS:
+        raise WrongInput(f"{file}: it has {len(crossings)} crossings, but may have at most {MOST_CROSSINGS}")
+    if len(faces_of(crossings)) != len(crossings) + 2:
+        raise WrongInput(f"{file}: it is the code of no diagram in a plane, or of one in several parts")
+    return polygons(crossings)
+
+
+def planar(text):
+    """[strands of each crossing] of a PD code; None of another text."""
+    numbers = [int(word) for word in re.findall(r"-?\d+", text)]
+    alike = sorted(numbers) == sorted(2 * sorted(set(numbers)))
+    return np.reshape(numbers, (-1, 4)).tolist() if numbers and alike and min(numbers) >= 0 and len(numbers) % 4 == 0 else None
+
+
+def gauss(file, text):
+    """The same of a Gauss code: of whole numbers, negative where the strand lies below, and perhaps the crossings' signs behind them
+    (Sage); of 1+c with the sign c or a (pyknotid); or of O1+ with the sign + or -."""
+    groups = re.findall(r"[\[{(]([^\[\]{}()]+)[\]})]", text) or re.split(r"[\n/]", text)
+    signs, walks = {}, []
+    for group in groups:
+        visits = [(int(name), level == "O", sign) for level, name, sign in re.findall(r"([OU])(\d+)([+-])", group)] or \
+            [(int(name), level == "+", sign) for name, level, sign in re.findall(r"(\d+)([+-])([ca])", group)]
+        signs.update((name, sign in "+c") for name, _, sign in visits)
+        numbers = [] if visits else [int(word) for word in re.findall(r"-?\d+", group)]
+        if walks and len(numbers) == sum(map(len, walks)) / 2 and set(numbers) <= {-1, 1} and len(numbers) > 1:
+            signs = {name: sign > 0 for name, sign in enumerate(numbers, 1)}
+        elif visits or numbers:
+            walks.append([(name, over) for name, over, _ in visits] or [(abs(name), name > 0) for name in numbers])
+    names = sorted({name for walk in walks for name, _ in walk})
+    if not names or sorted(itertools.chain(*walks)) != sorted(itertools.product(names, (False, True))):
+        return None
+    if signs:
+        return signed(walks, [signs[name] for name in names])
+    if len(names) > MOST_UNSIGNED:
+        raise WrongInput(f"{file}: a Gauss code of more than {MOST_UNSIGNED} crossings must tell their signs")
+    found = (signed(walks, each) for each in itertools.product((True, False), repeat=len(names)))
+    return next((one for one in found if len(faces_of(one)) == len(names) + 2), signed(walks, [True] * len(names)))
+
+
+def signed(walks, signs):
+    """A PD code of a Gauss code. `signs`: of the crossings in the order of their names, True where positive."""
+    strands, first = {}, 0
+    for walk in walks:
+        for k, visit in enumerate(walk):
+            strands[visit] = first + k, first + (k + 1) % len(walk)  # that come in and go out
+        first += len(walk)
+    found = []
+    for name, sign in zip(sorted({name for name, _ in strands}), signs):
+        (below_in, below_out), over = strands[name, False], strands[name, True]
+        found.append([below_in, over[sign], below_out, over[not sign]])
+    return found
+
+
+def ends_of_strands(crossings):
+    """{(crossing, place around it): the one at the other end of its strand}."""
+    where = {}
+    for dart in itertools.product(range(len(crossings)), range(4)):
+        where.setdefault(crossings[dart[0]][dart[1]], []).append(dart)
+    return {one: other for pair in where.values() for one, other in (pair, pair[::-1])}
+
+
+def faces_of(crossings):
+    """[places by which a walk around each face leaves its crossings], with the face to the left."""
+    other, left, found = ends_of_strands(crossings), set(itertools.product(range(len(crossings)), range(4))), []
+    while left:
+        dart, face = min(left), []
+        while dart in left:
+            left.remove(dart)
+            face.append(dart)
+            dart = other[dart][0], (other[dart][1] - 1) % 4
+        found.append(face)
+    return found
+
+
+def polygons(crossings):
+    other, places = ends_of_strands(crossings), in_plane(crossings)
+    height = 0.5 * min(np.linalg.norm(places[dart] - places[end]) for dart, end in other.items())
+    left, found = set(other), []
+    while left:
+        dart, points, names = min(left), [], []
+        while dart in left:
+            crossing, place = dart
+            left -= {dart, other[dart]}
+            points += [[*places[crossing], height * (1 if place % 2 else -1)], [*places[dart], 0.0], [*places[other[dart]], 0.0]]
+            names += 3 * [f"crossing {crossing + 1}"]
+            dart = other[dart][0], (other[dart][1] + 2) % 4
+        found.append((np.array(points), names))
+    return found
+
+
+def in_plane(crossings):
+    """{crossing or place around it: where it is drawn}: the middle of its neighbours in a net of triangles that has a ring within each
+    face, so that no two edges meet (Tutte 1963), whatever they weigh; long ones weigh more."""
+    other, faces = ends_of_strands(crossings), sorted(faces_of(crossings), key=len)
+    edges = [(dart[0], dart) for dart in other] + [pair for pair in other.items() if pair[0] < pair[1]]
+    for number, face in enumerate(faces):
+        border = [node for dart in face for node in (dart[0], dart, other[dart])]
+        ring = [("ring", number, k) for k in range(len(border))]
+        for k, node in enumerate(ring):
+            edges += [(node, border[k]), (node, border[k - 1]), (node, ring[k - 1])] + [(node, ("face", number))] * (face != faces[-1])
+    number = {node: k for k, node in enumerate(dict.fromkeys(node for edge in edges for node in edge))}
+    one, two = np.array([[number[node] for node in edge] for edge in edges]).T
+    outer, angle = [number[node] for node in ring], -2.0 * np.pi * np.arange(len(ring)) / len(ring)
+    places, weights = np.zeros((len(number), 2)), np.ones(len(edges))
+    places[outer] = np.column_stack([np.cos(angle), np.sin(angle)])
+    inner = np.setdiff1d(np.arange(len(number)), outer)
+    for _ in range(EVENING):
+        net = np.zeros((len(number), len(number)))
+        np.add.at(net, (np.concatenate([one, two, one, two]), np.concatenate([one, two, two, one])), np.concatenate(2 * [weights] + 2 * [-weights]))
+        places[inner] = np.linalg.solve(net[np.ix_(inner, inner)], -net[np.ix_(inner, outer)] @ places[outer])
+        weights *= np.sqrt(np.linalg.norm(places[one] - places[two], axis=1))
+    return {node: places[k] for node, k in number.items()}
