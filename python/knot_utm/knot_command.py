@@ -6,7 +6,7 @@ import tempfile
 
 from knot_utm import tool
 from knot_utm.errors import WrongInput
-from knot_utm.knot_drawing import knot_text, lines_of, ropes_of, strands_of, TooTight
+from knot_utm.knot_drawing import knot_text, leads_of, lines_of, ropes_of, strands_of, TooTight
 from knot_utm.knot_shapes import curves_of
 from knot_utm.knot_thickening import thickened
 from knot_utm.report.commands import in_one_line, OneLineParser, refuse, why_not
@@ -49,10 +49,11 @@ def imported(arguments):
         try:
             if curves[0].is_flat:
                 raise TooTight("a diagram is no shape in space")
-            facts, text = laid(arguments, ropes_of(lines, closed, curves), closed)
+            facts, text = laid(arguments, ropes_of(lines, curves), closed)
         except TooTight as tight:
+            leads = None if closed else leads_of(lines, arguments.lower, arguments.upper)
             try:
-                facts, text = laid(arguments, ropes_of(thickened(lines, closed), closed, curves), closed)
+                facts, text = laid(arguments, ropes_of(thickened(curves, lines, leads), curves), closed)
             except TooTight:
                 raise tight from None
             note = "shape: drawn loosely, since its corners are sharp or its strands near; no strand went through another one\n"
@@ -69,8 +70,8 @@ def laid(arguments, ropes, closed):
     title = json.dumps(arguments.title or os.path.splitext(os.path.basename(arguments.shape))[0])
     source = json.dumps(os.path.basename(arguments.shape))
     for attempt in range(ATTEMPTS):
-        strands, outwards = strands_of(ropes, closed, SMALLER ** attempt)
-        text = knot_text(title, source, strands, outwards, arguments.lower, arguments.upper)
+        strands = strands_of(ropes, closed, SMALLER ** attempt)
+        text = knot_text(title, source, strands, arguments.lower, arguments.upper)
         facts, why = drawn(text)
         if facts:
             return facts, text

@@ -10,50 +10,61 @@ APART = 2.2            # least distance of strands [radii]
 ALONG = 1.5 * np.pi    # places nearer along a strand are the same one's [radii]
 DENSE = 0.5            # of the points that are measured [radii]
 OPENING = 5.0          # from the place where a closed curve is opened to its new ends [radii]
-SIGHT = 8.0            # around a place where one of several closed curves is opened, and of their ends from each other [radii]
-VIEWS = 300            # from which they are looked at
+SIGHT = 6.0            # around a place where one of several closed curves is opened, and of such places from each other [radii]
+VIEWS = 50             # from which they are looked at
+THINNEST = 12          # times the ropes are made thinner by a sixth until they can be opened
 TURN = 3.0             # radius of the bend by which a held end turns to its grip [radii]
 STRAIGHT = 3.0         # of a held strand, twice, behind it [radii]
+LEAD = 10.0            # of an open curve beyond its ends, over its size
 DEVIATION = 0.1        # of the drawn curve [radii]
 FARTHEST = 199.0       # coordinate of a knot's file [radii]
-LARGEST = 2.0 * np.sqrt(3.0) * FARTHEST  # distance of two places of a knot's file [radii]
-LONGEST = 5000.0       # rope of a file, three times as long as that of any shipped knot [radii]
-BLOCK = 64             # segments that are compared with all others at a time
+LONGEST = 3500.0       # rope of a file, twice as long as that of any shipped knot; strands that cross count as tighter [radii]
 
 
 class TooTight(WrongInput):
-    """No rope of any thickness can be laid along curves as they are."""
+    """No rope can be laid along curves as they are."""
 
 
 def lines_of(curves):
-    """The curves as polylines of the size 1, and whether they are closed, which they end where they begin then. Raises WrongInput."""
+    """The curves as polylines of the size 1 around the origin, and whether they are closed, which end where they begin then. Open ones
+    stand upright: the longest axis becomes z, the next one x; the first one begins below. Raises WrongInput."""
     closed = curves[0].closed
     if any(one.closed != closed for one in curves):
         raise WrongInput("some of its curves are closed and others are not")
     size = np.ptp(np.vstack([one.points for one in curves]), axis=0).max()
-    return [(np.vstack([one.points, one.points[:1]]) if closed else one.points) / size for one in curves], closed
+    lines = [(np.vstack([one.points, one.points[:1]]) if closed else one.points) / size for one in curves]
+    everything = np.vstack([dense(line) for line in lines])
+    middle = everything.mean(axis=0)
+    axes = np.eye(3)[[2, 0, 1]] if closed else np.linalg.svd(everything - middle, full_matrices=False)[2]
+    z = axes[0] if closed or (lines[0][-1] - lines[0][0]) @ axes[0] >= 0.0 else -axes[0]
+    frame = np.array([axes[1], np.cross(z, axes[1]), z])
+    return [(line - middle) @ frame.T for line in lines], closed
 
 
-def ropes_of(lines, closed, curves):
+def ropes_of(lines, curves):
     """[points] of each rope whose strands are APART, in its radii. Raises TooTight, which names places of the curves."""
     lines = [dense(line) for line in lines]
-    if near := crossing(lines, closed):
-        raise TooTight(f"{places_of(curves, near)}: there it comes nearer to itself than 1/{LARGEST / APART:.0f} of its size, as "
-                       "where it crosses itself or turns back, but strands must lie apart")
-    radius, near = tightest(lines, closed)
+    radius, near = tightest(lines, curves[0].closed)
     length = sum(map(length_of, lines)) / radius
     if length > LONGEST:
         raise TooTight(f"{places_of(curves, near)}: there its strands come so near to each other, or bend so sharply, that the rope is "
                        f"{length:.0f} radii long, but it must be at most {LONGEST:.0f}")
-    middle = np.vstack(lines).mean(axis=0)
-    return [(line - middle) / radius for line in lines]
+    return [line / radius for line in lines]
 
 
 def strands_of(ropes, closed, smaller=1.0):
-    """[points] of each strand in radii, along z and around the origin; and an outward direction. A closed curve is opened.
-    `smaller`: radius of the rope against that by which strands are APART."""
+    """[points] of each strand in radii, along z and around the origin. A closed curve is opened. `smaller`: radius of the rope against
+    that by which strands are APART."""
     lines = [resampled(rope / smaller, DENSE) for rope in ropes]
-    return opened(lines) if closed else upright(lines)
+    if not closed:
+        return lines
+    if len(lines) == 1:
+        return opened(lines[0])
+    for thinner in range(THINNEST):
+        lines = [resampled(rope * 1.2 ** thinner / smaller, DENSE) for rope in ropes]
+        if found := opened_in_sight(lines):
+            return found
+    raise WrongInput("its curves cannot be opened: from nowhere all of them can be seen beside each other")
 
 
 def places_of(curves, near):
@@ -64,34 +75,6 @@ def places_of(curves, near):
         along = way_along(np.vstack([one.points, one.points[:1]]) if one.closed else one.points)
         found.append(one.places[int(np.argmin(np.abs(along - share * along[-1]))) % len(one.places)])
     return " and ".join(dict.fromkeys(found))
-
-
-def crossing(lines, closed):
-    """Two places, far from each other along the curves, whose segments are nearer to each other than strands can be in a knot's
-    file; None where there are none. `lines`: dense, of the size 1."""
-    least, begin, step = APART / LARGEST, np.vstack([line[:-1] for line in lines]), np.vstack([np.diff(line, axis=0) for line in lines])
-    number = np.concatenate([np.full(len(line) - 1, k) for k, line in enumerate(lines)])
-    share = np.concatenate([(np.arange(len(line) - 1) + 0.5) / (len(line) - 1) for line in lines])
-    lengths = np.array([length_of(line) for line in lines])[number]
-    spacing = np.linalg.norm(step, axis=1).max()
-    tree = cKDTree(begin + 0.5 * step)
-    for first in range(0, len(begin), BLOCK):
-        found = tree.query_ball_point(tree.data[first:first + BLOCK], spacing + least)
-        one = np.repeat(np.arange(first, first + len(found)), [len(others) for others in found])
-        other = np.concatenate([np.array(others, dtype=int) for others in found])
-        way = np.abs(share[one] - share[other])
-        way = lengths[one] * (np.minimum(way, 1.0 - way) if closed else way)
-        far = (number[one] != number[other]) | (way > max(4.0 * spacing, ALONG / LARGEST))
-        one, other = one[far], other[far]
-        near = np.flatnonzero(segments_apart(begin[one], step[one], begin[other], step[other]) < least)
-        if len(near):
-            return [(number[i], share[i]) for i in (one[near[0]], other[near[0]])]
-    return None
-
-
-def segments_apart(p, u, q, v):
-    """Distances of the segments from p to p + u and from q to q + v."""
-    return np.linalg.norm(closest_ways(p, u, q, v)[0], axis=1)
 
 
 def closest_ways(p, u, q, v):
@@ -155,59 +138,50 @@ def apart(one, other):
     return np.linalg.norm(one[:, None] - other, axis=2)
 
 
-def upright(lines):
-    """The longest axis becomes z, the next one x; the first strand begins below."""
-    axes = np.linalg.svd(np.vstack(lines), full_matrices=False)[2]
-    z = axes[0] if lines[0][0] @ axes[0] <= lines[0][-1] @ axes[0] else -axes[0]
-    frame = np.array([axes[1], np.cross(z, axes[1]), z])
-    return [line @ frame.T for line in lines], X
-
-
-def opened(lines):
-    """Each at a place where nothing lies before it, so that its ends can be led out there: a single one at its outermost point, where
-    x points outwards and z along the curve."""
-    gap = round(OPENING / DENSE)
-    if min(map(len, lines)) < 4 * gap:
-        raise WrongInput("it is too short to be opened")
-    if len(lines) > 1:
-        return [led_out(line[:-1], begin, gap, reach) for line, begin, reach in in_sight(lines)], X
-    line = lines[0][:-1]
+def opened(line):
+    """At its outermost point, where x points outwards and z along the curve: what lies beyond is free for the ends."""
+    line = line[:-1]
     out = int(np.argmax(np.linalg.norm(line, axis=1)))
     line = np.roll(line, -out, axis=0)
     x = line[0] / np.linalg.norm(line[0])
     z = line[1] - line[-1]
     z = (z - x * (z @ x)) / np.linalg.norm(z - x * (z @ x))
+    turned = line @ np.array([x, np.cross(z, x), z]).T
+    gap = round(OPENING / DENSE)
+    if len(turned) < 4 * gap:
+        raise WrongInput("it is too short to be opened")
     # From above to below, so that the first end is led upwards, away from the last one.
-    return [(line @ np.array([x, np.cross(z, x), z]).T)[gap:-gap]], X
+    return [turned[gap:-gap]]
 
 
-def in_sight(lines):
-    """[(line, number of its point to open it at, x before all of them)], turned so that nothing lies before these points, and their
-    ends can be led up and down beside each other."""
-    random = np.random.default_rng(1)
+def opened_in_sight(lines):
+    """Several closed ones, each at a place before which nothing lies, as seen along x from somewhere, and their ends led out there beside
+    each other. None where no such places are found."""
+    random, gap = np.random.default_rng(1), round(OPENING / DENSE)
     for _ in range(VIEWS):
         turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
-        turned = [line @ turn * np.linalg.det(turn) for line in lines]
+        turned = [line[:-1] @ turn * np.linalg.det(turn) for line in lines]
         everything = np.vstack(turned)
-        places = []
+        tree, places = cKDTree(everything[:, 1:]), []
         for line in turned:
-            near = cKDTree(everything[:, 1:]).query_ball_point(line[:, 1:], SIGHT)
-            seen = [k for k, others in enumerate(near[:-1]) if everything[others, 0].max() < line[k, 0] + 1.0]
-            places += [max(seen, key=lambda k: line[k, 0])] if seen else []
-        aside = np.sort([line[k, 1] for line, k in zip(turned, places)])
-        if len(places) == len(lines) and np.diff(aside).min() > SIGHT:
-            return [(line, k, everything[:, 0].max() + SIGHT) for line, k in zip(turned, places)]
-    raise WrongInput("its curves cannot be opened: from no side all of them can be seen beside each other")
+            order = np.argsort(-line[:, 0])
+            places.append(next((k for k in order if everything[tree.query_ball_point(line[k, 1:], SIGHT), 0].max() < line[k, 0] + 1.0), None))
+            if places[-1] is None:
+                break
+        else:
+            if np.diff(np.sort([line[k, 1] for line, k in zip(turned, places)])).min() > SIGHT:
+                rolled = [np.roll(line, -k, axis=0)[gap:-gap] for line, k in zip(turned, places)]
+                return [led_out(line, everything[:, 0].max() + SIGHT) for line in rolled]
+    return None
 
 
-def led_out(line, begin, gap, reach):
-    """A closed line, opened at a point, and its ends led to x = `reach`, that of the first one above."""
-    line = np.roll(line, -begin, axis=0)[gap:-gap]
+def led_out(line, reach):
+    """A line whose ends are led to x = `reach`, that of the first one above."""
     line = line if line[0][2] > line[-1][2] else line[::-1]
     ways = []
     for end, direction in ends_of([line]).values():
-        bend = run_out(end, direction, X, X)[:-2]
-        ways.append(resampled(np.vstack([end, *bend, [[reach, *(bend[-1] if bend else end)[1:]]]]), DENSE)[1:])
+        way = [end, *run_out(end, direction, X)[:-2]]
+        ways.append(resampled(np.vstack([*way, [reach, *way[-1][1:]]]), DENSE)[1:])
     return np.vstack([ways[0][::-1], line, ways[1]])
 
 
@@ -232,11 +206,19 @@ def held_ends(ends, lower, upper):
     return list(lower) or lowest[:1], list(upper) or lowest[-1:]
 
 
-def run_out(end, direction, target, outwards):
+def leads_of(lines, lower, upper):
+    """The first and the last point of each open line, far beyond its ends: in the line of a grip, or straight on."""
+    ends = ends_of(lines)
+    lower, upper = held_ends(ends, lower, upper)
+    far = [end + LEAD * (UP if name in upper else -UP if name in lower else way) for name, (end, way) in ends.items()]
+    return list(zip(far[::2], far[1::2]))
+
+
+def run_out(end, direction, target):
     """Points behind an end, by a bend and then straight along `target` to its grip."""
     side = target - direction * (target @ direction)
     if np.linalg.norm(side) < 0.3:
-        side = outwards - direction * (outwards @ direction)
+        side = X - direction * (X @ direction)
     side /= np.linalg.norm(side)
     angle = np.arctan2(np.linalg.norm(np.cross(direction, target)), direction @ target)
     bend = [end + TURN * (np.sin(a) * direction + (1.0 - np.cos(a)) * side)
@@ -273,7 +255,7 @@ def through(points, pieces=24):
     return np.vstack(out)
 
 
-def knot_text(title, source, strands, outwards, lower=(), upper=()):
+def knot_text(title, source, strands, lower=(), upper=()):
     """The text of a knot's file. Raises WrongInput."""
     ends = ends_of(strands)
     lower, upper = held_ends(ends, lower, upper)
@@ -282,7 +264,7 @@ def knot_text(title, source, strands, outwards, lower=(), upper=()):
         points = list(drawn_through(line))
         for name, place in ((f"{letter}1", 0), (f"{letter}2", 1)):
             target = UP if name in upper else -UP if name in lower else None
-            more = [] if target is None else run_out(*ends[name], target, outwards)
+            more = [] if target is None else run_out(*ends[name], target)
             points = points + more if place else more[::-1] + points
         if np.abs(points).max() > FARTHEST:
             raise TooTight(f"it is {2.0 * np.abs(points).max():.0f} radii large where its strands lie {APART} radii apart, but must "
