@@ -1,6 +1,7 @@
 """Makes the file of a knot from a curve of another program (scripts/knot)."""
 import json
 import os
+import re
 import subprocess
 import tempfile
 
@@ -13,6 +14,7 @@ from knot_utm.report.commands import in_one_line, OneLineParser, refuse, why_not
 
 SMALLER = 0.94  # radius of the rope of the next attempt
 ATTEMPTS = 12
+NEAREST = 2.0   # distance of strands [radii]
 
 
 def asked():
@@ -45,7 +47,7 @@ def imported(arguments):
     """Writes the file. A curve that no rope can follow as it is, as through corners, is drawn loosely."""
     curves, note = curves_of(arguments.shape), ""
     try:
-        lines, closed = lines_of(curves)
+        lines, closed = lines_of(curves, arguments.lower, arguments.upper)
         try:
             if curves[0].is_flat:
                 raise TooTight("a diagram is no shape in space")
@@ -54,8 +56,8 @@ def imported(arguments):
             leads = None if closed else leads_of(lines, arguments.lower, arguments.upper)
             try:
                 facts, text = laid(arguments, ropes_of(thickened(curves, lines, leads), curves), closed)
-            except TooTight:
-                raise tight from None
+            except TooTight as still:
+                raise (still if curves[0].is_flat else tight) from None
             note = "shape: drawn loosely, since its corners are sharp or its strands near; no strand went through another one\n"
     except WrongInput as wrong:
         raise WrongInput(f"{arguments.shape}: {wrong}") from wrong
@@ -73,8 +75,11 @@ def laid(arguments, ropes, closed):
         strands = strands_of(ropes, closed, SMALLER ** attempt)
         text = knot_text(title, source, strands, arguments.lower, arguments.upper)
         facts, why = drawn(text)
-        if facts:
+        # tensile_test also takes strands that overlap a little, as a run may leave them.
+        near = re.search(r"least distance of strands: (\S+) radii", facts)
+        if facts and not (near and float(near[1]) < NEAREST):
             return facts, text
+        why = why or f"strands are {near[1]} radii apart, but must be at least {NEAREST:g}"
     raise TooTight(f"no rope of this shape can be laid: {why}")
 
 

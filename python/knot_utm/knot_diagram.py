@@ -14,6 +14,7 @@ EVENING = 8         # rounds by which the edges of a drawing become alike
 
 def diagram_in(file, text):
     """The closed polygons of a text that is a code, each point named by its crossing; None of any other text. Raises WrongInput."""
+    text = re.sub(r'"[^"]*"|^[^\[{(]*(?=[\[{(])', "", text)  # names
     crossings = planar(text) or gauss(file, text)
     if not crossings:
         return None
@@ -26,34 +27,34 @@ def diagram_in(file, text):
 
 def planar(text):
     """[strands of each crossing] of a PD code; None of another text."""
-    numbers = [int(word) for word in re.findall(r"-?\d+", text)]
-    alike = sorted(numbers) == sorted(2 * sorted(set(numbers)))
-    return np.reshape(numbers, (-1, 4)).tolist() if numbers and alike and min(numbers) >= 0 and len(numbers) % 4 == 0 else None
+    numbers = [int(word) for word in re.findall(r"\d+", text)]
+    if not numbers or len(numbers) % 4 or re.search("[-+]", text) or sorted(numbers) != sorted(2 * list(set(numbers))):
+        return None
+    return np.reshape(numbers, (-1, 4)).tolist()
 
 
 def gauss(file, text):
     """The same of a Gauss code: of whole numbers, negative where the strand lies below, and perhaps the crossings' signs behind them
     (Sage); of 1+c with the sign c or a (pyknotid); or of O1+ with the sign + or -."""
-    groups = re.findall(r"[\[{(]([^\[\]{}()]+)[\]})]", text) or re.split(r"[\n/]", text)
     signs, walks = {}, []
-    for group in groups:
-        visits = [(int(name), level == "O", sign) for level, name, sign in re.findall(r"([OU])(\d+)([+-])", group)] or \
-            [(int(name), level == "+", sign) for name, level, sign in re.findall(r"(\d+)([+-])([ca])", group)]
-        signs.update((name, sign in "+c") for name, _, sign in visits)
-        numbers = [] if visits else [int(word) for word in re.findall(r"-?\d+", group)]
-        if walks and len(numbers) == sum(map(len, walks)) / 2 and set(numbers) <= {-1, 1} and len(numbers) > 1:
-            signs = {name: sign > 0 for name, sign in enumerate(numbers, 1)}
-        elif visits or numbers:
-            walks.append([(name, over) for name, over, _ in visits] or [(abs(name), name > 0) for name in numbers])
+    for group in re.findall(r"[\[{(]([^\[\]{}()]+)[\]})]", text) or re.split(r"\s*[\n/]\s*", re.sub(r",\s+", ",", text)):
+        visits = re.findall(r"([OU]?)(\d+)([+-])([ca]?)", group)
+        walk = [(int(name), (level or mark) in "O+") for level, name, mark, _ in visits]
+        walk = walk or [(abs(int(word)), int(word) > 0) for word in re.findall(r"-?\d+", group)]
+        signs.update((int(name), (turn or mark) in "c+") for level, name, mark, turn in visits if level or turn)
+        if {name for name, _ in walk} == {1} and 2 * len(walk) == sum(map(len, walks)):
+            signs = dict(enumerate((positive for _, positive in walk), 1))
+        elif walk:
+            walks.append(walk)
     names = sorted({name for walk in walks for name, _ in walk})
     if not names or sorted(itertools.chain(*walks)) != sorted(itertools.product(names, (False, True))):
         return None
-    if signs:
+    if names == sorted(signs):
         return signed(walks, [signs[name] for name in names])
     if len(names) > MOST_UNSIGNED:
         raise WrongInput(f"{file}: a Gauss code of more than {MOST_UNSIGNED} crossings must tell their signs")
-    found = (signed(walks, each) for each in itertools.product((True, False), repeat=len(names)))
-    return next((one for one in found if len(faces_of(one)) == len(names) + 2), signed(walks, [True] * len(names)))
+    found = [signed(walks, each) for each in itertools.product((True, False), repeat=len(names))]
+    return next((one for one in found if len(faces_of(one)) == len(names) + 2), found[0])
 
 
 def signed(walks, signs):

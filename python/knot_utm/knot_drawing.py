@@ -25,9 +25,10 @@ class TooTight(WrongInput):
     """No rope can be laid along curves as they are."""
 
 
-def lines_of(curves):
+def lines_of(curves, lower=(), upper=()):
     """The curves as polylines of the size 1 around the origin, and whether they are closed, which end where they begin then. Open ones
-    stand upright: the longest axis becomes z, the next one x; the first one begins below. Raises WrongInput."""
+    stand upright: the longest axis becomes z, the next one x; what is held below lies below, or the first one begins there. Raises
+    WrongInput."""
     closed = curves[0].closed
     if any(one.closed != closed for one in curves):
         raise WrongInput("some of its curves are closed and others are not")
@@ -35,10 +36,16 @@ def lines_of(curves):
     lines = [(np.vstack([one.points, one.points[:1]]) if closed else one.points) / size for one in curves]
     everything = np.vstack([dense(line) for line in lines])
     middle = everything.mean(axis=0)
-    axes = np.eye(3)[[2, 0, 1]] if closed else np.linalg.svd(everything - middle, full_matrices=False)[2]
-    z = axes[0] if closed or (lines[0][-1] - lines[0][0]) @ axes[0] >= 0.0 else -axes[0]
+    lines = [line - middle for line in lines]
+    if closed:
+        return lines, closed
+    axes = np.linalg.svd(everything - middle, full_matrices=False)[2]
+    ends = ends_of(lines)
+    below, above = held_ends(ends, lower, upper) if lower or upper else (["a1"], ["a2"])
+    rise = np.mean([ends[name][0] for name in above], axis=0) - np.mean([ends[name][0] for name in below], axis=0)
+    z = axes[0] if rise @ axes[0] >= 0.0 else -axes[0]
     frame = np.array([axes[1], np.cross(z, axes[1]), z])
-    return [(line - middle) @ frame.T for line in lines], closed
+    return [line @ frame.T for line in lines], closed
 
 
 def ropes_of(lines, curves):

@@ -25,7 +25,7 @@ def curves_of(file):
     """All curves of a file. Raises WrongInput."""
     text = text_in(file)
     try:
-        curves = joined(read(file, text))
+        curves = read(file, text)
     except RecursionError as error:
         raise WrongInput(f"{file}: its brackets stand too deep in each other") from error
     if len(curves) > MOST_CURVES:
@@ -62,7 +62,7 @@ def text_in(file):
             raise WrongInput(f"{file}: it is a folder, a device or a pipe, but must be a file of text")
         if found.st_size > MOST_BYTES:
             raise WrongInput(f"{file}: it has {found.st_size:,} bytes, but may have at most {MOST_BYTES:,}")
-        with open(file, encoding="utf-8") as opened:
+        with open(file, encoding="utf-8-sig") as opened:
             return opened.read(MOST_BYTES)
     except UnicodeDecodeError as error:
         raise WrongInput(f"{file}: cannot be read: it is no text in UTF-8") from error
@@ -80,47 +80,43 @@ def blocks(words):
     return found
 
 
-def flat(block):
-    return [word for one in block for word in (flat(one) if isinstance(one, list) else [one])]
-
-
-def numbers_behind(block, place):
-    """Those that follow a word of a block, within a block of their own or not."""
-    behind = block[place + 1:]
-    if behind and isinstance(behind[0], list):
-        return [float(word) for word in flat(behind[0]) if is_number(word)]
-    return [float(word) for word in itertools.takewhile(is_number, behind)]
+def words_in(block):
+    for one in block:
+        yield from words_in(one) if isinstance(one, list) else [one]
 
 
 def vects(file, block, moved):
-    """The polylines of a block of Geomview and of those within it. `moved`: by an INST around it, x y z 1 times a matrix."""
-    transform = next((k for k, word in enumerate(block) if word in ("transform", "transforms")), None)
-    moves = [] if transform is None else numbers_behind(block, transform)
-    curves = []
-    for move in np.reshape(moves[:len(moves) // 16 * 16], (-1, 4, 4)) @ moved if moves else [moved]:
+    """The polylines of a block of Geomview and of those within it. `moved`: by all INST around it, rows x y z 1 times a matrix."""
+    moves, curves = np.eye(4)[None], []
+    for k, word in enumerate(block[:-1]):
+        if word in ("transform", "transforms"):
+            given = block[k + 1] if isinstance(block[k + 1], list) else block[k + 1:k + 17]
+            numbers = [float(one) for one in words_in(given) if is_number(one)]
+            moves = np.reshape(numbers, (-1, 4, 4)) if numbers and len(numbers) % 16 == 0 else moves
+    for move in moves @ moved:
         for k, word in enumerate(block):
-            if isinstance(word, list) and k - 1 != transform:
+            if isinstance(word, list):
                 curves += vects(file, word, move)
-            elif word in ("VECT", "4VECT"):
-                curves += vect(file, numbers_behind(block, k), 4 if word == "4VECT" else 3, move)
+            elif word == "VECT":
+                curves += vect(file, list(itertools.takewhile(lambda one: isinstance(one, str), block[k + 1:])), move)
     return curves
 
 
-def vect(file, numbers, size, move):
+def vect(file, words, move):
     """Numbers of polylines, points and colours; of points and of colours of each polyline; points; colours. A polyline with a
     negative number of points is closed."""
+    numbers = [to_number(file, "a VECT file", word) for word in itertools.takewhile(lambda one: one not in ("geom", "transform"), words)]
     lines = whole(file, numbers[0]) if numbers else 0
     counts = [whole(file, number) for number in numbers[3:3 + lines]]
     begin = 3 + 2 * lines
     curves, done = [], 0
     for count in counts:
-        end = begin + size * abs(count)
+        end = begin + 3 * abs(count)
         if end > len(numbers):
             raise WrongInput(f"{file}: it names more points than it has")
-        points = np.reshape(numbers[begin:end], (-1, size))
-        points = np.hstack([points, np.ones((len(points), 4 - size))]) @ move
         places = [f"point {done + i + 1}" for i in range(abs(count))]
-        curves.append(curve(points[:, :3] / points[:, 3:], True if count < 0 else None, places))
+        points = np.reshape(numbers[begin:end], (-1, 3)) @ move[:3, :3] + move[3, :3]
+        curves.append(curve(points, True if count < 0 else None, places))
         begin, done = end, done + abs(count)
     return curves
 
@@ -128,17 +124,17 @@ def vect(file, numbers, size, move):
 def json_curves(file, found, closed=None):
     """All lists of points [x, y, z] or {x, y, z}, wherever they stand. One whose ends are near is closed unless it says it is not."""
     if isinstance(found, dict):
-        if not {"x", "y", "z"} <= set(found):
+        if not all(isinstance(found.get(name), list) for name in "xyz"):
             return [one for part in found.values() for one in json_curves(file, part, found.get("closed", closed))]
         found = [list(point) for point in zip(found["x"], found["y"], found["z"])]
     if not isinstance(found, list):
         return []
-    rows = [[row.get(name) for name in ("x", "y", "z")] if isinstance(row, dict) else row for row in found]
+    rows = [[row.get(name) for name in "xyz"] if isinstance(row, dict) else row for row in found]
     if not rows or not all(isinstance(row, list) and len(row) == 3 and all(is_number(str(one)) for one in row) for row in rows):
         return [one for part in found for one in json_curves(file, part, closed)]
-    points = np.array([[to_number(file, f"point {k}", str(one)) for one in row] for k, row in enumerate(rows, 1)])
-    if closed is None and len(points) > 2:
-        closed = np.linalg.norm(points[0] - points[-1]) < 1.5 * np.linalg.norm(np.diff(points, axis=0), axis=1).max()
+    points = np.array(rows, dtype=float)
+    if closed is None:
+        closed = np.linalg.norm(points[0] - points[-1]) < 1.5 * np.linalg.norm(np.diff(points, axis=0), axis=1).max(initial=0.0)
     return [curve(points, bool(closed), [f"point {k}" for k in range(1, len(points) + 1)])]
 
 
@@ -193,19 +189,6 @@ def curve(points, closed, places):
     if closed is None:
         closed = len(points) > 5 and gap <= 1.001 * np.median(steps)
     return Curve(points, closed, places)
-
-
-def joined(curves):
-    """Pieces of a curve, each of which ends where the next one begins, as one."""
-    found = []
-    for one in curves:
-        before = found[-1] if found else one
-        if found and not before.closed and not one.closed and len(one.points) and len(before.points) \
-                and np.linalg.norm(before.points[-1] - one.points[0]) <= 1e-9 * np.ptp(np.vstack([before.points, one.points]), axis=0).max():
-            found[-1] = curve(np.vstack([before.points, one.points]), None, before.places + one.places)
-        else:
-            found.append(one)
-    return found
 
 
 def is_number(word):

@@ -6,7 +6,7 @@ from knot_utm.errors import WrongInput
 from knot_utm.knot_drawing import closest_ways, length_of, TooTight
 
 NODES = 200      # at least, of all curves
-MOST_NODES = 1000
+MOST_NODES = 1200
 STEPS = 200
 NEAR = 4         # segments nearer than that along a curve do not push each other
 SAFE = 0.3       # part of the distance to others by which a node may move in a step
@@ -52,7 +52,7 @@ def thickened(curves, lines, leads=None):
 
 def divided(curves, lines, leads):
     """Nodes on all lines and at the far ends of their leads, where those of each line begin, and what their places are called."""
-    spacing = sum(map(length_of, lines)) / max(NODES, 3 * sum(map(len, lines)))
+    spacing = sum(map(length_of, lines)) / np.clip(3 * sum(map(len, lines)), NODES, 2 * NODES)
     parts, names = [], []
     for number, (one, line) in enumerate(zip(curves, lines)):
         edges = np.diff(line, axis=0)
