@@ -9,7 +9,6 @@ from knot_utm.errors import WrongInput
 
 MOST_CROSSINGS = 60
 MOST_UNSIGNED = 16  # crossings: all their signs are tried
-EVENING = 8         # rounds by which the edges of a drawing become alike
 
 
 def diagram_in(file, text):
@@ -110,7 +109,7 @@ def polygons(crossings):
 
 def in_plane(crossings):
     """{crossing or place around it: where it is drawn}: the middle of its neighbours in a net of triangles that has a ring within each
-    face, so that no two edges meet (Tutte 1963), whatever they weigh; long ones weigh more."""
+    face, so that no two edges meet (Tutte 1963)."""
     other, faces = ends_of_strands(crossings), sorted(faces_of(crossings), key=len)
     edges = [(dart[0], dart) for dart in other] + [pair for pair in other.items() if pair[0] < pair[1]]
     for number, face in enumerate(faces):
@@ -121,12 +120,10 @@ def in_plane(crossings):
     number = {node: k for k, node in enumerate(dict.fromkeys(node for edge in edges for node in edge))}
     one, two = np.array([[number[node] for node in edge] for edge in edges]).T
     outer, angle = [number[node] for node in ring], -2.0 * np.pi * np.arange(len(ring)) / len(ring)
-    places, weights = np.zeros((len(number), 2)), np.ones(len(edges))
-    places[outer] = np.column_stack([np.cos(angle), np.sin(angle)])
     inner = np.setdiff1d(np.arange(len(number)), outer)
-    for _ in range(EVENING):
-        net = np.zeros((len(number), len(number)))
-        np.add.at(net, (np.concatenate([one, two, one, two]), np.concatenate([one, two, two, one])), np.concatenate(2 * [weights] + 2 * [-weights]))
-        places[inner] = np.linalg.solve(net[np.ix_(inner, inner)], -net[np.ix_(inner, outer)] @ places[outer])
-        weights *= np.sqrt(np.linalg.norm(places[one] - places[two], axis=1))
+    net, places = np.zeros((len(number), len(number))), np.zeros((len(number), 2))
+    for row, column, weight in ((one, one, 1.0), (two, two, 1.0), (one, two, -1.0), (two, one, -1.0)):
+        np.add.at(net, (row, column), weight)
+    places[outer] = np.column_stack([np.cos(angle), np.sin(angle)])
+    places[inner] = np.linalg.solve(net[np.ix_(inner, inner)], -net[np.ix_(inner, outer)] @ places[outer])
     return {node: places[k] for node, k in number.items()}

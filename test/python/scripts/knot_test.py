@@ -74,6 +74,7 @@ def hooks():
 
 def writhe(curve):
     """Sum of the signs of the crossings of a closed polygon, as seen along z."""
+    curve = curve + 1e-6 * np.random.default_rng(1).random(curve.shape)  # a corner lies at each crossing
     found, ways = 0, np.diff(curve, axis=0, append=curve[:1])
     for i in range(len(curve)):
         for j in range(i + 2, len(curve) - (i == 0)):
@@ -168,7 +169,7 @@ class Import(unittest.TestCase):
 
     def test_a_curve_that_crosses_itself_is_refused_by_its_rows(self):
         self.refused("a.txt: row 5 and row 63: there it crosses itself or turns back", "a.txt", rows(trefoil() * [1.0, 1.0, 0.0]))
-        self.refused("a.csv: row 2 and row 4: there it crosses itself", "a.csv", "x,y,z\n0,0,0\n0,0,1\n0,0,0.2\n0.5,0.5,0.5\n")
+        self.refused("a.csv: row 2 and row 3: there it crosses itself", "a.csv", "x,y,z\n0,0,0\n0,0,1\n0,0,0.2\n0.5,0.5,0.5\n")
         flat = "VECT 1 200 0 -200 0\n" + rows(trefoil(200) * [1.0, 1.0, 0.0])
         self.refused("a.vect: point 10 and point 126: there", "a.vect", flat)
         many = np.random.default_rng(1).random((20000, 3))
