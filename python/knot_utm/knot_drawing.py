@@ -165,7 +165,7 @@ def opened_in_sight(lines):
     """Several closed ones, each at a place before which nothing lies, as seen along x from somewhere, and their ends led out there beside
     each other. None where no such places are found."""
     random, gap = np.random.default_rng(1), round(OPENING / DENSE)
-    for _ in range(VIEWS):
+    for _ in range(VIEWS if min(map(len, lines)) > 4 * gap else 0):
         turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
         turned = [line[:-1] @ turn * np.linalg.det(turn) for line in lines]
         everything = np.vstack(turned)
@@ -215,7 +215,7 @@ def held_ends(ends, lower, upper):
 
 def leads_of(lines, lower, upper):
     """The first and the last point of each open line, far beyond its ends: in the line of a grip, or straight on."""
-    ends = ends_of(lines)
+    ends = ends_of([dense(line) for line in lines])
     lower, upper = held_ends(ends, lower, upper)
     far = [end + LEAD * (UP if name in upper else -UP if name in lower else way) for name, (end, way) in ends.items()]
     return list(zip(far[::2], far[1::2]))

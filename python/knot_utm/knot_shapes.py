@@ -116,7 +116,7 @@ def vect(file, words, move):
             raise WrongInput(f"{file}: it names more points than it has")
         places = [f"point {done + i + 1}" for i in range(abs(count))]
         points = np.reshape(numbers[begin:end], (-1, 3)) @ move[:3, :3] + move[3, :3]
-        curves.append(curve(points, True if count < 0 else None, places))
+        curves.append(curve(points, True if count < 0 else None, places, lines == 1))
         begin, done = end, done + abs(count)
     return curves
 
@@ -152,7 +152,7 @@ def csv(file, text):
             raise WrongInput(f"{file}: row {number} is \"{line}\", but must be {','.join(names)}")
         row = {name: to_number(file, f"row {number}", cell) for name, cell in zip(names, cells) if name in ("x", "y", "z", "rope")}
         found.setdefault(row.get("rope", 1.0), []).append(([row["x"], row["y"], row["z"]], f"row {number}"))
-    return [curve_of_rows(rows, None) for rows in found.values()]
+    return [curve_of_rows(rows, None, len(found) == 1) for rows in found.values()]
 
 
 def rows_of_knotplot(file, text):
@@ -171,14 +171,14 @@ def rows_of_knotplot(file, text):
     return [curve_of_rows(rows, True) for rows in blocks]
 
 
-def curve_of_rows(rows, closed):
+def curve_of_rows(rows, closed, alone=False):
     points, places = zip(*rows)
-    return curve(np.array(points), closed, list(places))
+    return curve(np.array(points), closed, list(places), alone)
 
 
-def curve(points, closed, places):
+def curve(points, closed, places, alone=False):
     """Without points that are where the one before is; one that ends where it begins is closed. So is one of which nothing else is known
-    (None) whose ends are no further from each other than its points are."""
+    (None) whose ends are no further from each other than its points: than any of them if it is `alone`, else than half of them."""
     size = np.ptp(points, axis=0).max() if len(points) else 0.0
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     kept = np.concatenate([[True], steps > 1e-9 * size]) if len(points) else []
@@ -187,7 +187,7 @@ def curve(points, closed, places):
     if gap <= 1e-9 * size:
         return Curve(points[:-1], True, places[:-1])
     if closed is None:
-        closed = len(points) > 5 and gap <= 1.001 * np.median(steps)
+        closed = len(points) > 5 and gap <= 1.001 * (np.max if alone else np.median)(steps)
     return Curve(points, closed, places)
 
 

@@ -34,7 +34,7 @@ def thickened(curves, lines, leads=None):
         way, s, t = closest_ways(x[first[i]], edges[i], x[first[j]], edges[j])
         distance = np.linalg.norm(way, axis=1)
         if step == 0 and distance.min() < CROSSED:
-            at = [names[first[k[distance.argmin()]]] for k in (i, j)]
+            at = [names[first[k[(distance < CROSSED).argmax()]]] for k in (i, j)]
             raise WrongInput(f"{' and '.join(dict.fromkeys(at))}: there it crosses itself or turns back")
         # Of the size where both sums together are least.
         size = (2.0 * (distance[pushed] ** -4.0).sum() / (edges[inner] ** 2).sum()) ** (1.0 / 6.0)

@@ -171,7 +171,7 @@ class Import(unittest.TestCase):
         self.refused("a.txt: row 5 and row 63: there it crosses itself or turns back", "a.txt", rows(trefoil() * [1.0, 1.0, 0.0]))
         self.refused("a.csv: row 2 and row 3: there it crosses itself", "a.csv", "x,y,z\n0,0,0\n0,0,1\n0,0,0.2\n0.5,0.5,0.5\n")
         flat = "VECT 1 200 0 -200 0\n" + rows(trefoil(200) * [1.0, 1.0, 0.0])
-        self.refused("a.vect: point 10 and point 126: there", "a.vect", flat)
+        self.refused("a.vect: point 9 and point 125: there", "a.vect", flat)
         many = np.random.default_rng(1).random((20000, 3))
         self.refused("there its strands come so near to each other", "a.txt", rows(many))
 
@@ -212,6 +212,7 @@ class Shape(unittest.TestCase):
         points = trefoil(40).round(4)
         cut = np.vstack([points[:-1], points[0] + [0.02, -0.05, 0.0]])
         self.assertTrue(self.read(rows(cut, ","))[0].closed)
+        self.assertTrue(self.read(rows(trefoil(30), ","))[0].closed)
         self.assertFalse(self.read(rows(points[:-3], ","))[0].closed)
         named = json.dumps({"closed": False, "points": [dict(zip("xyz", point)) for point in points.tolist()]})
         for text, closed in ((json.dumps(points.tolist()), True), (json.dumps({"x": [0, 1, 2, 3.5], "y": [0] * 4, "z": [0] * 4}), False),
