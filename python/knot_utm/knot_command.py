@@ -52,12 +52,11 @@ def imported(arguments):
             if curves[0].is_flat:
                 raise TooTight("a diagram is no shape in space")
             facts, text = laid(arguments, ropes_of(lines, curves), closed)
-        except TooTight as tight:
-            leads = None if closed else leads_of(lines, arguments.lower, arguments.upper)
-            try:
-                facts, text = laid(arguments, ropes_of(thickened(curves, lines, leads), curves), closed)
-            except TooTight as still:
-                raise (still if curves[0].is_flat else tight) from None
+        except TooTight:
+            loose = thickened(curves, lines, None if closed else leads_of(lines, arguments.lower, arguments.upper))
+            if loose is None:
+                raise
+            facts, text = laid(arguments, ropes_of(loose, curves), closed)
             note = "shape: drawn loosely, since its corners are sharp or its strands near; no strand went through another one\n"
     except WrongInput as wrong:
         raise WrongInput(f"{arguments.shape}: {wrong}") from wrong

@@ -10,7 +10,7 @@ APART = 2.2            # least distance of strands [radii]
 ALONG = 1.5 * np.pi    # places nearer along a strand are the same one's [radii]
 DENSE = 0.5            # of the points that are measured [radii]
 OPENING = 5.0          # from the place where a closed curve is opened to its new ends [radii]
-SIGHT = 6.0            # around a place where one of several closed curves is opened, and of such places from each other [radii]
+SIGHT = 6.0            # around that place, before which nothing lies, and of such places from each other [radii]
 VIEWS = 50             # from which they are looked at
 THINNEST = 12          # times the ropes are made thinner by a sixth until they can be opened
 TURN = 3.0             # radius of the bend by which a held end turns to its grip [radii]
@@ -26,9 +26,8 @@ class TooTight(WrongInput):
 
 
 def lines_of(curves, lower=(), upper=()):
-    """The curves as polylines of the size 1 around the origin, and whether they are closed, which end where they begin then. Open ones
-    stand upright: the longest axis becomes z, the next one x; what is held below lies below, or the first one begins there. Raises
-    WrongInput."""
+    """The curves as polylines of the size 1 around the origin, and whether they are closed, which end where they begin then. The longest
+    axis becomes z, the next one x; of open ones what is held below lies below, or the first one begins there. Raises WrongInput."""
     closed = curves[0].closed
     if any(one.closed != closed for one in curves):
         raise WrongInput("some of its curves are closed and others are not")
@@ -37,13 +36,12 @@ def lines_of(curves, lower=(), upper=()):
     everything = np.vstack([dense(line) for line in lines])
     middle = everything.mean(axis=0)
     lines = [line - middle for line in lines]
-    if closed:
-        return lines, closed
     axes = np.linalg.svd(everything - middle, full_matrices=False)[2]
-    ends = ends_of(lines)
-    below, above = held_ends(ends, lower, upper) if lower or upper else (["a1"], ["a2"])
-    rise = np.mean([ends[name][0] for name in above], axis=0) - np.mean([ends[name][0] for name in below], axis=0)
-    z = axes[0] if rise @ axes[0] >= 0.0 else -axes[0]
+    z, ends = axes[0], ends_of(lines)
+    if not closed:
+        below, above = held_ends(ends, lower, upper) if lower or upper else (["a1"], ["a2"])
+        rise = np.mean([ends[name][0] for name in above], axis=0) - np.mean([ends[name][0] for name in below], axis=0)
+        z = z if rise @ z >= 0.0 else -z
     frame = np.array([axes[1], np.cross(z, axes[1]), z])
     return [line @ frame.T for line in lines], closed
 
@@ -62,14 +60,9 @@ def ropes_of(lines, curves):
 def strands_of(ropes, closed, smaller=1.0):
     """[points] of each strand in radii, along z and around the origin. A closed curve is opened. `smaller`: radius of the rope against
     that by which strands are APART."""
-    lines = [resampled(rope / smaller, DENSE) for rope in ropes]
-    if not closed:
-        return lines
-    if len(lines) == 1:
-        return opened(lines[0])
     for thinner in range(THINNEST):
         lines = [resampled(rope * 1.2 ** thinner / smaller, DENSE) for rope in ropes]
-        if found := opened_in_sight(lines):
+        if found := opened(lines) if closed else lines:
             return found
     raise WrongInput("its curves cannot be opened: from nowhere all of them can be seen beside each other")
 
@@ -145,28 +138,12 @@ def apart(one, other):
     return np.linalg.norm(one[:, None] - other, axis=2)
 
 
-def opened(line):
-    """At its outermost point, where x points outwards and z along the curve: what lies beyond is free for the ends."""
-    line = line[:-1]
-    out = int(np.argmax(np.linalg.norm(line, axis=1)))
-    line = np.roll(line, -out, axis=0)
-    x = line[0] / np.linalg.norm(line[0])
-    z = line[1] - line[-1]
-    z = (z - x * (z @ x)) / np.linalg.norm(z - x * (z @ x))
-    turned = line @ np.array([x, np.cross(z, x), z]).T
-    gap = round(OPENING / DENSE)
-    if len(turned) < 4 * gap:
-        raise WrongInput("it is too short to be opened")
-    # From above to below, so that the first end is led upwards, away from the last one.
-    return [turned[gap:-gap]]
-
-
-def opened_in_sight(lines):
-    """Several closed ones, each at a place before which nothing lies, as seen along x from somewhere, and their ends led out there beside
-    each other. None where no such places are found."""
+def opened(lines):
+    """Each closed one at a place before which nothing lies, as seen along x from somewhere, and their ends led out there beside each
+    other. None where no such places are found."""
     random, gap = np.random.default_rng(1), round(OPENING / DENSE)
-    for _ in range(VIEWS if min(map(len, lines)) > 4 * gap else 0):
-        turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    for view in range(VIEWS if min(map(len, lines)) > 4 * gap else 0):
+        turn = np.linalg.qr(random.normal(size=(3, 3)))[0] if view else np.eye(3)
         turned = [line[:-1] @ turn * np.linalg.det(turn) for line in lines]
         everything = np.vstack(turned)
         tree, places = cKDTree(everything[:, 1:]), []
@@ -176,7 +153,7 @@ def opened_in_sight(lines):
             if places[-1] is None:
                 break
         else:
-            if np.diff(np.sort([line[k, 1] for line, k in zip(turned, places)])).min() > SIGHT:
+            if np.diff(np.sort([line[k, 1] for line, k in zip(turned, places)])).min(initial=np.inf) > SIGHT:
                 rolled = [np.roll(line, -k, axis=0)[gap:-gap] for line, k in zip(turned, places)]
                 return [led_out(line, everything[:, 0].max() + SIGHT) for line in rolled]
     return None

@@ -3,7 +3,7 @@ were: in a step no point moves by as much as a third of its distance from other 
 import numpy as np
 
 from knot_utm.errors import WrongInput
-from knot_utm.knot_drawing import closest_ways, length_of, TooTight
+from knot_utm.knot_drawing import closest_ways, length_of
 
 NODES = 160      # at least, of all curves
 MOST_NODES = 1200
@@ -15,8 +15,11 @@ CROSSED = 1e-6   # distance of strands that is none, of the size
 
 def thickened(curves, lines, leads=None):
     """The lines of the curves, drawn loosely: lowers the sum of ℓ² of all edges and of 1/d⁴ of all pairs of segments that are d
-    apart. `leads`: the far ends of what goes on behind both ends of each open line; they and the ends stand still. Raises WrongInput."""
+    apart. `leads`: the far ends of what goes on behind both ends of each open line; they and the ends stand still.
+    None where there are too many points. Raises WrongInput."""
     x, begins, names = divided(curves, lines, leads)
+    if len(x) > MOST_NODES:
+        return None
     last = np.arange(1, len(x) + 1)
     last[begins[1:] - 1] = begins[:-1]
     first = np.setdiff1d(np.arange(len(x)), begins[1:] - 1 if leads else [])
@@ -24,7 +27,7 @@ def thickened(curves, lines, leads=None):
     stands = np.isin(np.arange(len(x)), np.concatenate([begins[:-1], begins[:-1] + 1, begins[1:] - 2, begins[1:] - 1]) if leads else [])
     inner = ~(stands[first] & stands[last])
     i, j = np.triu_indices(len(first), 1)
-    apart = (first[i] != last[j]) & (last[i] != first[j])
+    apart = (first[i] != last[j]) & (last[i] != first[j]) & (inner[i] | inner[j])
     i, j = i[apart], j[apart]
     curve = np.searchsorted(begins, first, side="right")
     along, around = first[j] - first[i], np.diff(begins)[curve[i] - 1]
@@ -64,6 +67,4 @@ def divided(curves, lines, leads):
         places = list(np.repeat(one.places[:len(counts)], counts))
         parts.append(np.array([lead[0], *nodes, line[-1], lead[1]] if leads else nodes))
         names += [places[0], *places, *one.places[-1:] * 2] if leads else places
-    if len(names) > MOST_NODES:
-        raise TooTight("it has too many points to be drawn loosely")
     return np.vstack(parts), np.cumsum([0, *map(len, parts)]), names
