@@ -52,7 +52,7 @@ def read(file, text):
             return json_curves(file, json.loads(bare))
         except json.JSONDecodeError as error:
             raise WrongInput(f"{file}: it is neither JSON nor the code of a diagram: {error}") from error
-    return (csv if "," in bare else rows_of_knotplot)(file, text)
+    return table(file, text, "," not in bare)
 
 
 def text_in(file):
@@ -138,42 +138,24 @@ def json_curves(file, found, closed=None):
     return [curve(points, bool(closed), [f"point {k}" for k in range(1, len(points) + 1)])]
 
 
-def csv(file, text):
-    """Columns x,y,z and, of several ropes, their numbers, as final_shape.csv has them."""
-    found, names = {}, ["x", "y", "z"]
+def table(file, text, spaced):
+    """Rows of x,y,z and, of several ropes, their numbers, as final_shape.csv has them; or of three numbers with spaces between them, as
+    KnotPlot writes them, with an empty row between curves, which are closed."""
+    found, names, block = {}, ["x", "y", "z"], 0
     for number, line in enumerate(text.splitlines(), 1):
-        cells = [cell.strip() for cell in line.split(",")]
-        if not any(cells) or cells[0].startswith("#"):
-            continue
-        if not found and not is_number(cells[0]):
+        cells = line.split() if spaced else [cell.strip() for cell in line.split(",")]
+        if not any(cells):
+            block += spaced
+        elif not spaced and not found and not is_number(cells[0]):
             names = cells if {"x", "y", "z"} <= set(cells) else names
-            continue
-        if len(cells) < len(names):
-            raise WrongInput(f"{file}: row {number} is \"{line}\", but must be {','.join(names)}")
-        row = {name: to_number(file, f"row {number}", cell) for name, cell in zip(names, cells) if name in ("x", "y", "z", "rope")}
-        found.setdefault(row.get("rope", 1.0), []).append(([row["x"], row["y"], row["z"]], f"row {number}"))
-    return [curve_of_rows(rows, None, len(found) == 1) for rows in found.values()]
-
-
-def rows_of_knotplot(file, text):
-    """A row a point; an empty row stands between two curves, which are closed."""
-    blocks, block = [], []
-    for number, line in enumerate([*text.splitlines(), ""], 1):
-        cells = line.split()
-        if cells and cells[0].startswith("#"):
-            continue
-        if not cells:
-            blocks, block = blocks + [block] * bool(block), []
-            continue
-        if len(cells) != 3:
-            raise WrongInput(f"{file}: row {number} is \"{line.strip()}\", but must be three numbers x y z")
-        block.append(([to_number(file, f"row {number}", cell) for cell in cells], f"row {number}"))
-    return [curve_of_rows(rows, True) for rows in blocks]
-
-
-def curve_of_rows(rows, closed, alone=False):
-    points, places = zip(*rows)
-    return curve(np.array(points), closed, list(places), alone)
+        elif not cells[0].startswith("#"):
+            if len(cells) < len(names) or spaced and len(cells) > 3:
+                raise WrongInput(f"{file}: row {number} is \"{line.strip()}\", but must be "
+                                 f"{'three numbers x y z' if spaced else ','.join(names)}")
+            row = {name: to_number(file, f"row {number}", cell) for name, cell in zip(names, cells) if name in ("x", "y", "z", "rope")}
+            found.setdefault((block, row.get("rope")), []).append(([row["x"], row["y"], row["z"]], f"row {number}"))
+    curves = [zip(*rows) for rows in found.values()]
+    return [curve(np.array(points), True if spaced else None, list(places), len(found) == 1) for points, places in curves]
 
 
 def curve(points, closed, places, alone=False):
