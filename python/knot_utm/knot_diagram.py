@@ -52,8 +52,8 @@ def gauss(file, text):
         return signed(walks, [signs[name] for name in names])
     if len(names) > MOST_UNSIGNED:
         raise WrongInput(f"{file}: a Gauss code of more than {MOST_UNSIGNED} crossings must tell their signs")
-    found = [signed(walks, each) for each in itertools.product((True, False), repeat=len(names))]
-    return next((one for one in found if len(faces_of(one)) == len(names) + 2), found[0])
+    found = (signed(walks, each) for each in itertools.product((True, False), repeat=len(names)))
+    return next((one for one in found if len(faces_of(one)) == len(names) + 2), signed(walks, [True] * len(names)))
 
 
 def signed(walks, signs):

@@ -36,7 +36,7 @@ def curves_of(file):
         if len(curve.points) < 4:
             raise WrongInput(f"{file}: curve {number} has {len(curve.points)} different points, but must have 4 or more")
     if not curves:
-        raise WrongInput(f"{file}: it holds no curve: give a VECT file, a CSV of x,y,z, or rows of three numbers")
+        raise WrongInput(f"{file}: it holds no curve: give VECT, CSV of x,y,z, JSON of points, rows of three numbers, or a PD or Gauss code")
     return curves
 
 
