@@ -19,7 +19,7 @@ def diagram_in(file, text):
         return None
     if len(crossings) > MOST_CROSSINGS:
         raise WrongInput(f"{file}: it has {len(crossings)} crossings, but may have at most {MOST_CROSSINGS}")
-    if len(faces_of(crossings)) != len(crossings) + 2:
+    if not is_plane(crossings):
         raise WrongInput(f"{file}: it is the code of no diagram in a plane, or of one in several parts")
     return polygons(crossings)
 
@@ -53,7 +53,7 @@ def gauss(file, text):
     if len(names) > MOST_UNSIGNED:
         raise WrongInput(f"{file}: a Gauss code of more than {MOST_UNSIGNED} crossings must tell their signs")
     found = (signed(walks, each) for each in itertools.product((True, False), repeat=len(names)))
-    return next((one for one in found if len(faces_of(one)) == len(names) + 2), signed(walks, [True] * len(names)))
+    return next(filter(is_plane, found), signed(walks, [True] * len(names)))
 
 
 def signed(walks, signs):
@@ -78,39 +78,39 @@ def ends_of_strands(crossings):
     return {one: other for pair in where.values() for one, other in (pair, pair[::-1])}
 
 
-def faces_of(crossings):
-    """[places by which a walk around each face leaves its crossings], with the face to the left."""
+def walks_over(crossings, turn):
+    """[places by which it leaves crossings] of all walks along strands: by `turn` 2 straight on, by -1 around a face to the left."""
     other, left, found = ends_of_strands(crossings), set(itertools.product(range(len(crossings)), range(4))), []
     while left:
-        dart, face = min(left), []
+        dart, walk = min(left), []
         while dart in left:
             left.remove(dart)
-            face.append(dart)
-            dart = other[dart][0], (other[dart][1] - 1) % 4
-        found.append(face)
+            walk.append(dart)
+            dart = other[dart][0], (other[dart][1] + turn) % 4
+        found.append(walk)
     return found
+
+
+def is_plane(crossings):
+    return len(walks_over(crossings, -1)) == len(crossings) + 2
 
 
 def polygons(crossings):
     other, places = ends_of_strands(crossings), in_plane(crossings)
     height = 0.5 * min(np.linalg.norm(places[dart] - places[end]) for dart, end in other.items())
-    left, found = set(other), []
-    while left:
-        dart, points, names = min(left), [], []
-        while dart in left:
-            crossing, place = dart
-            left -= {dart, other[dart]}
-            points += [[*places[crossing], height * (1 if place % 2 else -1)], [*places[dart], 0.0], [*places[other[dart]], 0.0]]
-            names += 3 * [f"crossing {crossing + 1}"]
-            dart = other[dart][0], (other[dart][1] + 2) % 4
-        found.append((np.array(points), names))
+    found = []
+    for walk in walks_over(crossings, 2):
+        if min(walk) < min(other[dart] for dart in walk):  # one way of two
+            points = [point for dart in walk for point in ([*places[dart[0]], height if dart[1] % 2 else -height],
+                                                           [*places[dart], 0.0], [*places[other[dart]], 0.0])]
+            found.append((np.array(points), [f"crossing {crossing + 1}" for crossing, _ in walk for _ in range(3)]))
     return found
 
 
 def in_plane(crossings):
     """{crossing or place around it: where it is drawn}: the middle of its neighbours in a net of triangles that has a ring within each
     face, so that no two edges meet (Tutte 1963)."""
-    other, faces = ends_of_strands(crossings), sorted(faces_of(crossings), key=len)
+    other, faces = ends_of_strands(crossings), sorted(walks_over(crossings, -1), key=len)
     edges = [(dart[0], dart) for dart in other] + [pair for pair in other.items() if pair[0] < pair[1]]
     for number, face in enumerate(faces):
         border = [node for dart in face for node in (dart[0], dart, other[dart])]
