@@ -5,39 +5,66 @@ from scipy.spatial import cKDTree
 
 from knot_utm.errors import WrongInput
 
-UP = np.array([0.0, 0.0, 1.0])
+X, UP = np.eye(3)[[0, 2]]
 APART = 2.2            # least distance of strands [radii]
 ALONG = 1.5 * np.pi    # places nearer along a strand are the same one's [radii]
 DENSE = 0.5            # of the points that are measured [radii]
 OPENING = 5.0          # from the place where a closed curve is opened to its new ends [radii]
+SIGHT = 6.0            # around that place, before which nothing lies, and of such places from each other [radii]
+VIEWS = 50             # from which they are looked at
+THINNEST = 12          # times the ropes are made thinner by a sixth until they can be opened
 TURN = 3.0             # radius of the bend by which a held end turns to its grip [radii]
 STRAIGHT = 3.0         # of a held strand, twice, behind it [radii]
+LEAD = 10.0            # of an open curve beyond its ends, over its size
 DEVIATION = 0.1        # of the drawn curve [radii]
 FARTHEST = 199.0       # coordinate of a knot's file [radii]
-LARGEST = 2.0 * np.sqrt(3.0) * FARTHEST  # distance of two places of a knot's file [radii]
-LONGEST = 5000.0       # rope of a file, three times as long as that of any shipped knot [radii]
-BLOCK = 64             # segments that are compared with all others at a time
+LONGEST = 3500.0       # rope of a file, twice as long as that of any shipped knot; strands that cross count as tighter [radii]
 
 
-def strands_of(curves, smaller=1.0):
-    """[points] of each strand in radii, along z and around the origin; and an outward direction. A closed curve is opened.
-    `smaller`: radius of the rope against that by which strands are APART."""
-    closed = any(one.closed for one in curves)
-    if closed and len(curves) > 1:
-        raise WrongInput(f"it holds {len(curves)} curves, but a rope has ends: a closed curve must be the only one")
+class TooTight(WrongInput):
+    """No rope can be laid along curves as they are."""
+
+
+def lines_of(curves, lower=(), upper=()):
+    """The curves as polylines of the size 1 around the origin, and whether they are closed, which end where they begin then. The longest
+    axis becomes z, the next one x; of open ones what is held below lies below, or the first one begins there. Raises WrongInput."""
+    closed = curves[0].closed
+    if any(one.closed != closed for one in curves):
+        raise WrongInput("some of its curves are closed and others are not")
     size = np.ptp(np.vstack([one.points for one in curves]), axis=0).max()
-    lines = [dense((np.vstack([one.points, one.points[:1]]) if closed else one.points) / size) for one in curves]
-    if near := crossing(lines, closed):
-        raise WrongInput(f"{places_of(curves, near)}: there it comes nearer to itself than 1/{LARGEST / APART:.0f} of its size, as "
-                         "where it crosses itself or turns back, but strands must lie apart")
-    radius, near = tightest(lines, closed)
+    lines = [(np.vstack([one.points, one.points[:1]]) if closed else one.points) / size for one in curves]
+    everything = np.vstack([dense(line) for line in lines])
+    middle = everything.mean(axis=0)
+    lines = [line - middle for line in lines]
+    axes = np.linalg.svd(everything - middle, full_matrices=False)[2]
+    z, ends = axes[0], ends_of(lines)
+    if not closed:
+        below, above = held_ends(ends, lower, upper) if lower or upper else (["a1"], ["a2"])
+        rise = np.mean([ends[name][0] for name in above], axis=0) - np.mean([ends[name][0] for name in below], axis=0)
+        z = z if rise @ z >= 0.0 else -z
+    frame = np.array([axes[1], np.cross(z, axes[1]), z])
+    return [line @ frame.T for line in lines], closed
+
+
+def ropes_of(lines, curves):
+    """[points] of each rope whose strands are APART, in its radii. Raises TooTight, which names places of the curves."""
+    lines = [dense(line) for line in lines]
+    radius, near = tightest(lines, curves[0].closed)
     length = sum(map(length_of, lines)) / radius
     if length > LONGEST:
-        raise WrongInput(f"{places_of(curves, near)}: there its strands come so near to each other, or bend so sharply, that the rope is "
-                         f"{length:.0f} radii long, but it must be at most {LONGEST:.0f}")
-    radius, middle = smaller * radius, np.vstack(lines).mean(axis=0)
-    lines = [resampled((line - middle) / radius, DENSE) for line in lines]
-    return opened(lines[0]) if closed else upright(lines)
+        raise TooTight(f"{places_of(curves, near)}: there its strands come so near to each other, or bend so sharply, that the rope is "
+                       f"{length:.0f} radii long, but it must be at most {LONGEST:.0f}")
+    return [line / radius for line in lines]
+
+
+def strands_of(ropes, closed, smaller=1.0):
+    """[points] of each strand in radii, along z and around the origin. A closed curve is opened. `smaller`: radius of the rope against
+    that by which strands are APART."""
+    for thinner in range(THINNEST):
+        lines = [resampled(rope * 1.2 ** thinner / smaller, DENSE) for rope in ropes]
+        if found := opened(lines) if closed else lines:
+            return found
+    raise WrongInput("its curves cannot be opened: from nowhere all of them can be seen beside each other")
 
 
 def places_of(curves, near):
@@ -50,31 +77,9 @@ def places_of(curves, near):
     return " and ".join(dict.fromkeys(found))
 
 
-def crossing(lines, closed):
-    """Two places, far from each other along the curves, whose segments are nearer to each other than strands can be in a knot's
-    file; None where there are none. `lines`: dense, of the size 1."""
-    least, begin, step = APART / LARGEST, np.vstack([line[:-1] for line in lines]), np.vstack([np.diff(line, axis=0) for line in lines])
-    number = np.concatenate([np.full(len(line) - 1, k) for k, line in enumerate(lines)])
-    share = np.concatenate([(np.arange(len(line) - 1) + 0.5) / (len(line) - 1) for line in lines])
-    lengths = np.array([length_of(line) for line in lines])[number]
-    spacing = np.linalg.norm(step, axis=1).max()
-    tree = cKDTree(begin + 0.5 * step)
-    for first in range(0, len(begin), BLOCK):
-        found = tree.query_ball_point(tree.data[first:first + BLOCK], spacing + least)
-        one = np.repeat(np.arange(first, first + len(found)), [len(others) for others in found])
-        other = np.concatenate([np.array(others, dtype=int) for others in found])
-        way = np.abs(share[one] - share[other])
-        way = lengths[one] * (np.minimum(way, 1.0 - way) if closed else way)
-        far = (number[one] != number[other]) | (way > max(4.0 * spacing, ALONG / LARGEST))
-        one, other = one[far], other[far]
-        near = np.flatnonzero(segments_apart(begin[one], step[one], begin[other], step[other]) < least)
-        if len(near):
-            return [(number[i], share[i]) for i in (one[near[0]], other[near[0]])]
-    return None
-
-
-def segments_apart(p, u, q, v):
-    """Distances of the segments from p to p + u and from q to q + v."""
+def closest_ways(p, u, q, v):
+    """From the place of each segment from q to q + v that is nearest to the one from p to p + u to that one's, and both places, from
+    0 to 1: way, s, t."""
     def dot(a, b):
         return np.einsum("ij,ij->i", a, b)
 
@@ -84,7 +89,7 @@ def segments_apart(p, u, q, v):
         s = np.where(area > 1e-12 * uu * vv, np.clip((uv * dot(v, w) - dot(u, w) * vv) / area, 0.0, 1.0), 0.0)
     t = np.clip((uv * s + dot(v, w)) / vv, 0.0, 1.0)
     s = np.clip((uv * t - dot(u, w)) / uu, 0.0, 1.0)
-    return np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=1)
+    return w + s[:, None] * u - t[:, None] * v, s, t
 
 
 def dense(line, count=1500):
@@ -118,42 +123,50 @@ def tightest(lines, closed):
         way = np.abs(place[:, None] - place)
         along[begin:begin + len(line), begin:begin + len(line)] = np.minimum(way, place[-1] - way) if closed else way
         begin += len(line)
-    size = distance.max()
-    for radius in np.geomspace(1e-4 * size, 0.2 * size, 400):
-        far = along > ALONG * radius
-        if far.any() and distance[far].min() < APART * radius:
-            nearest = np.unravel_index(np.argmin(np.where(far, distance, np.inf)), distance.shape)
-            shares = [(number, i / (len(line) - 1)) for number, line in enumerate(lines) for i in range(len(line))]
-            return radius / 1.02, [shares[i] for i in nearest]  # the one before
-    raise WrongInput("no strand comes near another one: there is no knot")
+    radii = np.geomspace(1e-4, 0.2, 400) * distance.max()
+    # The first radius of which a pair lies nearer than APART, but further along than ALONG.
+    tight = np.searchsorted(radii, distance / APART, side="right")
+    first = np.where(ALONG * np.append(radii, np.inf)[tight] < along, tight, len(radii)).min()
+    if first == len(radii):
+        raise WrongInput("no strand comes near another one: there is no knot")
+    nearest = np.unravel_index(np.argmin(np.where(along > ALONG * radii[first], distance, np.inf)), distance.shape)
+    shares = [(number, i / (len(line) - 1)) for number, line in enumerate(lines) for i in range(len(line))]
+    return radii[first] / 1.02, [shares[i] for i in nearest]  # the radius before
 
 
 def apart(one, other):
     return np.linalg.norm(one[:, None] - other, axis=2)
 
 
-def upright(lines):
-    """The longest axis becomes z, the next one x; the first strand begins below."""
-    axes = np.linalg.svd(np.vstack(lines), full_matrices=False)[2]
-    z = axes[0] if lines[0][0] @ axes[0] <= lines[0][-1] @ axes[0] else -axes[0]
-    frame = np.array([axes[1], np.cross(z, axes[1]), z])
-    return [line @ frame.T for line in lines], np.array([1.0, 0.0, 0.0])
+def opened(lines):
+    """Each closed one at a place before which nothing lies, as seen along x from somewhere, and their ends led out there beside each
+    other. None where no such places are found."""
+    random, gap = np.random.default_rng(1), round(OPENING / DENSE)
+    for view in range(VIEWS if min(map(len, lines)) > 4 * gap else 0):
+        turn = np.linalg.qr(random.normal(size=(3, 3)))[0] if view else np.eye(3)
+        turned = [line[:-1] @ turn * np.linalg.det(turn) for line in lines]
+        everything = np.vstack(turned)
+        tree, places = cKDTree(everything[:, 1:]), []
+        for line in turned:
+            order = np.argsort(-line[:, 0])
+            places.append(next((k for k in order if everything[tree.query_ball_point(line[k, 1:], SIGHT), 0].max() < line[k, 0] + 1.0), None))
+            if places[-1] is None:
+                break
+        else:
+            if np.diff(np.sort([line[k, 1] for line, k in zip(turned, places)])).min(initial=np.inf) > SIGHT:
+                rolled = [np.roll(line, -k, axis=0)[gap:-gap] for line, k in zip(turned, places)]
+                return [led_out(line, everything[:, 0].max() + SIGHT) for line in rolled]
+    return None
 
 
-def opened(line):
-    """At its outermost point, where x points outwards and z along the curve: what lies beyond is free for the ends."""
-    line = line[:-1]
-    out = int(np.argmax(np.linalg.norm(line, axis=1)))
-    line = np.roll(line, -out, axis=0)
-    x = line[0] / np.linalg.norm(line[0])
-    z = line[1] - line[-1]
-    z = (z - x * (z @ x)) / np.linalg.norm(z - x * (z @ x))
-    turned = line @ np.array([x, np.cross(z, x), z]).T
-    gap = round(OPENING / DENSE)
-    if len(turned) < 4 * gap:
-        raise WrongInput("it is too short to be opened")
-    # From above to below, so that the first end is led upwards, away from the last one.
-    return [turned[gap:-gap]], np.array([1.0, 0.0, 0.0])
+def led_out(line, reach):
+    """A line whose ends are led to x = `reach`, that of the first one above."""
+    line = line if line[0][2] > line[-1][2] else line[::-1]
+    ways = []
+    for end, direction in ends_of([line]).values():
+        way = [end, *run_out(end, direction, X)[:-2]]
+        ways.append(resampled(np.vstack([*way, [reach, *way[-1][1:]]]), DENSE)[1:])
+    return np.vstack([ways[0][::-1], line, ways[1]])
 
 
 def ends_of(strands):
@@ -177,11 +190,19 @@ def held_ends(ends, lower, upper):
     return list(lower) or lowest[:1], list(upper) or lowest[-1:]
 
 
-def run_out(end, direction, target, outwards):
+def leads_of(lines, lower, upper):
+    """The first and the last point of each open line, far beyond its ends: in the line of a grip, or straight on."""
+    ends = ends_of([dense(line) for line in lines])
+    lower, upper = held_ends(ends, lower, upper)
+    far = [end + LEAD * (UP if name in upper else -UP if name in lower else way) for name, (end, way) in ends.items()]
+    return list(zip(far[::2], far[1::2]))
+
+
+def run_out(end, direction, target):
     """Points behind an end, by a bend and then straight along `target` to its grip."""
     side = target - direction * (target @ direction)
     if np.linalg.norm(side) < 0.3:
-        side = outwards - direction * (outwards @ direction)
+        side = X - direction * (X @ direction)
     side /= np.linalg.norm(side)
     angle = np.arctan2(np.linalg.norm(np.cross(direction, target)), direction @ target)
     bend = [end + TURN * (np.sin(a) * direction + (1.0 - np.cos(a)) * side)
@@ -218,7 +239,7 @@ def through(points, pieces=24):
     return np.vstack(out)
 
 
-def knot_text(title, source, strands, outwards, lower=(), upper=()):
+def knot_text(title, source, strands, lower=(), upper=()):
     """The text of a knot's file. Raises WrongInput."""
     ends = ends_of(strands)
     lower, upper = held_ends(ends, lower, upper)
@@ -227,11 +248,11 @@ def knot_text(title, source, strands, outwards, lower=(), upper=()):
         points = list(drawn_through(line))
         for name, place in ((f"{letter}1", 0), (f"{letter}2", 1)):
             target = UP if name in upper else -UP if name in lower else None
-            more = [] if target is None else run_out(*ends[name], target, outwards)
+            more = [] if target is None else run_out(*ends[name], target)
             points = points + more if place else more[::-1] + points
         if np.abs(points).max() > FARTHEST:
-            raise WrongInput(f"it is {2.0 * np.abs(points).max():.0f} radii large where its strands lie {APART} radii apart, but must "
-                             f"be at most {2.0 * FARTHEST:.0f}")
+            raise TooTight(f"it is {2.0 * np.abs(points).max():.0f} radii large where its strands lie {APART} radii apart, but must "
+                           f"be at most {2.0 * FARTHEST:.0f}")
         rows = "".join(f"      - [{x:.3f}, {y:.3f}, {z:.3f}]\n" for x, y, z in np.add(points, 0.0))
         entries.append(f"  - ends: [{letter}1, {letter}2]\n    points:\n{rows}")
     free = [name for name in ends if name not in lower and name not in upper]
