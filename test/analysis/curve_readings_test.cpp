@@ -110,6 +110,11 @@ TEST(CurveReadings, AKnotThatJumpsOpenHasTheForceAtWhichItDidAndNoPlateau) {
 }
 
 /// What the coils take in tells a jump from knots that slip as strands shorten: as much, or a third of it.
+TEST(CurveReadings, NothingJumpsWhereNothingIsPulled) {
+  EXPECT_FALSE(jump({}, true, {}));
+  EXPECT_FALSE(jump({}, true, {{0.08, 0.08}, {0.08, 0.2}}));
+}
+
 TEST(CurveReadings, AKnotThatTakesInRodAtOnceJumpedOpen) {
   const auto slips = [](double takes_in, double force_left) {
     Pull out = with_knots(pull(sliding), 0.0);

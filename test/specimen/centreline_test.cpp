@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <string>
 
 #include "complaint.hpp"
@@ -180,6 +181,23 @@ TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
       EXPECT_LT((line.points.rightCols(1) - Vec3(0.0, 0.0, shape.end_to_end)).norm(), 1e-9);
       EXPECT_GT(nearest_places(line.points, 1.5 * M_PI * shape.radius).distance, 2.1 * shape.radius);
     }
+  }
+}
+
+TEST(Overhand, TakesTheEndToEndDistancesThatARefusalNames) {
+  OverhandShape shape;
+  shape.end_to_end = 0.01;
+  const std::string refusal = complaint_of([&] { overhand(shape); });
+  std::smatch limits;
+  ASSERT_TRUE(std::regex_search(refusal, limits, std::regex("([0-9.]+) to ([0-9.]+) m"))) << refusal;
+  const double least = std::stod(limits[1]), most = std::stod(limits[2]);
+  for (const double taken : {least, most}) {
+    shape.end_to_end = taken;
+    EXPECT_EQ(complaint_of([&] { overhand(shape); }), "");
+  }
+  for (const double refused : {0.99 * least, 1.01 * most}) {
+    shape.end_to_end = refused;
+    EXPECT_NE(complaint_of([&] { overhand(shape); }), "") << refused << ": " << refusal;
   }
 }
 

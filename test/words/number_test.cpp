@@ -46,11 +46,13 @@ TEST(KnownNames, AMisspeltOneIsTakenForTheNearest) {
   EXPECT_EQ(nearest_name("refinment", kKeys), "refinement");
   EXPECT_EQ(nearest_name("knots", kKeys), "knot");
   EXPECT_EQ(nearest_name("tial", kKeys), "tail");
+  EXPECT_EQ(nearest_name("odga_lungth", kKeys), "edge_length") << "three mistakes in a long name";
 }
 
 TEST(KnownNames, WhatIsNearNoneIsTakenForNone) {
   EXPECT_EQ(nearest_name("", kKeys), "");
   EXPECT_EQ(nearest_name("speed", kKeys), "");
+  EXPECT_EQ(nearest_name("prolaud", kKeys), "") << "three mistakes in a shorter one";
   EXPECT_EQ(nearest_name("no", kKeys), "");
   EXPECT_EQ(nearest_name("preload", {}), "");
   EXPECT_EQ(nearest_name(std::string(100000, 'x'), kKeys), "");
