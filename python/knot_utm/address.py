@@ -37,11 +37,9 @@ class Addresses:
 
     def _find(self, name, kind):
         """As tensile_test looks for it; it is run in the method's folder."""
-        for folder in (self.folder, os.path.join(self.folder, "config"), os.path.join(self.folder, "../config"), tool.CONFIG):
-            for place in ([os.path.join(folder, kind, name + ".yaml")] if kind else []) + [os.path.join(folder, name)]:
-                if os.path.isfile(place):
-                    return place
-        return None
+        folders = (self.folder, os.path.join(self.folder, "config"), os.path.join(self.folder, "../config"), tool.CONFIG)
+        ends = [(kind, name + ".yaml"), (name,)] if kind else [(name,)]
+        return next(filter(os.path.isfile, (os.path.join(folder, *end) for folder in folders for end in ends)), None)
 
     def _read(self, path):
         if path not in self.files:

@@ -26,27 +26,34 @@ def numbers_and_words(table, keys, cases=()):
     return numbers, [key for key in varied if key not in numbers]
 
 
+def combinations(table, keys):
+    """[(values, rows)] of each combination of the values of the keys."""
+    if not keys:
+        return [((), table)]
+    groups = table.groupby(list(keys) if len(keys) > 1 else keys[0], sort=False)
+    return [(values if isinstance(values, tuple) else (values,), rows) for values, rows in groups]
+
+
 def parts(table, words):
-    """[(label, rows)] of each combination of the words."""
-    if not words:
-        return [("", table)]
-    return [(label(name, words, table), rows) for name, rows in table.groupby(words if len(words) > 1 else words[0], sort=False)]
+    """[(label, rows)] of each combination of the words: words as they are, a number with the last part of its key."""
+    return [(", ".join(f"{word.split('.')[-1]} {value:g}" if table[word].dtype.kind in "if" else str(value)
+                       for word, value in zip(words, values)), rows) for values, rows in combinations(table, words)]
 
 
-def label(name, words, table):
-    """Words as they are; a number with the last part of its key."""
-    values = name if isinstance(name, tuple) else (name,)
-    return ", ".join(f"{word.split('.')[-1]} {value:g}" if table[word].dtype.kind in "if" else str(value)
-                     for word, value in zip(words, values))
-
-
-def name_axis(set_label, table, column):
+def with_unit(column, table):
     unit = table.attrs["units"][column]
-    set_label(column if unit == "-" else f"{column} [{unit}]")
+    return column if unit == "-" else f"{column} [{unit}]"
 
 
 def spans_far(values):
     return values.dtype.kind in "if" and values.min() > 0 and values.max() > FAR * values.min()
+
+
+def name_axes(panel, table, x, y):
+    """Names both axes by their columns, and lets them be logarithmic."""
+    for name, column in (("x", x), ("y", y)):
+        panel.set(**{f"{name}label": with_unit(column, table)})
+        scale_axis(panel, name, table[column])
 
 
 def scale_axis(panel, name, values):

@@ -7,7 +7,7 @@ import numpy as np
 from scipy import stats
 
 from knot_utm.errors import WrongInput
-from knot_utm.yaml_text import is_number, text_of
+from knot_utm.yaml_text import is_number, is_whole, require, text_of
 
 MOST_RUNS = 1_000_000
 RANGE = "{from, to, steps, scale: linear or log}"
@@ -43,8 +43,7 @@ def varied(key, given, map_of="vary"):
     where = f"{map_of}.{key}"
     if isinstance(given, list) and given:
         return Listed(given)
-    if not isinstance(given, dict):
-        raise WrongInput(f"{where} is {text_of(given)}, but must be a list of values, a range {RANGE}, or a draw {DRAW}")
+    require(isinstance(given, dict), where, given, f"a list of values, a range {RANGE}, or a draw {DRAW}")
     given = {part: value for part, value in given.items() if part != "unit"}
     if "values" in given:
         return _values(where, given)
@@ -53,7 +52,9 @@ def varied(key, given, map_of="vary"):
 
 def points(kinds, design, runs=None, seed=1):
     """[{key: value}] of every run. `kinds`: {key: Listed or Drawn}; `runs`: of the designs that draw."""
-    made = {"grid": _grid, "one_at_a_time": _one_at_a_time, "list": _list, "sobol": _sobol}[design](kinds, runs, seed)
+    if design == "grid":
+        return combinations(kinds)
+    made = _one_at_a_time(kinds) if design == "one_at_a_time" else (_list if design == "list" else _sobol)(kinds, runs, seed)
     return [dict(zip(kinds, values)) for values in made]
 
 
@@ -73,11 +74,7 @@ def _require_listed(kinds, where, what):
                              "sobol")
 
 
-def _grid(kinds, _runs, _seed):
-    return [point.values() for point in combinations(kinds)]
-
-
-def _one_at_a_time(kinds, _runs, _seed):
+def _one_at_a_time(kinds):
     """The first values of all keys, and then beside them each other value of each key."""
     _require_listed(kinds, "vary", "one_at_a_time")
     first = [kind.values[0] for kind in kinds.values()]
@@ -119,52 +116,41 @@ def _values(where, given):
     """A list in a map, where it may have a unit."""
     _only(where, given, ("values",), VALUES)
     values = given["values"]
-    if not isinstance(values, list) or not values or not all(is_number(value) for value in values):
-        raise WrongInput(f"{where}.values is {text_of(values)}, but must be a list of numbers")
+    require(isinstance(values, list) and values and all(map(is_number, values)), f"{where}.values", values, "a list of numbers")
     return Listed(values)
 
 
 def _range(where, given):
     _only(where, given, ("from", "to", "steps", "scale"), RANGE)
-    low, high = _number(where, given, "from"), _number(where, given, "to")
-    scale = given.get("scale", "linear")
-    if scale not in ("linear", "log"):
-        raise WrongInput(f"{where}.scale is {text_of(scale)}, but must be linear or log")
-    if scale == "log":
-        _require_positive(where, low, high)
+    low, high, scale, steps = *_numbers(where, given, "from", "to"), given.get("scale", "linear"), given.get("steps")
+    require(scale in ("linear", "log"), f"{where}.scale", scale, "linear or log")
     if "steps" not in given:
-        return Drawn(_between(where, low, high, scale == "log"))
-    steps = given["steps"]
-    if not isinstance(steps, int) or isinstance(steps, bool) or not 2 <= steps <= MOST_RUNS:
-        raise WrongInput(f"{where}.steps is {text_of(steps)}, but must be an integer from 2 to {MOST_RUNS}")
+        return _between(where, low, high, scale == "log")
+    _require_positive(where, scale == "log", low, high)
+    require(is_whole(steps, 2, MOST_RUNS), f"{where}.steps", steps, f"an integer from 2 to {MOST_RUNS}")
     return Listed((np.geomspace if scale == "log" else np.linspace)(low, high, steps).tolist())
 
 
 def _drawn(where, given):
     name = given["draw"]
-    if not isinstance(name, str) or name not in DRAWS:
-        raise WrongInput(f"{where}.draw is {text_of(name)}, but must be " + ", ".join(DRAWS))
+    require(isinstance(name, str) and name in DRAWS, f"{where}.draw", name, ", ".join(DRAWS))
     _only(where, given, ("draw", *DRAWS[name]), DRAW)
-    first, second = (_number(where, given, part) for part in DRAWS[name])
-    if name == "normal":
-        if second <= 0:
-            raise WrongInput(f"{where}.sd is {text_of(second)}, but must be above 0")
-        return Drawn(stats.norm(first, second))
-    if name == "log_uniform":
-        _require_positive(where, first, second)
-    return Drawn(_between(where, first, second, name == "log_uniform"))
+    first, second = _numbers(where, given, *DRAWS[name])
+    if name != "normal":
+        return _between(where, first, second, name == "log_uniform")
+    require(second > 0, f"{where}.sd", second, "above 0")
+    return Drawn(stats.norm(first, second))
 
 
 def _between(where, low, high, log):
-    if not low < high:
-        raise WrongInput(f"{where}.to is {text_of(high)}, but must be above from, {text_of(low)}")
-    return stats.loguniform(low, high) if log else stats.uniform(low, high - low)
+    _require_positive(where, log, low, high)
+    require(low < high, f"{where}.to", high, f"above from, {text_of(low)}")
+    return Drawn(stats.loguniform(low, high) if log else stats.uniform(low, high - low))
 
 
-def _require_positive(where, *values):
+def _require_positive(where, log, *values):
     for part, value in zip(("from", "to"), values):
-        if value <= 0:
-            raise WrongInput(f"{where}.{part} is {text_of(value)}, but must be above 0 on a logarithmic scale")
+        require(not log or value > 0, f"{where}.{part}", value, "above 0 on a logarithmic scale")
 
 
 def _only(where, given, parts, meant):
@@ -173,10 +159,9 @@ def _only(where, given, parts, meant):
             raise WrongInput(f"{where}.{part} is no key of {meant}")
 
 
-def _number(where, given, part):
-    if part not in given:
-        raise WrongInput(f"{where}.{part} is missing: give a number")
-    value = given[part]
-    if not is_number(value):
-        raise WrongInput(f"{where}.{part} is {text_of(value)}, but must be a number")
-    return float(value)
+def _numbers(where, given, *parts):
+    for part in parts:
+        if part not in given:
+            raise WrongInput(f"{where}.{part} is missing: give a number")
+        require(is_number(given[part]), f"{where}.{part}", given[part], "a number")
+    return [float(given[part]) for part in parts]

@@ -12,11 +12,11 @@ import pandas as pd
 from knot_utm import tool
 from knot_utm.arguments import jobs_of, whole
 from knot_utm.errors import RunFailed, RunWarning, WrongInput
+from knot_utm.sweep_folder import RESULT, STATISTICS
 from knot_utm.yaml_text import load
 
 PULLS = ("pull", "cycle", "follow")  # the phases of curve.csv in which the specimen is pulled
-OF_A_RUN = ("result.yaml", "statistics.yaml", "samples.csv")  # where one of them is, tensile_test takes another folder
-STATISTICS = "statistics.yaml"
+OF_A_RUN = RESULT, STATISTICS, "samples.csv"  # where one of them is, tensile_test takes another folder
 
 
 class Readings(Mapping):
@@ -81,8 +81,8 @@ class Run(Readings):
         return plot_curve(self.curve, axes, **style)
 
     def __repr__(self):
-        peak = shown(self.results["peak_force"], self.results.attrs["units"]["peak_force"])
-        return f"<Run {self.folder}: ended by {self.results['ended_by']}, largest load {peak}, {len(self.warnings)} warning{'' if len(self.warnings) == 1 else 's'}>"
+        peak, count = shown(self.results["peak_force"], self.results.attrs["units"]["peak_force"]), len(self.warnings)
+        return f"<Run {self.folder}: ended by {self.results['ended_by']}, largest load {peak}, {count} warning{'' if count == 1 else 's'}>"
 
 
 def read(folder):
@@ -100,37 +100,12 @@ def run(method, out, overwrite=False, **overrides):
     run("tighten", "out/a", **{"specimen.preload": 20}). What the test warns of is a RunWarning of Python. Raises WrongInput where
     tensile_test refuses, or `out` holds a run; RunFailed where the test ended without what it was to measure, with what there is
     as its `.run`."""
-    made = make(method, out, 1, overrides, overwrite)
-    left = read(out) if made.has("result.yaml") else None
-    for line in left.warnings if left else ():
-        warnings.warn(line, RunWarning, stacklevel=2)
-    made.require_success(left)
-    return left
+    return _made(read, RESULT, method, out, 1, overrides, overwrite)
 
 
-@dataclass(frozen=True)
-class Made:
-    """How tensile_test ended: what it left in `out`, its exit code, and the lines that it said."""
-
-    out: str
-    code: int
-    said: list
-
-    def has(self, name):
-        return os.path.exists(os.path.join(self.out, name))
-
-    def require_success(self, left):
-        """Raises RunFailed with what it left, where it failed."""
-        if self.code == 0 and left is not None:
-            return
-        told = [line for line in self.said if line.startswith(("the physics gave up", "the test failed", "the knot came undone"))]
-        why = next(reversed(told or self.said), f"tensile_test ended with {self.code}")
-        raise RunFailed(f"{self.out}: {why}", left)
-
-
-def make(method, out, specimens, overrides, overwrite, *more):
-    """Runs tensile_test to its end, with more words where they are given. Raises WrongInput where it refuses, or `out` holds a
-    run that is not to be written over."""
+def _made(reads, result, method, out, specimens, overrides, overwrite, *more):
+    """What `reads` reads of the folder, which has the file `result`, once tensile_test has run to its end, with more words where they
+    are given. Raises as `run` does."""
     if tool.COUNT in overrides:
         raise WrongInput(f"{tool.COUNT} is {overrides[tool.COUNT]}, but run tests one specimen, and batch as many as its argument "
                          "specimens says")
@@ -142,9 +117,16 @@ def make(method, out, specimens, overrides, overwrite, *more):
     method = tool.find_method(os.fspath(method), os.getcwd())
     words = tool.command(method, overrides, out, "--quiet", "--specimens", str(specimens), *more)
     done = subprocess.run(words, check=False, text=True, errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
+    said = tool.lines_of(done.stderr)
     if done.returncode == tool.REFUSED:
         raise WrongInput(tool.said_by(done.stderr))
-    return Made(out, done.returncode, tool.lines_of(done.stderr))
+    left = reads(out) if os.path.exists(os.path.join(out, result)) else None
+    for line in (said if isinstance(left, Batch) else left.warnings) if left is not None else ():
+        warnings.warn(line, RunWarning, stacklevel=3)
+    if done.returncode != 0 or left is None:
+        reasons = [line for line in said if line.startswith(("the physics gave up", "the test failed", "the knot came undone"))]
+        raise RunFailed(f"{out}: {next(reversed(reasons or said), f'tensile_test ended with {done.returncode}')}", left)
+    return left
 
 
 def read_table(path):
@@ -204,12 +186,8 @@ def batch(method, out, specimens=8, jobs=None, overwrite=False, **overrides):
     cores; the numbers are the same. `overwrite`, `overrides`, warnings and what it raises: as `run`; it raises RunFailed where no
     specimen counts."""
     whole("specimens", specimens, 2, ": knot_utm.run tests one")
-    made = make(method, out, specimens, overrides, overwrite, *(["--jobs", str(jobs_of(jobs))] if jobs is not None else []))
-    left = read_batch(out) if made.has(STATISTICS) else None
-    for line in made.said if left else ():
-        warnings.warn(line, RunWarning, stacklevel=2)
-    made.require_success(left)
-    return left
+    at_a_time = ["--jobs", str(jobs_of(jobs))] if jobs is not None else []
+    return _made(read_batch, STATISTICS, method, out, specimens, overrides, overwrite, *at_a_time)
 
 
 def read_batch(folder):

@@ -15,6 +15,7 @@ from knot_utm.yaml_text import text_of
 # What the machine was, and not the test: it would differ each time.
 NOT_OF_THE_TEST = ("wall_time", "real_time_factor", "peak_memory")
 NUMBERS = ("number", "count", "flag")
+SPECIMEN = "specimen"  # the column that tells repeats apart
 
 
 class Table:
@@ -39,10 +40,7 @@ class Table:
     def csv(self):
         """Row 1 names, row 2 units. What is not there is empty."""
         out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(self.units)
-        writer.writerow(self.units.values())
-        writer.writerows([shown(value) for value in row] for row in self.rows)
+        csv.writer(out, lineterminator="\n").writerows(map(shown, row) for row in (self.units, self.units.values(), *self.rows))
         return out.getvalue()
 
     def frame(self):
@@ -92,15 +90,11 @@ def result_columns():
 
 def shown(value):
     """As it stands in table.csv."""
-    if value is None:
-        return ""
-    if isinstance(value, str):
-        return value
+    if isinstance(value, (str, type(None))):
+        return value or ""
     if isinstance(value, list) and all(isinstance(entry, str) for entry in value):
         return "; ".join(value)
-    if isinstance(value, float):
-        return repr(value)
-    return text_of(value)
+    return repr(value) if isinstance(value, float) else text_of(value)
 
 
 def _is_number(value):

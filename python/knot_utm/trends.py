@@ -103,15 +103,13 @@ def differences(table, keys, cases, result):
     difference over the mean of the first."""
     rows = []
     others = [key for key in keys if key not in cases]
-    parts = table.groupby(list(cases) if len(cases) > 1 else cases[0], sort=False) if cases else [((), table)]
-    for case, part in parts:
-        runs = [run for _, run in part.groupby(others, sort=False)]
-        first = runs[0]
-        for run in runs[1:]:
+    for case, part in axes.combinations(table, cases):
+        (_, first), *runs = axes.combinations(part, others)
+        for _, run in runs:
             changed = [key for key in others if run[key].iloc[0] != first[key].iloc[0]]
             if len(changed) == 1:
-                named = dict(zip(cases, case if isinstance(case, tuple) else (case,)))
-                rows.append({**named, "key": changed[0], "value": run[changed[0]].iloc[0], **_difference(first, run, result)})
+                rows.append({**dict(zip(cases, case)), "key": changed[0], "value": run[changed[0]].iloc[0],
+                             **_difference(first, run, result)})
     return pd.DataFrame(rows)
 
 

@@ -55,13 +55,24 @@ def text_of(value):
     try:
         text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
     except yaml.representer.RepresenterError as error:
-        raise WrongInput(f"{' '.join(repr(value).split())} ({type(value).__name__}) cannot be the value of a key: give numbers, words, lists and dicts of Python") from error
+        raise WrongInput(f"{' '.join(repr(value).split())} ({type(value).__name__}) cannot be the value of a key: give numbers, words, "
+                         "lists and dicts of Python") from error
     return text.removesuffix("\n").removesuffix("...").rstrip("\n")
 
 
 def described(settings):
     """{key: value} in words."""
     return ", ".join(f"{key}={text_of(value)}" for key, value in settings.items())
+
+
+def require(is_so, name, value, allowed):
+    """Raises WrongInput, which names the value and what is allowed, where it is not so."""
+    if not is_so:
+        raise WrongInput(f"{name} is {text_of(value)}, but must be {allowed}")
+
+
+def is_whole(value, low, high):
+    return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
 
 
 def is_number(value):

@@ -13,7 +13,7 @@ from knot_utm.report.commands import CannotReport
 from knot_utm.report.curves import draw, load_axes, mean_curve, reach, small_loads
 from knot_utm.report.marks import largest_load
 from knot_utm.report.method_facts import knot_and_materials, label_of, method_facts, particulars, place_of, program, sentence, unit_of
-from knot_utm.report.page import Box, checks_table, facts, figure, files_of, head_of, Headline, no_value, render, Row, Table, verdict_box
+from knot_utm.report.page import Box, certificate_section, facts, figure, files_of, head_of, Headline, no_value, render, Row, Table, verdict_box
 from knot_utm.report.quantities import (all_in_units, error_shown, GROUPS, in_units, is_number, is_rounding, percent, quantity_of, shown,
                                         units_of)
 from knot_utm.report.run import numbers, read_table, read_yaml, Run, texts_of
@@ -29,14 +29,8 @@ FINEST = 1e-5  # of a mean: no spread is so small that more digits are shown
 IN_ALL = 60000  # points of all curves together
 FEWEST = 60     # points of one curve
 
-# What the page shows of the folder of one specimen. `pull`: extension [m] and load [N], up to the break.
-Tested = namedtuple("Tested", "number pull largest warnings checks asked version given")
-
-
 # What stands in a row of specimens.csv before the readings, and behind what was drawn.
 OUTCOME = ("rejected", "ended_by", "motion_pattern")
-
-
 # A row of specimens.csv. `drawn`, `readings`: by key, in SI; a reading that the test does not have is None.
 Specimen = namedtuple("Specimen", "number rejected ended_by motion_pattern drawn readings")
 
@@ -57,8 +51,8 @@ def read_specimens(folder):
     def row(keys, i):
         return {key: values[key][i] if is_number(values[key][i]) else None for key in keys}
 
-    return [Specimen(int(number), columns["rejected"][i] == "true", columns["ended_by"][i], columns["motion_pattern"][i], row(drawn, i), row(readings, i))
-            for i, number in enumerate(values["specimen"])]
+    return [Specimen(int(number), rejected == "true", ended_by, pattern, row(drawn, i), row(readings, i)) for i, (number, rejected, ended_by, pattern)
+            in enumerate(zip(values["specimen"], *(columns[name] for name in OUTCOME)))]
 
 
 class Batch:
@@ -74,18 +68,15 @@ class Batch:
                 raise CannotReport(f"{file}: no key {key}")
         self.reasons = {one["specimen"]: in_units(one["reason"], self.units) for one in self.facts["rejected"]}
         self.counted = [specimen for specimen in self.specimens if not specimen.rejected]
-        self.tested = [self.test(one.number) for one in self.counted]
-        found = [one.largest for one in self.tested if one.largest]
+        self.runs = {one.number: Run(os.path.join(folder, f"specimen_{one.number:03d}")) for one in self.counted}
+        self.pulls = [(pull["extension"], pull["load"]) for pull in (run.pull() for run in self.runs.values())]
         # Of a specimen whose load rose to the end, where there is one: then the largest loads are no peaks.
-        self.largest = min(found, key=lambda largest: largest.is_peak, default=None)
+        self.largest = min(filter(None, map(largest_load, self.runs.values())), key=lambda largest: largest.is_peak, default=None)
         self.means = {key: (self.statistics(key) or {}).get("mean") for key in self.facts}  # as a single test could have them
 
-    def test(self, number):
-        run = Run(os.path.join(self.folder, f"specimen_{number:03d}"))
-        pull = run.pull()
-        return Tested(number, (pull["extension"], pull["load"]), largest_load(run), all_in_units(run.result.get("warnings") or [], run.units),
-                      certificate(run.result, run.has_knot(), run.is_soft()), specification_checks(run.method, run.result, run.units),
-                      run.result.get("version"), given_box(run))
+    def checks(self, of):
+        """[(number, [Check])] of the specimens that have some. `of`: the checks of a run."""
+        return [(number, checks) for number, run in self.runs.items() if (checks := of(run))]
 
     def statistics(self, key):
         """mean, sd, cv, low, high, minimum, maximum and n, of which some are None; None: no specimen has the reading."""
@@ -104,11 +95,12 @@ class Batch:
 def report_on_batch(folder, command, version):
     batch = Batch(folder)
     length, units, rejected = batch.units.length, batch.units, batch.reasons
-    mean = mean_curve([one.pull for one in batch.tested])
-    checks, asked = [[(one.number, getattr(one, of)) for one in batch.tested if getattr(one, of)] for of in ("checks", "asked")]
-    asked_verdict = asked and verdict_box(verdict_of_all(asked, "%s meet the specification."))
+    mean = mean_curve(batch.pulls)
+    checks = batch.checks(lambda run: certificate(run.result, run.has_knot(), run.is_soft()))
+    asked = batch.checks(lambda run: specification_checks(run.method, run.result, run.units))
+    asked_box = asked and verdict_box(*verdict_of_all(asked, "%s meet the specification."))
     curve = []
-    if any(len(one.pull[0]) for one in batch.tested):
+    if any(len(s) for s, _ in batch.pulls):
         common = mean and [shown(s, length.scale) for s in (mean.extension[0], mean.extension[-1])]
         curve = [figure(curves(batch, mean), "Load over extension of all specimens, with their mean and its band",
                         "Each thin line is the pull of a specimen, up to its break: the balanced load, without noise and resolution of the "
@@ -121,10 +113,9 @@ def report_on_batch(folder, command, version):
     elif batch.counted:
         curve = ["The tests ended before the specimens were pulled, so that there are no curves."]
     tables, unmeasured = all_readings(batch)
-    certificates = [
-        *([asked_verdict, checks_table("Specification", "Kept by", checks_of_all(asked))] if asked else []),
-        verdict_box(verdict_of_all(checks, "%s keep all limits.")), checks_table("Trust in the computation", "Kept by", checks_of_all(checks)),
-        "The limits are those of the certificate of a single test. Each row says how many of the specimens that have its value keep it."]
+    certificates = certificate_section(
+        "Kept by", asked_box, checks_of_all(asked), verdict_box(*verdict_of_all(checks, "%s keep all limits.")), checks_of_all(checks),
+        "The limits are those of the certificate of a single test. Each row says how many of the specimens that have its value keep it.")
     specimens = batch.method.get("specimens") or {}
     return render(
         folder, command, version, "Batch of specimens, simulated", knot_and_materials(batch.method, batch.folder), [
@@ -142,7 +133,7 @@ def report_on_batch(folder, command, version):
                 "specimens that have the reading. SD is the standard deviation of single specimens, over n – 1, and CV its share of the mean; what is the same for all "
                 "of them, but for rounding, is constant. Scatter says nothing about the numerical error that all specimens share: it stands "
                 "in the report of each one.", no_value("No specimen has a", unmeasured)]),
-            ("Quality certificate", certificates if batch.counted else []),
+            *([certificates] if batch.counted else []),
             ("What was tested, and how", [[*method_facts(batch.method, units, batch.folder), ("Specimens", [
                 ("Count", str(len(batch.specimens))), ("Seed of the drawing", str(specimens.get("seed", ""))), *scatter(batch)], "")],
                 facts(program(batch.method, units))])],
@@ -150,7 +141,7 @@ def report_on_batch(folder, command, version):
             batch.report, batch.method, batch.means.get("gauge_length"), units,
             f"{len(batch.specimens)} tested, {len(batch.counted)} count, {len(rejected)} discarded")],
         batch.report.get("notes", ""), headlines(batch), [
-            next((one.given for one in batch.tested if one.given), None), asked_verdict,
+            next(filter(None, map(given_box, batch.runs.values())), None), asked_box,
             Box("fail", ["No specimen counts: " + (f"all {len(rejected)} are" if len(rejected) > 1 else "the only one is") +
                          " rejected, so that there are no readings."]) if not batch.counted else
             Box("warnings", [Markup("<b>Warnings</b>"), *lines]) if (lines := warnings(batch)) else
@@ -164,7 +155,7 @@ def under_title(batch):
         return ", ".join(f"{word} {number}" for word, number in sorted(found.items(), key=lambda item: (-item[1], item[0])))
 
     count, rejected = len(batch.specimens), len(batch.reasons)
-    said = [f"knot_utm {batch.tested[0].version}"] if batch.tested else []
+    said = [f"knot_utm {run.result.get('version')}" for run in list(batch.runs.values())[:1]]
     said.append(f"{count} specimen{'s' if count > 1 else ''}" + (
         f", of which {count - rejected} count and {rejected} {'are' if rejected > 1 else 'is'} rejected" if rejected else ""))
     if batch.counted:
@@ -182,36 +173,32 @@ def named(numbers):
 # ---- tables ----
 
 
-class Column:
-    """A quantity of every specimen. Its values have as many digits as leave two of their spread."""
-
-    def __init__(self, label, unit, values_of, mean, spread):
-        self.label, self.unit, self.values_of = label, unit, values_of
-        self.error = max(spread, FINEST * abs(mean)) if spread else None
-
-    def text(self, value):
-        return shown(value, self.unit.scale, self.error) if is_number(value) else "none"
+def digits_of(mean, spread, unit):
+    """The text of a value, with as many digits as leave two of the spread."""
+    error = max(spread, FINEST * abs(mean)) if spread else None
+    return lambda value: shown(value, unit.scale, error) if is_number(value) else "none"
 
 
 def specimens_tables(batch):
     """What was drawn for each specimen, and its main readings and those that the specification asks for, in as many tables as are
     needed."""
-    columns = []
+    columns = []  # (label, unit, texts)
     for key in batch.specimens[0].drawn:
-        values = [one.drawn[key] for one in batch.specimens]
-        columns.append(Column(sentence(name_of(key)), unit_of(key, batch.units), lambda one, key=key: one.drawn[key], max(values),
-                              float(np.std(values, ddof=1)) if len(values) > 1 else 0.0))
-    keys = batch.main_keys()
-    for key in keys + [key for key in batch.method.get("specification") or {} if key not in keys and batch.statistics(key)]:
-        found = batch.statistics(key)
-        columns.append(Column(short_label(batch.means, key, batch.largest), batch.units.of(quantity_of(key).kind),
-                              lambda one, key=key: None if one.rejected else one.readings[key], found["mean"], found["sd"]))
-    tables = -(-len(columns) // WIDEST)
-    each = -(-len(columns) // max(tables, 1))
-    return [Table(("Specimen", *(f"{column.label} {f'[{column.unit.name}]' if column.unit.name else ''}" for column in some)),
-                  [Row(f"{one.number}{', rejected' if one.rejected else ''}", (),
-                       [column.text(column.values_of(one)) for column in some]) for one in batch.specimens])
-            for some in (columns[i:i + each] for i in range(0, len(columns), max(each, 1)))]
+        values, unit = [one.drawn[key] for one in batch.specimens], unit_of(key, batch.units)
+        text = digits_of(max(values), float(np.std(values, ddof=1)) if len(values) > 1 else 0.0, unit)
+        columns.append((sentence(name_of(key)), unit, [*map(text, values)]))
+    asked = [key for key in batch.method.get("specification") or {} if batch.statistics(key)]
+    for key in dict.fromkeys(batch.main_keys() + asked):
+        found, unit = batch.statistics(key), batch.units.of(quantity_of(key).kind)
+        text = digits_of(found["mean"], found["sd"], unit)
+        columns.append((short_label(batch.means, key, batch.largest), unit,
+                        [text(None if one.rejected else one.readings[key]) for one in batch.specimens]))
+    names = [f"{one.number}{', rejected' if one.rejected else ''}" for one in batch.specimens]
+    tables = max(1, -(-len(columns) // WIDEST))
+    each = max(1, -(-len(columns) // tables))
+    return [Table(("Specimen", *(f"{label} {f'[{unit.name}]' if unit.name else ''}" for label, unit, _ in some)),
+                  [Row(name, (), texts) for name, *texts in zip(names, *(texts for _, _, texts in some))])
+            for some in (columns[i:i + each] for i in range(0, len(columns), each))]
 
 
 def name_of(key):
@@ -244,19 +231,14 @@ def all_readings(batch):
 
 
 def statistics_row(batch, key, label):
-    found, unit = batch.statistics(key), batch.units.of(quantity_of(key).kind)
-    column, n, sd = Column(label, unit, None, found["mean"], found["sd"]), found["n"], found["sd"]
-
-    def mean_of(one):
-        return (batch.statistics(one) or {}).get("mean")
-
-    ends = [column.text(found[end]) if is_number(found.get(end)) else "" for end in ("minimum", "maximum")]
+    found, unit, mean_of = batch.statistics(key), batch.units.of(quantity_of(key).kind), batch.means.get
+    text, n, sd = digits_of(found["mean"], found["sd"], unit), found["n"], found["sd"]
+    ends = [text(found[end]) if is_number(found.get(end)) else "" for end in ("minimum", "maximum")]
     # Neither the mean nor the spread is more than rounding.
     if is_rounding(key, mean_of) and (sd is None or is_rounding(key, lambda one: sd if one == key else mean_of(one))):
         return Row(label, [key], ["0", "", "constant" if n > 1 else "", "", *ends, str(n), unit.name])
     spread = error_shown(sd, unit.scale) if sd is not None or n < 2 else "constant"
-    return Row(label, [key], [column.text(found["mean"]), error_shown(half_of(found), unit.scale), spread, percent(found["cv"]), *ends, str(n),
-                              unit.name])
+    return Row(label, [key], [text(found["mean"]), error_shown(half_of(found), unit.scale), spread, percent(found["cv"]), *ends, str(n), unit.name])
 
 
 def half_of(statistics):
@@ -300,9 +282,9 @@ def headlines(batch):
 def warnings(batch):
     """Each warning once, with the specimens that gave it. Those that differ in their numbers only are one."""
     found = {}
-    for one in batch.tested:
-        for line in one.warnings:
-            found.setdefault(re.sub(r"[-–]?\d[\d.]*(?:e[-+]?\d+)?", "#", line), []).append((one.number, line))
+    for number, run in batch.runs.items():
+        for line in all_in_units(run.result.get("warnings") or [], run.units):
+            found.setdefault(re.sub(r"[-–]?\d[\d.]*(?:e[-+]?\d+)?", "#", line), []).append((number, line))
     lines = []
     for said in found.values():
         first, line = said[0]
@@ -320,7 +302,7 @@ def with_specimens(files, batch):
 
 def curves(batch, mean):
     """`mean`: a MeanCurve, or None. The loads once more where they are small beside the peak."""
-    pulls = [one.pull for one in batch.tested if len(one.pull[0])]
+    pulls = [pull for pull in batch.pulls if len(pull[0])]
     force, length, loads = batch.units.force.scale, batch.units.length.scale, np.concatenate([load for _, load in pulls])
     drawn, axes = load_axes(batch.units, small_loads(batch.common_mean, loads))
     for one in axes:

@@ -10,34 +10,25 @@ from knot_utm.report.quantities import is_number, number, quantity_of, with_unit
 Check = namedtuple("Check", "words key value limit kept")
 
 
-def at_most(words, key, value, limit):
-    return Check(words, key, number(value), f"at most {limit:g}", value <= limit) if is_number(value) else None
-
-
-def yes(words, key, is_so):
-    """`is_so`: None where it is not known."""
-    return None if is_so is None else Check(words, key, "yes" if is_so else "no", "yes", is_so)
-
-
 def certificate(result, has_knot=True, soft=False):
     """What is known of this test."""
     limits = {row["name"]: float(row["limit"]) for row in tool.listing("limits")}
     value, jump = result.get, is_number(result.get("jump_force"))
     true, error, moved = value("true_plateau_force"), value("plateau_force_error"), value("not_equilibrated")
-    checks = [
-        yes("The physics solved every time step", "ended_by", value("ended_by") and value("ended_by") != "solver"),
-        yes("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved") if has_knot else None),
-        yes("The specimen was at rest as its pull began", "not_equilibrated", None if moved is None else not moved),
-        at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"),
-                limits["deep_soft_contact" if soft else "deep_contact"]),
+    checks = [  # what is not known is None, and no check
+        ("The physics solved every time step", "ended_by", value("ended_by") and value("ended_by") != "solver", ""),
+        ("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved") if has_knot else None, ""),
+        ("The specimen was at rest as its pull began", "not_equilibrated", None if moved is None else not moved, ""),
+        ("Deepest contact, in radii", "max_penetration", value("max_penetration"), "deep_soft_contact" if soft else "deep_contact"),
         # Where there are no two knots none can jump.
-        yes("No knot jumped open", "jump_force", not jump if jump or is_number(value("tied_knot_distance")) else None),
-        *(at_most(quantity_of(key).label, key, value(key), limits[limit])
+        ("No knot jumped open", "jump_force", not jump if jump or is_number(value("tied_knot_distance")) else None, ""),
+        *((quantity_of(key).label, key, value(key), limit)
           for key, limit in (("energy_balance_error", "energies_differ"), ("force_balance_error", "forces_differ"))),
-        at_most("Estimated numerical error of the plateau force, as a share of it", "plateau_force_error",
-                abs(error / true) if is_number(true) and is_number(error) and true else None, limits["plateau_unsure"]),
-    ]
-    return [check for check in checks if check]
+        ("Estimated numerical error of the plateau force, as a share of it", "plateau_force_error",
+         abs(error / true) if is_number(true) and is_number(error) and true else None, "plateau_unsure")]
+    return [Check(words, key, number(found), f"at most {limits[limit]:g}", found <= limits[limit]) if limit else
+            Check(words, key, "yes" if found else "no", "yes", found)
+            for words, key, found, limit in checks if (is_number(found) if limit else found is not None)]
 
 
 def stiffness_name(result):

@@ -98,10 +98,10 @@ def report_on_fit(folder, command, version):
                 "interval ends where the profile passes 3.84, the dashed line.")]),
             ("Correlations", pairs and [Table(("Keys", "Correlation"), pairs)])],
         " · ".join(records.values()), boxes=[
-            verdict_box(((f"The curve fits within the errors: the sum of squares over them is {told(facts.get('chi_square'))} with "
+            verdict_box((f"The curve fits within the errors: the sum of squares over them is {told(facts.get('chi_square'))} with "
                           f"{facts.get('degrees_of_freedom')} degrees of freedom." if fits else
                           "Nothing fits within the errors, so that the values and their intervals mean little.") +
-                         f" The RMS difference is {told(facts.get('rms'))} N.", fits)),
+                         f" The RMS difference is {told(facts.get('rms'))} N.", fits),
             notes and Box("warnings", notes)])
 
 

@@ -66,9 +66,14 @@ def no_value(who_has_none, keys):
     return Markup("{} value of {}.").format(who_has_none, Markup(", ").join(Markup("<code>{}</code>").format(key) for key in keys)) if keys else ""
 
 
-def verdict_box(words_and_whether):
-    words, good = words_and_whether
+def verdict_box(words, good):
     return Box("pass" if good else "fail", [words])
+
+
+def certificate_section(kept_by, asked_box, asked, checks_box, checks, remark):
+    """What the user asked for, where it is something, and how far the result may be trusted. `kept_by`: the head of what is checked."""
+    of_user = [asked_box, checks_table("Specification", kept_by, asked)] if asked else []
+    return "Quality certificate", [*of_user, checks_box, checks_table("Trust in the computation", kept_by, checks), remark]
 
 
 HEAD = {"specimen_id": "Specimen", "standard": "Standard", "conditioning": "Conditioning", "terminations": "Terminations"}

@@ -5,7 +5,7 @@ from knot_utm.report.certificate import certificate, specification_checks, speci
 from knot_utm.report.curves import course, error_band, force_extension
 from knot_utm.report.marks import end_of, largest_load, marks_of, time_of_break
 from knot_utm.report.method_facts import knot_and_materials, method_facts, particulars, program
-from knot_utm.report.page import Box, checks_table, facts, figure, head_of, Headline, no_value, render, Row, Table, verdict_box
+from knot_utm.report.page import Box, certificate_section, facts, figure, head_of, Headline, no_value, render, Row, Table, verdict_box
 from knot_utm.report.quantities import (all_in_units, CERTIFICATE, error_shown, GROUPS, HEAD, in_units, is_rounding, quantity_of,
                                         shown, TABLES, with_unit)
 from knot_utm.report.rod_pictures import pictures
@@ -26,8 +26,9 @@ def report_on_run(folder, command, version):
     reason = in_units(result.get("reason") or "", run.units)
     asked = specification_checks(run.method, result, run.units)
     asked_verdict = specification_verdict(result, asked)
+    asked_box = asked_verdict and verdict_box(*asked_verdict)
     checks, warnings = certificate(result, run.has_knot(), run.is_soft()), all_in_units(result.get("warnings") or [], run.units)
-    boxes = [given_box(run), asked_verdict and verdict_box(asked_verdict),
+    boxes = [given_box(run), asked_box,
              gave_up and Box("fail", [Markup("<b>The physics gave up before the test ended, so that the results are those of its "
                                              "beginning.</b> {}").format(reason)]),
              Box("warnings", [Markup("<b>Warnings</b>"), *warnings]) if warnings else None if gave_up else
@@ -44,10 +45,8 @@ def report_on_run(folder, command, version):
                          "the program), if there is one. True forces are absolute. The numerical error is estimated; it is given only "
                          "where a convergence study covers the case. It does not tell how well the model of the rod describes a real one."
                          + ("" if run.units.are_default else " All files are in SI units."), no_value("This test has no", unmeasured)]),
-            ("Quality certificate", [
-                *([asked_verdict and verdict_box(asked_verdict), checks_table("Specification", "Value", asked)] if asked else []),
-                verdict_box(verdict(checks)), checks_table("Trust in the computation", "Value", checks),
-                "The limits are those at which the program itself warns."]),
+            certificate_section("Value", asked_box, asked, verdict_box(*verdict(checks)), checks,
+                                "The limits are those at which the program itself warns."),
             ("What was tested, and how", [method_facts(run.method, run.units, run.folder), over_time,
                                           facts(program(run.method, run.units))])],
         Markup("knot_utm {} · ended by <b>{}</b>{} · motion pattern <b>{}</b>").format(
