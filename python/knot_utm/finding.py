@@ -3,8 +3,6 @@ import itertools
 import math
 import os
 import re
-import subprocess
-import sys
 import tempfile
 from dataclasses import asdict, dataclass
 
@@ -17,6 +15,8 @@ from knot_utm import tool
 from knot_utm.arguments import folder_of, jobs_of, make_folder, shown, write_whole
 from knot_utm.errors import WrongInput
 from knot_utm.fitting import Record, Search, pull_of_table, read_pull, value_at
+from knot_utm.report.fit import report_on_fit
+from knot_utm.report.page import write as write_page
 from knot_utm.study import Study
 from knot_utm.sweeping import Sweep
 from knot_utm.yaml_text import described, is_number, text_of, value_of
@@ -82,43 +82,34 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     ranges = dict(_parsed(word, list(free)) for word in free)
     _require_free(list(ranges), asked)
     with tempfile.TemporaryDirectory(prefix="knot_utm_fit.", ignore_cleanup_errors=True) as folder:
-        fitted = Fitted(_searched(_Runs(method, folder, jobs), asked, ranges))
+        fitted = Fitted(_searched(method, lambda settings: _made(method, folder, jobs, settings), asked, ranges))
     values = {key: one.value for key, one in fitted.found.items() if not key.startswith("record.")}
     fitted.write(out, [tool.resolved(method, {**given, **values}) for _, given in asked])
     if report:
-        words = [sys.executable, "-m", "knot_utm.report", "--command", command or "knot_utm.fit in Python", "--version", tool.version()]
-        done = subprocess.run([*words, "--", out], env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}, check=False, text=True,
-                              errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
-        if done.returncode != 0:
-            raise RuntimeError(tool.said_by(done.stderr) or "the report was not written")
+        write_page(out, report_on_fit(out, command or "knot_utm.fit in Python", tool.version()))
     return fitted
 
 
-class _Runs:
-    """Runs of a method as those of a sweep, in a folder that is gone when the fit has ended."""
-
-    def __init__(self, method, folder, jobs):
-        self.method, self.folder, self.jobs = method, folder, jobs
-
-    def __call__(self, settings):
-        """[(pull, result)] of [{key: value}]; the pull is None where there is none to speak of."""
-        points = [{**given, **EXACT_CELL} for given in settings]
-        sweep = Sweep(Study("the fit", self.method, points, 1, (), "list", {}), self.folder)
-        sweep.make(self.jobs)
-        return [(pull_of_table(sweep.folder.curve(name)), sweep.folder.result(name)) for name in sweep.names]
+def _made(method, folder, jobs, settings):
+    """[(pull, result)] of runs of a method, made as those of a sweep, for [{key: value}]; the pull is None where there is none to speak
+    of."""
+    points = [{**given, **EXACT_CELL} for given in settings]
+    sweep = Sweep(Study("the fit", method, points, 1, (), "list", {}), folder)
+    sweep.make(jobs)
+    return [(pull_of_table(sweep.folder.curve(name)), sweep.folder.result(name)) for name in sweep.names]
 
 
-def _searched(runs, asked, ranges):
-    """A search that has ended."""
-    methods = [value_of(tool.resolved(runs.method, {**given, tool.COUNT: 2})) for _, given in asked]  # one specimen does not scatter
-    numbers = tool.key_units(runs.method, asked[0][1])
+def _searched(method, runs, asked, ranges):
+    """A search that has ended. `runs`: what _made gives for settings."""
+    methods = [value_of(tool.resolved(method, {**given, tool.COUNT: 2})) for _, given in asked]  # one specimen does not scatter
+    numbers = tool.key_units(method, asked[0][1])
     keys = {name: _method_key(name, limits, methods[0], numbers) for name, limits in ranges.items() if not OFFSET.fullmatch(name)}
     for _, given in asked:  # all corners of the ranges, and a place within them, before the first run
         for place in [*itertools.product((0.0, 1.0), repeat=len(keys)), [WITHIN] * len(keys)]:
             free = {key.name: short(key.value(at)) for key, at in zip(keys.values(), place)}
-            if refused := tool.refusal(runs.method, {**given, **free}):
+            if refused := tool.refusal(method, {**given, **free}):
                 raise WrongInput(f"--free: a run with {described(free)} would be refused: {refused}")
-    records = [Record(file, read_pull(file), given, method) for (file, given), method in zip(asked, methods)]
+    records = [Record(file, read_pull(file), given, resolved) for (file, given), resolved in zip(asked, methods)]
     for record, model in zip(records, runs([given for _, given in asked])):
         record.require_producible(*model)
     keys |= {name: _offset_key(name, limits, records) for name, limits in ranges.items() if name not in keys}

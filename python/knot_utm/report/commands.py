@@ -9,30 +9,39 @@ import sys
 import tempfile
 
 from knot_utm import tool
-from knot_utm.errors import WrongInput
+from knot_utm.errors import Interrupted, WrongInput
 
 # Debian's name of what a module is in.
 PACKAGES = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml": "python3-yaml", "scipy": "python3-scipy",
-            "jinja2": "python3-jinja2", "weasyprint": "weasyprint"}
+            "jinja2": "python3-jinja2", "weasyprint": "weasyprint", "lmfit": "python3-lmfit", "pandas": "python3-pandas"}
 
 
-class CannotReport(Exception):
+class CannotReport(RuntimeError):
     pass
 
 
 @contextlib.contextmanager
-def in_one_line(program):
-    """Ends the program with exit code 1 and one line, whatever goes wrong."""
+def in_one_line(program, goes_on=False):
+    """Ends the program with a line, whatever goes wrong: with exit code 2 for bad input, else with 1. `goes_on`: whether the same
+    command goes on where the work was cut off."""
+    again = "; the same command goes on" if goes_on else ""
     try:
         yield
+    except WrongInput as wrong:
+        refuse(program, wrong)
+    except KeyboardInterrupt:
+        refuse(program, "it was interrupted", 1)
+    except Interrupted as error:
+        refuse(program, f"{error}{again}", 1)
     except ModuleNotFoundError as missing:
         package = PACKAGES.get((missing.name or "").split(".")[0])
-        sys.exit(f"{program}: {missing}" + (f": install Debian's package {package}" if package else ""))
-    except KeyboardInterrupt:
-        sys.exit(f"{program}: interrupted")
+        refuse(program, f"{missing}" + (f": install Debian's package {package}" if package else ""), 1)
+    except OSError as error:
+        why = f"{error.filename}: {error.strerror.lower()}" if error.filename else str(error)
+        refuse(program, why + again * tool.is_of_a_full_disk(why), 1)
     except Exception as error:
         said = " ".join(str(error).split())
-        sys.exit(f"{program}: " + (said if isinstance(error, (CannotReport, WrongInput)) else f"{type(error).__name__}: {said}"))
+        refuse(program, said if isinstance(error, RuntimeError) else f"{type(error).__name__}: {said}", 1)
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -41,13 +50,13 @@ class OneLineParser(argparse.ArgumentParser):
     def error(self, message):
         if not self.add_help:
             message += f" ({self.prog} --help)" if tool.IN_SOURCES else f" ({' '.join(self.format_usage().split())})"
-        refuse(os.path.basename(self.prog), message)
+        refuse(self.prog, message)
 
 
-def refuse(program, message):
-    """Bad input."""
-    print(f"{program}:", str(message).encode("utf-8", "backslashreplace").decode("utf-8"), file=sys.stderr)
-    sys.exit(2)
+def refuse(program, message, code=2):
+    """Says in a line why the program ends, and ends it; unless given for bad input."""
+    print(f"{os.path.basename(program)}:", str(message).encode("utf-8", "backslashreplace").decode("utf-8"), file=sys.stderr)
+    sys.exit(code)
 
 
 def files_of(folder):

@@ -51,22 +51,15 @@ def asked():
 
 def main():
     arguments = asked()
-    try:
-        print(export(arguments))
-    except OSError as error:
-        raise CannotReport(f"{error.filename}: cannot be written: {error.strerror}") from error
-
-
-def export(arguments):
-    """What was written, in one line."""
     run = Run(arguments.folder)
     series, note = series_of(run)
     if note:
         print("export:", note.replace(" is shown", " is written"), file=sys.stderr)
     shapes = [series.shape(i) for i in range(len(series))]
     if arguments.vtk is not None:
-        return over_time(arguments.vtk, run, shapes)
-    return at_one_time(arguments, run, shapes, shapes[-1] if arguments.time is None else series.at(arguments.time))
+        print(over_time(arguments.vtk, run, shapes))
+    else:
+        print(at_one_time(arguments, run, shapes, shapes[-1] if arguments.time is None else series.at(arguments.time)))
 
 
 def over_time(folder, run, shapes):

@@ -7,7 +7,6 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from knot_utm.arguments import write_whole
-from knot_utm.report.commands import CannotReport
 from knot_utm.report.run import printable
 from knot_utm.report.style import embedded
 
@@ -104,11 +103,7 @@ def render(folder, command, version, kind, title, sections, under="", head=(), n
 def write(folder, html):
     """Both files, each whole, once both could be made."""
     for name, content in (("report.pdf", as_pdf(html)), ("report.html", html.encode("utf-8"))):
-        file = os.path.join(folder, name)
-        try:
-            write_whole(file, content)
-        except OSError as why:
-            raise CannotReport(f"{file}: cannot be written: {why.strerror}") from why
+        write_whole(os.path.join(folder, name), content)
 
 
 def as_pdf(html):
