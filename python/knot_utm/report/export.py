@@ -15,7 +15,7 @@ from knot_utm.report.colours import colour_scales, LABELS, node_values
 from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
 from knot_utm.report.rod_pictures import UNKNOWN
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import lengths, pieces, series_of
+from knot_utm.report.shapes import lengths, ropes, series_of
 from knot_utm.report.tube import rod_mesh
 
 MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
@@ -73,7 +73,7 @@ def over_time(folder, run, shapes):
     for file, shape in zip(files, shapes):
         unknown = np.full(len(shape.points), np.nan)
         of_nodes = {**dict.fromkeys(names, unknown), **node_values(shape), "arclength": along if len(along) == len(unknown) else unknown}
-        mesh = mesh_of(run, shape, shapes[0])
+        mesh = rod_mesh(shape.points, ropes(shape), run.radii(shape))
         write_vtp(os.path.join(folder, file), mesh, {name: values[mesh.along.astype(int)] for name, values in of_nodes.items()})
     pvd = os.path.join(folder, "rod.pvd")
     write_pvd(pvd, [shape.time for shape in shapes], files)
@@ -87,17 +87,12 @@ def at_one_time(arguments, run, shapes, shape):
         raise CannotReport(f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
                            f"{', '.join(name for name in values if name in scales)}")
     scale = scales.get(arguments.color or "tension")
-    mesh = mesh_of(run, shape, shapes[0])
+    mesh = rod_mesh(shape.points, ropes(shape), run.radii(shape))
     colours = scale.of(values[scale.name][mesh.along.astype(int)]) if scale else np.tile(UNKNOWN, (len(mesh.points), 1))
     with open(arguments.gltf, "wb") as out:
         out.write(glb(mesh, colours, "rod"))
     in_colours = f"coloured by its {scale.label()}" if scale else "in one colour, as no tension is known then"
     return f"{arguments.gltf}: the rod at {shape.time:g} s, {in_colours}"
-
-
-def mesh_of(run, shape, whole):
-    parts = pieces(shape, whole)
-    return rod_mesh(shape.points, parts, run.radii(shape, parts))
 
 
 def glb(mesh, colours, name):

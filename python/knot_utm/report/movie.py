@@ -119,7 +119,7 @@ class Stage:
     def draw(self, figure, left, wide, test, time):
         shape = test.at(time)
         rod = figure.add_axes([left + 0.01, 0.47, wide - 0.02, 0.42])
-        tubes_of(test.run, shape, test.shapes[0], self.scale).draw(rod)
+        tubes_of(test.run, shape, self.scale).draw(rod)
         draw_rollers(rod, test.run, shape)
         rod.set(xlim=test.box[:2], ylim=test.box[2:], aspect="equal")
         rod.axis("off")

@@ -25,7 +25,7 @@ from knot_utm.report.marks import Mark
 from knot_utm.report.method_facts import materials_of
 from knot_utm.report.rod_pictures import draw_rollers, Tubes
 from knot_utm.report.run import read_yaml, Run
-from knot_utm.report.shapes import final_shape, pieces, ropes, series_of
+from knot_utm.report.shapes import final_shape
 from knot_utm.report.style import BLUE, image_of, new_figure, ORANGE, WIDTH
 from knot_utm.report.tube import to_picture
 
@@ -83,11 +83,7 @@ def runs_of(folders):
 
 
 def draw_shape(axes, run, shape):
-    """Its ropes, and a rod that has parted in its pieces."""
-    broke, series = run.time_of_break() is not None, series_of(run)[0]
-    parts = pieces(shape, series.shape(0)) if broke else ropes(shape)
-    Tubes(shape.points, parts, run.radii(shape, parts), lambda node: np.where(
-        (node < 0.5 * (len(shape.points) - 1))[:, None], FIRST_HALF, SECOND_HALF)).draw(axes)
+    Tubes(run, shape, lambda node: np.where((node < 0.5 * (len(shape.points) - 1))[:, None], FIRST_HALF, SECOND_HALF)).draw(axes)
     if run.method["specimen"]["knot"] == "fisherman":
         draw_rollers(axes, run, shape)
     axes.set_aspect("equal")

@@ -7,7 +7,7 @@ from matplotlib.patches import Circle
 from knot_utm.report.colours import colour_scales, node_values
 from knot_utm.report.method_facts import drawing_of, post_diameter
 from knot_utm.report.quantities import with_unit
-from knot_utm.report.shapes import lengths, pieces
+from knot_utm.report.shapes import lengths, ropes
 from knot_utm.report.style import HUB, INK, new_figure, ROLLER, SMALL, USUAL, WIDTH
 from knot_utm.report.tube import seen, to_picture
 
@@ -32,7 +32,7 @@ def pictures(run, marks, shapes):
                                bottom=0.0, top=1.0, hspace=0.0)
     for row, (mark, shape, box, height) in enumerate(zip(marks, shapes, boxes, heights)):
         axes = figure.add_subplot(grid[row])
-        tubes_of(run, shape, shapes[0], scale).draw(axes)
+        tubes_of(run, shape, scale).draw(axes)
         draw_rollers(axes, run, shape)
         middle, half = (0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]) + 0.5 * NAME * width / WIDTH), (0.5 * width, 0.5 * width * height / WIDTH)
         axes.set(xlim=(middle[0] - half[0], middle[0] + half[0]), ylim=(middle[1] - half[1], middle[1] + half[1]))
@@ -45,7 +45,7 @@ def pictures(run, marks, shapes):
     return figure
 
 
-def tubes_of(run, shape, whole, scale):
+def tubes_of(run, shape, scale):
     values = node_values(shape).get(scale.name) if scale else None
 
     def colours(node):
@@ -53,16 +53,16 @@ def tubes_of(run, shape, whole, scale):
             return np.tile(UNKNOWN, (len(node), 1))
         return scale.of(np.interp(node, np.arange(len(values)), values))
 
-    parts = pieces(shape, whole)
-    return Tubes(shape.points, parts, run.radii(shape, parts), colours)
+    return Tubes(run, shape, colours)
 
 
 class Tubes:
-    """Around parts of the rod, for as many pictures as there are. `colours_at`: of places along it, as numbers of nodes."""
+    """Around the ropes, for as many pictures as there are. `colours_at`: of places along them, as numbers of nodes."""
 
-    def __init__(self, points, parts, radii, colours_at):
-        tubes = [seen(points[part], radius, lambda along, part=part: colours_at(part.start + along * (part.stop - 1 - part.start)))
-                 for part, radius in zip(parts, radii)]
+    def __init__(self, run, shape, colours_at):
+        radii = run.radii(shape)
+        tubes = [seen(shape.points[rope], radius, lambda along, rope=rope: colours_at(rope.start + along * (rope.stop - 1 - rope.start)))
+                 for rope, radius in zip(ropes(shape), radii)]
         outlines, depth, colours = (np.concatenate(of_all) for of_all in zip(*tubes))
         # What is farther from the eye is paler.
         away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * max(radii))

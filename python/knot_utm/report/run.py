@@ -72,10 +72,10 @@ class Run:
         value = self.result.get(key)
         return value if is_number(value) else None
 
-    def radii(self, shape, parts):
-        """Of the ropes that parts of a shape belong to [m]."""
-        first, other = self.method["material"]["radius"], self.method.get("other_material")
-        return [other["radius"] if other and part.start > shape.cuts[0] else first for part in parts]
+    def radii(self, shape):
+        """Of the ropes of a shape [m]."""
+        first, other = self.method["material"], self.method.get("other_material")
+        return [(other if other and number else first)["radius"] for number in range(len(shape.cuts) + 1)]
 
     def thickest(self):
         """Radius of the thickest rope [m]."""

@@ -26,29 +26,15 @@ class Series:
         return self.shape(nearest(self.times, time, broke))
 
 
-def pieces(shape, whole):
-    """Slices of the nodes between its cuts, and where it has parted; a lone node cannot be drawn. `whole`: a shape before that.
-    An edge that has grown twice as much as the usual one is no longer there: a rod does not stretch so unevenly."""
-    if len(shape.points) != len(whole.points):
-        return ropes(shape)
-    growth = lengths(shape) / lengths(whole)
-    parted = np.flatnonzero(growth > 2.0 * np.median(np.delete(growth, shape.cuts)))
-    return [piece for piece in between(shape, {*parted.tolist(), *shape.cuts}) if piece.stop - piece.start >= 2]
-
-
 def ropes(shape):
     """Slices of the nodes of its ropes."""
-    return between(shape, shape.cuts)
-
-
-def between(shape, edges):
-    ends = [0, *(edge + 1 for edge in sorted(edges)), len(shape.points)]
+    ends = [0, *(edge + 1 for edge in shape.cuts), len(shape.points)]
     return [slice(a, b) for a, b in zip(ends[:-1], ends[1:])]
 
 
-def cuts_of(numbers):
+def cuts_of(columns):
     """Edges between nodes of which the ropes have other numbers."""
-    return tuple(np.flatnonzero(np.diff(numbers)).tolist())
+    return tuple(np.flatnonzero(np.diff(columns["rope"])).tolist()) if "rope" in columns else ()
 
 
 def lengths(shape):
@@ -60,7 +46,8 @@ def series_of(run):
     file = os.path.join(run.folder, "shapes.csv")
     if os.path.exists(file):
         return series_of_csv(file), ""
-    return only_the_final(run), "There is no shapes.csv, so only the final shape is shown, without tensions."
+    shape = final_shape(run)
+    return Series([shape.time], lambda _: shape), "There is no shapes.csv, so only the final shape is shown, without tensions."
 
 
 def shapes_at(series, times, broke=None, final=None):
@@ -70,11 +57,6 @@ def shapes_at(series, times, broke=None, final=None):
         return [series.shape(0)]
     found = [series.at(time, broke) for time in times]
     return [final if broke is not None and final and shape.time <= broke < time else shape for shape, time in zip(found, times)]
-
-
-def only_the_final(run):
-    shape = final_shape(run)
-    return Series([shape.time], lambda _: shape)
 
 
 def series_of_csv(file):
@@ -94,10 +76,10 @@ def series_of_csv(file):
     def shape(i):
         rows = slice(begins[i], ends[i])
         points = np.column_stack([columns[name][rows] for name in ("x", "y", "z")])
-        cuts = cuts_of(columns["rope"][rows]) if "rope" in columns else ()
+        cuts = cuts_of({name: column[rows] for name, column in columns.items() if name == "rope"})
         tension, twist = columns["tension"][rows][:-1].copy(), columns["twist"][rows]
         tension[list(cuts)] = 0.0
-        found = Shape(float(columns["time"][begins[i]]), points, known(tension), None, known(columns["contact_force"][rows]), cuts)
+        found = Shape(float(columns["time"][begins[i]]), points, known(tension), contact_force=known(columns["contact_force"][rows]), cuts=cuts)
         return found._replace(twist=known(np.concatenate([filled(twist[rope]) for rope in ropes(found)])))
 
     return Series(columns["time"][begins], shape)
@@ -114,10 +96,9 @@ def known(values):
 
 def final_shape(run):
     file = os.path.join(run.folder, "final_shape.csv")
-    columns = read_columns(file)
-    points = np.column_stack([numbers(file, name, columns.get(name, ())) for name in ("x", "y", "z")])
-    cuts = cuts_of(numbers(file, "rope", columns["rope"])) if "rope" in columns else ()
-    return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, None, cuts=cuts)
+    columns = {name: numbers(file, name, column) for name, column in read_columns(file).items()}
+    points = np.column_stack([columns.get(name, ()) for name in ("x", "y", "z")])
+    return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, cuts=cuts_of(columns))
 
 
 def nearest(seconds, time, broke):
