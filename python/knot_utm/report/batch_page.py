@@ -3,7 +3,7 @@ statistics of all readings, as the software of a testing machine prints them."""
 import itertools
 import os
 import re
-from collections import Counter, namedtuple
+from collections import Counter
 
 import numpy as np
 from markupsafe import Markup
@@ -16,7 +16,7 @@ from knot_utm.report.method_facts import knot_and_materials, label_of, method_fa
 from knot_utm.report.page import Box, certificate_section, facts, figure, files_of, head_of, Headline, no_value, render, Row, Table, verdict_box
 from knot_utm.report.quantities import (all_in_units, error_shown, GROUPS, in_units, is_number, is_rounding, percent, quantity_of, shown,
                                         units_of)
-from knot_utm.report.run import numbers, read_table, read_yaml, Run, texts_of
+from knot_utm.report.run import read_table, read_yaml, Run, texts_of
 from knot_utm.report.run_page import given_box, NOTHING, short_label
 from knot_utm.report.style import BLUE, GREY, INK, ORANGE
 
@@ -31,44 +31,25 @@ FEWEST = 60     # points of one curve
 
 # What stands in a row of specimens.csv before the readings, and behind what was drawn.
 OUTCOME = ("rejected", "ended_by", "motion_pattern")
-# A row of specimens.csv. `drawn`, `readings`: by key, in SI; a reading that the test does not have is None.
-Specimen = namedtuple("Specimen", "number rejected ended_by motion_pattern drawn readings")
-
-
-def read_specimens(folder):
-    """In order."""
-    file = os.path.join(folder, "specimens.csv")
-    columns, _ = read_table(file)
-    for name in ("specimen", *OUTCOME):
-        if name not in columns:
-            raise CannotReport(f"{file}: no column {name}")
-    if not columns["specimen"]:
-        raise CannotReport(f"{file}: no specimens")
-    names = list(columns)
-    drawn, readings = names[1:names.index(OUTCOME[0])], names[names.index(OUTCOME[-1]) + 1:]
-    values = {name: numbers(file, name, columns[name]).tolist() for name in ("specimen", *drawn, *readings)}
-
-    def row(keys, i):
-        return {key: values[key][i] if is_number(values[key][i]) else None for key in keys}
-
-    return [Specimen(int(number), rejected == "true", ended_by, pattern, row(drawn, i), row(readings, i)) for i, (number, rejected, ended_by, pattern)
-            in enumerate(zip(values["specimen"], *(columns[name] for name in OUTCOME)))]
 
 
 class Batch:
+    """`numbers` of the specimens, which are `rejected`, and their `table`: columns of specimens.csv, of which some are `drawn`."""
+
     def __init__(self, folder):
         self.folder = folder
-        method, file = (os.path.join(folder, name) for name in ("method.yaml", "statistics.yaml"))
+        method, specimens = (os.path.join(folder, name) for name in ("method.yaml", "specimens.csv"))
         self.method, self.report = read_yaml(method), texts_of(method, "report")
         self.units = units_of(self.report)
-        self.specimens = read_specimens(folder)
-        self.facts = read_yaml(file)
-        for key in ("specimens", "rejected", "motion_pattern"):
-            if key not in self.facts:
-                raise CannotReport(f"{file}: no key {key}")
+        self.table = read_table(specimens, ("specimen",), OUTCOME)
+        self.numbers, self.rejected = self.table["specimen"].astype(int).tolist(), self.table["rejected"] == "true"
+        if not self.numbers:
+            raise CannotReport(f"{specimens}: no specimens")
+        self.drawn = list(self.table)[1:list(self.table).index(OUTCOME[0])]
+        self.facts = read_yaml(os.path.join(folder, "statistics.yaml"), "specimens", "rejected", "motion_pattern")
         self.reasons = {one["specimen"]: in_units(one["reason"], self.units) for one in self.facts["rejected"]}
-        self.counted = [specimen for specimen in self.specimens if not specimen.rejected]
-        self.runs = {one.number: Run(os.path.join(folder, f"specimen_{one.number:03d}")) for one in self.counted}
+        self.runs = {number: Run(os.path.join(folder, f"specimen_{number:03d}"))
+                     for number, rejected in zip(self.numbers, self.rejected) if not rejected}
         self.pulls = [(pull["extension"], pull["load"]) for pull in (run.pull() for run in self.runs.values())]
         # Of a specimen whose load rose to the end, where there is one: then the largest loads are no peaks.
         self.largest = min(filter(None, map(largest_load, self.runs.values())), key=lambda largest: largest.is_peak, default=None)
@@ -86,7 +67,7 @@ class Batch:
     def common_mean(self, key):
         """None: not every specimen that counts has the reading."""
         found = self.statistics(key)
-        return found["mean"] if found and found["n"] == len(self.counted) else None
+        return found["mean"] if found and found["n"] == len(self.runs) else None
 
     def main_keys(self):
         return [key for key in MAIN if self.statistics(key)][:HEADLINES]
@@ -108,15 +89,16 @@ def report_on_batch(folder, command, version):
                             "The mean is that of the loads at the same extension. It is drawn over the extensions that all specimens have, "
                             f"{common[0]} to {common[1]} {length.name}, which the dotted lines bound. The band is as wide as single "
                             "specimens scatter, the dashed lines bound the mean of all such specimens with 95 % confidence, neither beyond "
-                            "what a specimen shows." if common else "Of one specimen there is no band." if len(batch.counted) == 1 else
+                            "what a specimen shows." if common else "Of one specimen there is no band." if len(batch.runs) == 1 else
                             "No extension is common to all specimens, so that no mean is drawn."))]
-    elif batch.counted:
+    elif batch.runs:
         curve = ["The tests ended before the specimens were pulled, so that there are no curves."]
     tables, unmeasured = all_readings(batch)
     certificates = certificate_section(
         "Kept by", asked_box, checks_of_all(asked), verdict_box(*verdict_of_all(checks, "%s keep all limits.")), checks_of_all(checks),
         "The limits are those of the certificate of a single test. Each row says how many of the specimens that have its value keep it.")
-    specimens = batch.method.get("specimens") or {}
+    specimens, files = batch.method.get("specimens") or {}, files_of(folder)
+    folders = " to ".join(f"specimen_{number:03d}/" for number in dict.fromkeys([batch.numbers[0], batch.numbers[-1]]))
     return render(
         folder, command, version, "Batch of specimens, simulated", knot_and_materials(batch.method, batch.folder), [
             ("Rejected specimens", rejected and [
@@ -127,38 +109,38 @@ def report_on_batch(folder, command, version):
             ("Specimens", [*specimens_tables(batch), "Forces are the balanced load." + (
                 " The load of a specimen was still rising when its test was stopped, so that its largest load is no peak."
                 if batch.largest and not batch.largest.is_peak else "") + ("" if units.are_default else " All files are in SI units."),
-                "" if batch.specimens[0].drawn else "Nothing was drawn: the specimens differ in the noise of the load cell only."]),
+                "" if batch.drawn else "Nothing was drawn: the specimens differ in the noise of the load cell only."]),
             ("All readings", tables and [
                 *tables, "± 95 % is half of the interval that holds the mean of all such specimens with 95 % confidence, and n the number of "
                 "specimens that have the reading. SD is the standard deviation of single specimens, over n – 1, and CV its share of the mean; what is the same for all "
                 "of them, but for rounding, is constant. Scatter says nothing about the numerical error that all specimens share: it stands "
                 "in the report of each one.", no_value("No specimen has a", unmeasured)]),
-            *([certificates] if batch.counted else []),
+            *([certificates] if batch.runs else []),
             ("What was tested, and how", [[*method_facts(batch.method, units, batch.folder), ("Specimens", [
-                ("Count", str(len(batch.specimens))), ("Seed of the drawing", str(specimens.get("seed", ""))), *scatter(batch)], "")],
+                ("Count", str(len(batch.numbers))), ("Seed of the drawing", str(specimens.get("seed", ""))), *scatter(batch)], "")],
                 facts(program(batch.method, units))])],
         under_title(batch), [*head_of(batch.report), *particulars(
             batch.report, batch.method, batch.means.get("gauge_length"), units,
-            f"{len(batch.specimens)} tested, {len(batch.counted)} count, {len(rejected)} discarded")],
+            f"{len(batch.numbers)} tested, {len(batch.runs)} count, {len(rejected)} discarded")],
         batch.report.get("notes", ""), headlines(batch), [
             next(filter(None, map(given_box, batch.runs.values())), None), asked_box,
             Box("fail", ["No specimen counts: " + (f"all {len(rejected)} are" if len(rejected) > 1 else "the only one is") +
-                         " rejected, so that there are no readings."]) if not batch.counted else
+                         " rejected, so that there are no readings."]) if not batch.runs else
             Box("warnings", [Markup("<b>Warnings</b>"), *lines]) if (lines := warnings(batch)) else
             Box("quiet", ["No specimen that counts gave a warning."])],
-        with_specimens(files_of(folder), batch))
+        [*files[:-2], (folders, "of each specimen all that a single test writes"), *files[-2:]])
 
 
 def under_title(batch):
     def counts(name):
-        found = Counter(getattr(one, name) for one in batch.counted)
+        found = Counter(batch.table[name][~batch.rejected].tolist())
         return ", ".join(f"{word} {number}" for word, number in sorted(found.items(), key=lambda item: (-item[1], item[0])))
 
-    count, rejected = len(batch.specimens), len(batch.reasons)
+    count, rejected = len(batch.numbers), len(batch.reasons)
     said = [f"knot_utm {run.result.get('version')}" for run in list(batch.runs.values())[:1]]
     said.append(f"{count} specimen{'s' if count > 1 else ''}" + (
         f", of which {count - rejected} count and {rejected} {'are' if rejected > 1 else 'is'} rejected" if rejected else ""))
-    if batch.counted:
+    if batch.runs:
         said += [f"motion pattern {counts('motion_pattern')}", f"ended by {counts('ended_by')}"]
     return " · ".join(said)
 
@@ -183,8 +165,8 @@ def specimens_tables(batch):
     """What was drawn for each specimen, and its main readings and those that the specification asks for, in as many tables as are
     needed."""
     columns = []  # (label, unit, texts)
-    for key in batch.specimens[0].drawn:
-        values, unit = [one.drawn[key] for one in batch.specimens], unit_of(key, batch.units)
+    for key in batch.drawn:
+        values, unit = batch.table[key].tolist(), unit_of(key, batch.units)
         text = digits_of(max(values), float(np.std(values, ddof=1)) if len(values) > 1 else 0.0, unit)
         columns.append((sentence(name_of(key)), unit, [*map(text, values)]))
     asked = [key for key in batch.method.get("specification") or {} if batch.statistics(key)]
@@ -192,8 +174,8 @@ def specimens_tables(batch):
         found, unit = batch.statistics(key), batch.units.of(quantity_of(key).kind)
         text = digits_of(found["mean"], found["sd"], unit)
         columns.append((short_label(batch.means, key, batch.largest), unit,
-                        [text(None if one.rejected else one.readings[key]) for one in batch.specimens]))
-    names = [f"{one.number}{', rejected' if one.rejected else ''}" for one in batch.specimens]
+                        [text(None if rejected else value) for value, rejected in zip(batch.table[key], batch.rejected)]))
+    names = [f"{number}{', rejected' if rejected else ''}" for number, rejected in zip(batch.numbers, batch.rejected)]
     tables = max(1, -(-len(columns) // WIDEST))
     each = max(1, -(-len(columns) // tables))
     return [Table(("Specimen", *(f"{label} {f'[{unit.name}]' if unit.name else ''}" for label, unit, _ in some)),
@@ -218,9 +200,9 @@ def all_readings(batch):
     """Tables of the statistics of every reading that a specimen has, and the keys that none has."""
     labels = {key: short_label(batch.means, key, batch.largest) for key in ("locked_stiffness", "peak_force")}
     titles = {"beside": "Numerical errors and true forces", "certificate": "Checks", "head": "Further"}
-    counts, tables, told = ("specimens", "rejected"), [], {"specimens", "rejected", "motion_pattern"}
+    tables, told = [], {"specimens", "rejected", "motion_pattern"}
     groups = {title: [key for key in group if key in batch.facts] for title, group in GROUPS.items()}
-    groups["head"] = [key for key in batch.facts if key not in counts and not any(key in group for group in groups.values())]
+    groups["head"] = [key for key in batch.facts if key not in ("specimens", "rejected") and not any(key in group for group in groups.values())]
     for title, keys in groups.items():
         rows = [statistics_row(batch, key, labels.get(key) or quantity_of(key).label) for key in keys
                 if batch.statistics(key) and NOTHING.get(key) != batch.means[key]]
@@ -291,13 +273,6 @@ def warnings(batch):
         differ = f" (the numbers are those of specimen {first})" if any(other != line for _, other in said) else ""
         lines.append(f"{named({number for number, _ in said})}: {line}{differ}")
     return lines
-
-
-def with_specimens(files, batch):
-    """Before the page itself."""
-    first, last = batch.specimens[0].number, batch.specimens[-1].number
-    folders = f"specimen_{first:03d}/ to specimen_{last:03d}/" if last > first else f"specimen_{first:03d}/"
-    return [*files[:-2], (folders, "of each specimen all that a single test writes"), *files[-2:]]
 
 
 def curves(batch, mean):

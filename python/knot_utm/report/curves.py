@@ -100,7 +100,7 @@ def course(run):
 def force_extension(run, marks):
     """Load over extension; again where the load is small beside its peak; knot distance where there are two knots."""
     tested, events, scale = run.tested(), events_of(run), run.units.length.scale
-    small, knots = small_loads(run.value, tested["load"]), tested.has_knot_distance()
+    small, knots = small_loads(run.value, tested["load"]), np.isfinite(tested["knot_distance"]).any()
     figure, axes = load_axes(run.units, small, [1.4] if knots else [], 0.25 + 0.15 * len(events))
     loads = axes[:2 if small else 1]
     for one in loads:

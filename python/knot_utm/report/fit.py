@@ -3,11 +3,10 @@ import os
 
 import numpy as np
 
-from knot_utm.report.commands import CannotReport
 from knot_utm.report.curves import draw, load_axes
 from knot_utm.report.page import Box, figure, render, Row, Table, verdict_box
 from knot_utm.report.quantities import is_number, number, Units
-from knot_utm.report.run import numbers, printable, read_columns, read_yaml
+from knot_utm.report.run import printable, read_table, read_yaml
 from knot_utm.report.style import BLUE, GREEN, GREY, INK, new_figure, ORANGE, short, WIDTH
 
 NOT_KEYS = ("rms", "correlation", "fits", "chi_square", "degrees_of_freedom", "notes", "records")
@@ -15,17 +14,10 @@ RISE = 3.84  # of -2 log L, which bounds an interval of 95 %
 HIGHEST = 12.0
 
 
-def read(folder, name, wanted):
-    """{first column: the wanted ones, as numbers}."""
-    file = os.path.join(folder, name)
-    columns = read_columns(file)
-    first = next(iter(columns))
-    for column in wanted:
-        if column not in columns:
-            raise CannotReport(f"{file}: no column {column}")
-    values = [numbers(file, column, columns[column]) for column in wanted]
-    of = np.array(columns[first])
-    return {str(one): tuple(column[of == one] for column in values) for one in dict.fromkeys(columns[first])}
+def read(file, first, wanted):
+    """{what stands in the first column: the wanted ones, as numbers}."""
+    columns = read_table(file, wanted, (first,))
+    return {str(one): tuple(columns[name][columns[first] == one] for name in wanted) for one in dict.fromkeys(columns[first])}
 
 
 def curve(name, extension, measured, simulated, error):
@@ -73,7 +65,7 @@ def report_on_fit(folder, command, version):
     facts = read_yaml(os.path.join(folder, "fit.yaml"))
     keys = {name: found for name, found in facts.items() if name not in NOT_KEYS and isinstance(found, dict)}
     records = {str(number): printable(str(name)) for number, name in enumerate(facts.get("records") or [], start=1)}
-    means = read(folder, "curves.csv", ("extension", "measured", "simulated", "error"))
+    means = read(os.path.join(folder, "curves.csv"), "record", ("extension", "measured", "simulated", "error"))
     correlation, notes = facts.get("correlation") or {}, [printable(str(note)) for note in facts.get("notes") or []]
     fits = facts.get("fits")
     names = list(keys)
@@ -93,7 +85,7 @@ def report_on_fit(folder, command, version):
                 "that many points on one side are no contradiction. Offsets of the record, where they are free, are a part of the fitted "
                 "curve.")]) for number, name in records.items()),
             ("Profiles", keys and [figure(
-                profiles(keys, read(folder, "profiles.csv", ("value", "rise"))), "The profile of each key",
+                profiles(keys, read(os.path.join(folder, "profiles.csv"), "key", ("value", "rise"))), "The profile of each key",
                 "How much less likely the record is with another value of one key, while the other keys take the values that suit it best. The "
                 "interval ends where the profile passes 3.84, the dashed line.")]),
             ("Correlations", pairs and [Table(("Keys", "Correlation"), pairs)])],

@@ -52,9 +52,6 @@ class Curve:
     def has_compliant_frame(self):
         return "crosshead_extension" in self.columns
 
-    def has_knot_distance(self):
-        return bool(np.isfinite(self["knot_distance"]).any())
-
 
 class Run:
     def __init__(self, folder):
@@ -160,13 +157,15 @@ def printable(text):
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
-def read_yaml(file, errors="strict"):
+def read_yaml(file, *wanted, errors="strict"):
+    """A map with the keys that are wanted."""
     try:
         content = yaml.safe_load(printable(read_text(file, errors)))
     except yaml.YAMLError as why:
         raise CannotReport(f"{file}: not YAML: {' '.join(str(why).split())}") from why
     if not isinstance(content, dict):
         raise CannotReport(f"{file}: a map is needed")
+    require_keys(file, content, wanted)
     return content
 
 
@@ -181,34 +180,29 @@ def texts_of(file, key):
     return found if isinstance(found, dict) else {}
 
 
-def read_columns(file):
-    """Columns by name, as text."""
-    return read_table(file)[0]
-
-
-def read_table(file):
-    """Columns and their units by name, as text; row 1 has names, row 2 units."""
+def read_table(file, wanted, words=()):
+    """{column: numbers}, and texts of those columns that hold `words`; row 1 has names, row 2 units. Raises CannotReport where a
+    `wanted` column is missing, or one holds no numbers."""
     rows = list(csv.reader(read_text(file).splitlines()))
     if len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows):
         raise CannotReport(f"{file}: not a table with a row of names and a row of units")
-    columns = list(zip(*rows[2:])) if len(rows) > 2 else [()] * len(rows[0])
-    return dict(zip(rows[0], columns)), dict(zip(rows[0], rows[1]))
-
-
-def numbers(file, name, column):
+    columns = dict(zip(rows[0], zip(*rows[2:]) if len(rows) > 2 else [()] * len(rows[0])))
+    require_keys(file, columns, (*wanted, *words), "column")
     try:
-        return np.array(column, dtype=float)
+        return {name: np.array(column, dtype=str if name in words else float) for name, column in columns.items()}
     except ValueError as why:
-        raise CannotReport(f"{file}: {name}: {why}") from why
+        raise CannotReport(f"{file}: {why}") from why
+
+
+def require_keys(file, content, keys, kind="key"):
+    for key in keys:
+        if key not in content:
+            raise CannotReport(f"{file}: no {kind} {key}")
 
 
 def read_curve(file):
-    columns = read_columns(file)
-    for name in ("time", "extension", "load", "knot_distance", "end_to_end", "phase"):
-        if name not in columns:
-            raise CannotReport(f"{file}: no column {name}")
-    phase = np.array(columns.pop("phase"), dtype=str)
-    curve = Curve({name: numbers(file, name, column) for name, column in columns.items()}, phase)
+    columns = read_table(file, ("time", "extension", "load", "knot_distance", "end_to_end"), ("phase",))
+    curve = Curve(columns, columns.pop("phase"))
     if "crosshead_travel" in columns:  # the frame is compliant
         travel = curve["crosshead_travel"]
         curve.columns["crosshead_extension"] = np.where(np.isfinite(travel), travel, curve["extension"])

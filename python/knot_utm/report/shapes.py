@@ -5,7 +5,7 @@ from collections import namedtuple
 import numpy as np
 
 from knot_utm.report.commands import CannotReport
-from knot_utm.report.run import numbers, read_columns, read_text
+from knot_utm.report.run import read_table, read_text, require_keys
 
 # `time` of the test [s]; `points`: the nodes [m]. `tension`: of each edge [N]; `twist`: of each node [rad/m]; `contact_force`: that
 # presses on each node, per length [N/m]. None: not known. `cuts`: edges between one rope and the next, which are no rope.
@@ -63,11 +63,9 @@ def series_of_csv(file):
     names, _, *rows = read_text(file).splitlines() + 2 * [""]
     try:  # which may be long, and holds nothing but numbers
         columns = dict(zip(names.split(","), np.loadtxt(filter(None, rows), delimiter=",", comments=None, ndmin=2).T))
-    except ValueError:  # slower, this names the column that is not of numbers
-        columns = {name: numbers(file, name, column) for name, column in read_columns(file).items()}
-    for name in ("time", "node", "x", "y", "z", "tension", "twist", "contact_force"):
-        if name not in columns:
-            raise CannotReport(f"{file}: no column {name}")
+    except ValueError as why:
+        raise CannotReport(f"{file}: {why}") from why
+    require_keys(file, columns, ("time", "node", "x", "y", "z", "tension", "twist", "contact_force"), "column")
     begins = np.flatnonzero(columns["node"] == 0)
     if not len(begins):
         raise CannotReport(f"{file}: it holds no shape")
@@ -96,8 +94,8 @@ def known(values):
 
 def final_shape(run):
     file = os.path.join(run.folder, "final_shape.csv")
-    columns = {name: numbers(file, name, column) for name, column in read_columns(file).items()}
-    points = np.column_stack([columns.get(name, ()) for name in ("x", "y", "z")])
+    columns = read_table(file, ("x", "y", "z"))
+    points = np.column_stack([columns[name] for name in ("x", "y", "z")])
     return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, cuts=cuts_of(columns))
 
 
