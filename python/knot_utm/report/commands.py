@@ -1,7 +1,6 @@
 """What the commands of reports have in common: how they begin, read their words, and end."""
 import argparse
 import contextlib
-import gc
 import importlib
 import os
 import stat
@@ -52,6 +51,11 @@ class OneLineParser(argparse.ArgumentParser):
             message += f" ({self.prog} --help)" if tool.IN_SOURCES else f" ({' '.join(self.format_usage().split())})"
         refuse(self.prog, message)
 
+    def require_room(self, option, file, folders, overwrite):
+        """Refuses a file that must not be written; the files of folders are read."""
+        if why := why_not(file, [os.path.join(folder, name) for folder in folders for name in os.listdir(folder)], overwrite):
+            self.error(f"{option}: {why}")
+
 
 def refuse(program, message, code=2):
     """Says in a line why the program ends, and ends it; unless given for bad input."""
@@ -59,16 +63,22 @@ def refuse(program, message, code=2):
     sys.exit(code)
 
 
-def files_of(folder):
-    """All files that stand in a folder: a run is read from several."""
-    return [os.path.join(folder, name) for name in os.listdir(folder)] if os.path.isdir(folder) else []
-
-
-def why_no_test(folder):
-    """A sentence on why a folder holds no test; None where it holds one."""
+def test_in(folder):
+    """The folder of a test, as a type of argparse."""
     if not os.path.isdir(folder):
-        return f"{folder}: no such folder"
-    return None if os.path.exists(os.path.join(folder, "method.yaml")) else f"{folder}: no test is there (method.yaml)"
+        raise argparse.ArgumentTypeError(f"{folder}: no such folder")
+    if not os.path.exists(os.path.join(folder, "method.yaml")):
+        raise argparse.ArgumentTypeError(f"{folder}: no test is there (method.yaml)")
+    return folder
+
+
+def file_ending(end):
+    """The name of a file that is to be written, as a type of argparse."""
+    def checked(name):
+        if not name.endswith(end):
+            raise argparse.ArgumentTypeError(f"{name}: the name of the file must end with {end}")
+        return name
+    return checked
 
 
 def why_not(file, inputs, overwrite):
@@ -91,11 +101,7 @@ def why_not(file, inputs, overwrite):
 def start(program):
     """One of them, by the name of its module. What that needs may not be installed, which is told in a line, too."""
     with in_one_line(program):
-        gc.disable()
-        module = importlib.import_module(f"knot_utm.report.{program}")
-        gc.freeze()  # all that is imported stays, and no search for garbage looks at it
-        gc.enable()
-        module.main()
+        importlib.import_module(f"knot_utm.report.{program}").main()
 
 
 if __name__ == "__main__":  # scripts/PROGRAM WORD...

@@ -12,10 +12,10 @@ import xml.etree.ElementTree as xml
 import numpy as np
 
 from knot_utm.report.colours import colour_scales, LABELS, node_values
-from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
+from knot_utm.report.commands import CannotReport, file_ending, in_one_line, OneLineParser, test_in
 from knot_utm.report.rod_pictures import UNKNOWN
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import lengths, ropes, series_of
+from knot_utm.report.shapes import lengths, nearest, ropes, shapes_of
 from knot_utm.report.tube import rod_mesh
 
 MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
@@ -27,10 +27,10 @@ Z_UP = [-np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)]
 
 def asked():
     parser = OneLineParser(prog="export", description=__doc__.partition("\n")[0])
-    parser.add_argument("folder", metavar="DIR", help="the folder of a test")
+    parser.add_argument("folder", metavar="DIR", type=test_in, help="the folder of a test")
     to = parser.add_mutually_exclusive_group(required=True)
     to.add_argument("--vtk", metavar="OUT", help="a new folder for rod.pvd and a .vtp file for each shape")
-    to.add_argument("--gltf", metavar="OUT", help="a .glb file")
+    to.add_argument("--gltf", metavar="OUT", type=file_ending(".glb"), help="a .glb file")
     parser.add_argument("--color", choices=LABELS, help="what the colours of the .glb show [tension]")
     parser.add_argument("--time", type=float, metavar="SECONDS",
                         help="of the test, for the .glb; the shape nearest to it is taken [the last one]")
@@ -38,13 +38,9 @@ def asked():
     found = parser.parse_args()
     if found.vtk is not None and (found.color or found.time is not None):
         parser.error("--color and --time belong to --gltf: the files of --vtk hold all values at all times")
-    if why := why_no_test(found.folder):
-        parser.error(why)
-    if found.gltf is not None and not found.gltf.endswith(".glb"):
-        parser.error(f"--gltf {found.gltf}: the name of the file must end with .glb")
-    if found.gltf is not None and (why := why_not(found.gltf, files_of(found.folder), found.overwrite)):
-        parser.error(f"--gltf: {why}")
-    if found.vtk is not None and os.path.exists(found.vtk) and not (os.path.isdir(found.vtk) and not os.listdir(found.vtk)):
+    if found.gltf is not None:
+        parser.require_room("--gltf", found.gltf, [found.folder], found.overwrite)
+    elif os.path.exists(found.vtk) and not (os.path.isdir(found.vtk) and not os.listdir(found.vtk)):
         parser.error(f"--vtk {found.vtk}: is there already; give a new folder")
     return found
 
@@ -52,14 +48,13 @@ def asked():
 def main():
     arguments = asked()
     run = Run(arguments.folder)
-    series, note = series_of(run)
+    shapes, note = shapes_of(run)
     if note:
         print("export:", note.replace(" is shown", " is written"), file=sys.stderr)
-    shapes = [series.shape(i) for i in range(len(series))]
     if arguments.vtk is not None:
         print(over_time(arguments.vtk, run, shapes))
     else:
-        print(at_one_time(arguments, run, shapes, shapes[-1] if arguments.time is None else series.at(arguments.time)))
+        print(at_one_time(arguments, run, shapes, shapes[-1] if arguments.time is None else nearest(shapes, arguments.time)))
 
 
 def over_time(folder, run, shapes):

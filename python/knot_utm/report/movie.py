@@ -9,12 +9,12 @@ import sys
 import numpy as np
 
 from knot_utm.report.colours import colour_scales, LABELS
-from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
+from knot_utm.report.commands import CannotReport, file_ending, in_one_line, OneLineParser, test_in
 from knot_utm.report.curves import draw, small_loads
 from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.rod_pictures import draw_rollers, tubes_of, view
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import nearest, series_of
+from knot_utm.report.shapes import nearest, shapes_of
 from knot_utm.report.style import BLUE, FAINT, new_figure, ORANGE, USUAL
 
 SIZE = (1920, 1080)
@@ -24,8 +24,8 @@ VIEWS = 12  # shapes of a test that the frame of its pictures is made for
 
 def asked():
     parser = OneLineParser(prog="movie", description=__doc__)
-    parser.add_argument("runs", nargs="+", metavar="RUN", help="the folder of a test; at most two")
-    parser.add_argument("--out", default="movie.mp4", help="the file [movie.mp4]")
+    parser.add_argument("runs", nargs="+", metavar="RUN", type=test_in, help="the folder of a test; at most two")
+    parser.add_argument("--out", default="movie.mp4", type=file_ending(".mp4"), help="the file [movie.mp4]")
     parser.add_argument("--seconds", type=float, default=12.0, help="that the movie takes [12]")
     parser.add_argument("--rate", type=int, default=25, help="pictures a second [25]")
     parser.add_argument("--color", choices=LABELS, default="tension", help="what the colours show [tension]")
@@ -33,13 +33,7 @@ def asked():
     found = parser.parse_args()
     if len(found.runs) > 2:
         parser.error(f"{found.runs[2]}: two runs have room side by side")
-    for folder in found.runs:
-        if why := why_no_test(folder):
-            parser.error(why)
-    if not found.out.endswith(".mp4"):
-        parser.error(f"--out {found.out}: the name of the file must end with .mp4")
-    if why := why_not(found.out, [file for folder in found.runs for file in files_of(folder)], found.overwrite):
-        parser.error(f"--out: {why}")
+    parser.require_room("--out", found.out, found.runs, found.overwrite)
     if not 1 <= found.rate <= 120:
         parser.error(f"--rate {found.rate}: from 1 to 120 are allowed")
     if not 1.0 <= found.seconds * found.rate <= 1e5:
@@ -104,7 +98,8 @@ class Stage:
 
     def times(self, count):
         """Evenly spaced since the start of the pull [s]."""
-        return np.linspace(min(test.first() for test in self.tests), max(test.last() for test in self.tests), count)
+        begin, end = ([test.shapes[i].time - test.begin for test in self.tests] for i in (0, -1))
+        return np.linspace(min(begin), max(end), count)
 
     def picture(self, time):
         """Bytes, four a pixel."""
@@ -146,13 +141,12 @@ class Stage:
 class OneTest:
     def __init__(self, folder):
         self.run = run = Run(folder)
-        series, note = series_of(run)
+        self.shapes, note = shapes_of(run)
         self.tested = run.tested()
-        if note or len(series) < 2:
+        if note or len(self.shapes) < 2:
             raise CannotReport(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
         if not len(self.tested):
             raise CannotReport(f"{folder}: the test ended before the specimen was pulled")
-        self.seconds, self.shapes = series.times, [series.shape(i) for i in range(len(series))]
         self.begin = float(self.tested["time"][0])
         self.extension = run.units.length.scale * self.tested["extension"]
         self.load = run.units.force.scale * self.tested["load"]
@@ -161,15 +155,9 @@ class OneTest:
         views = np.array([view(run, self.shapes[i], run.thickest()) for i in some])
         self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())
 
-    def first(self):
-        return self.seconds[0] - self.begin
-
-    def last(self):
-        return self.seconds[-1] - self.begin
-
     def at(self, time):
         """The shape that was computed nearest to it; of a time before a break one from before that."""
-        return self.shapes[nearest(self.seconds, time + self.begin, self.run.time_of_break())]
+        return nearest(self.shapes, time + self.begin, self.run.time_of_break())
 
     def until(self, time):
         """Extension and load up to a time [s], in the units of the page."""

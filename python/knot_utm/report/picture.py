@@ -19,7 +19,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from knot_utm import tool
-from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, refuse, why_not
+from knot_utm.report.commands import CannotReport, in_one_line, OneLineParser, refuse
 from knot_utm.report.curves import course, force_extension
 from knot_utm.report.marks import Mark
 from knot_utm.report.method_facts import materials_of
@@ -57,8 +57,7 @@ def main():
     for word in () if of_runs else asked.words:
         if asked.knots or not re.match(r"(?!record:|out:)\w+:=", word):
             refuse("picture", f"--{'knots' if asked.knots else 'rviz'} takes no {word} (scripts/picture --help)")
-    if why := why_not(asked.out, [file for folder in asked.words for file in files_of(folder)] if of_runs else [], asked.overwrite):
-        refuse("picture", f"--out: {why}")
+    parser.require_room("--out", asked.out, filter(os.path.isdir, asked.words) if of_runs else (), asked.overwrite)
     command = shlex.join(["scripts/picture", *(word for word in sys.argv[1:] if word != "--overwrite")])
     if of_runs:
         return draw(runs_of(asked.words), asked.out, command)

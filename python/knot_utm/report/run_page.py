@@ -10,7 +10,7 @@ from knot_utm.report.quantities import (all_in_units, CERTIFICATE, error_shown, 
                                         shown, TABLES, with_unit)
 from knot_utm.report.rod_pictures import pictures
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import final_shape, series_of, shapes_at
+from knot_utm.report.shapes import nearest, shapes_of
 from knot_utm.report.turnable import turnable
 
 HEADLINES = ("knotability", "force_ratio", "plateau_force", "lock_extension", "locked_stiffness", "peak_force", "break_extension",
@@ -76,13 +76,13 @@ def figures_of(run, marks, largest):
                            "Load and extension over the whole test; the colours show the phases of the program. Until the balance the load "
                            "is not yet zeroed. While the knots are tied the load cell reads nothing.")
         shown_at = marks or [end_of(run.curve)]
-        series, note = series_of(run)
-        shapes = shapes_at(series, [mark.time for mark in shown_at], time_of_break(shown_at), final_shape(run))
+        shapes, note = shapes_of(run)
+        at_marks = shapes if len(shapes) == 1 else [nearest(shapes, mark.time, time_of_break(shown_at)) for mark in shown_at]
         rod = [note and Box("warnings", [note]),
-               figure(pictures(run, shown_at[-len(shapes):], shapes), "The rod at the marked points, coloured by its tension",
+               figure(pictures(run, shown_at[-len(at_marks):], at_marks), "The rod at the marked points, coloured by its tension",
                       "The load axis runs from left to right. Parts of the rod that are farther away are paler. Each picture shows the rod at "
                       "the recorded instant nearest to its mark; a mark before the break is shown before the break.", "JPEG")]
-        curve.append(turnable(run, series, marks))
+        curve.append(turnable(run, shapes, marks))
     return curve, rod, over_time
 
 

@@ -14,24 +14,21 @@ from knot_utm.report.shapes import ropes
 LIBRARY = "/usr/share/javascript/three"  # Debian: libjs-three
 SCRIPTS = [os.path.join(LIBRARY, "three.min.js"), os.path.join(LIBRARY, "examples/js/controls/OrbitControls.js"),
            os.path.join(os.path.dirname(os.path.abspath(__file__)), "turnable.js")]
-MOST = 120     # shapes; a bag has as many as the load cell has readings
 KNOWN = 255    # colours; the next number is that of what is not known
 FINEST = 65535  # places along an axis are whole numbers up to this
 
 
-def turnable(run, series, marks):
+def turnable(run, shapes, marks):
     """None where the library is not installed."""
     if not all(os.path.exists(file) for file in SCRIPTS):
         return None
     # No "<" that could end the element that holds it.
-    return Turnable(json.dumps(content(run, series, marks), separators=(",", ":")).replace("<", "\\u003c"),
+    return Turnable(json.dumps(content(run, shapes, marks), separators=(",", ":")).replace("<", "\\u003c"),
                     [read_text(file) for file in SCRIPTS])
 
 
-def content(run, series, marks):
+def content(run, shapes, marks):
     """Lengths are in mm."""
-    chosen = np.unique(np.linspace(0, len(series) - 1, min(MOST, len(series))).astype(int))
-    shapes = [series.shape(int(i)) for i in chosen]
     points = 1e3 * np.array([shape.points for shape in shapes])
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     step = np.maximum(high - low, 1e-6) / FINEST

@@ -83,10 +83,9 @@ class PageOfARun(unittest.TestCase):
 
     def test_holds_every_shape_in_a_millionth_of_its_size(self):
         given = json.loads(re.search(r'id="turnable-data">(.*?)</script>', read(fisherman, "report.html"))[1])
-        series, _ = shapes.series_of(Run(fisherman))
-        points = np.frombuffer(base64.b64decode(given["points"]), "<u2").reshape(len(series), given["nodes"], 3)
-        for i, (time, places) in enumerate(zip(given["times"], points)):
-            shape = series.shape(i)
+        of_run, _ = shapes.shapes_of(Run(fisherman))
+        points = np.frombuffer(base64.b64decode(given["points"]), "<u2").reshape(len(of_run), given["nodes"], 3)
+        for shape, time, places in zip(of_run, given["times"], points):
             self.assertEqual(time, shape.time)
             np.testing.assert_allclose(np.array(given["low"]) + np.array(given["step"]) * places, 1e3 * shape.points,
                                        atol=0.51 * max(given["step"]))
