@@ -69,7 +69,7 @@ def scale_axis(panel, name, values):
 
 
 def edges(values):
-    """Of cells around values, half-way to the next, as the axis counts."""
+    """The edges of cells around values, half-way to the next, as the axis counts."""
     ahead, back = (np.log, np.exp) if spans_far(values) else (np.asarray, np.asarray)
     places = ahead(values.to_numpy(float))
     middles = 0.5 * (places[1:] + places[:-1])

@@ -10,7 +10,7 @@ from knot_utm.yaml_text import value_of
 
 
 def parser_of(program, *read):
-    """Of a command that reads files, writes a folder, and makes many runs at a time."""
+    """The parser of a command that reads files, writes a folder, and makes many runs at a time."""
     parser = OneLineParser(prog=program, add_help=False, allow_abbrev=False)
     for name in read:
         parser.add_argument(name)

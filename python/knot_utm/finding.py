@@ -56,7 +56,7 @@ class FreeKey:
 
 @dataclass(frozen=True)
 class Estimate:
-    """Of one key: its value and 95 % interval; an end that the data do not tell is None."""
+    """The value of a key and its 95 % interval; an end that the data do not tell is None."""
 
     value: float
     low: object
@@ -169,13 +169,13 @@ class Fitted:
         """What the data do not tell of single keys, in words."""
         for at, key in zip(best, keys):
             low, high = self.found[key.name].low, self.found[key.name].high
-            told = (f"no value from {key.low:.6g} to {key.high:.6g} fits worse than the errors allow" if low is high is None else
+            bounds = (f"no value from {key.low:.6g} to {key.high:.6g} fits worse than the errors allow" if low is high is None else
                     f"the data only tell that it is {f'above {low:.4g}' if high is None else f'below {high:.4g}'}")
             if not AT_THE_END < at < 1.0 - AT_THE_END:
                 yield (f"{key.name} is at the {'lower' if at < 0.5 else 'upper'} end of its range: "
-                       f"{told + '; ' if None in (low, high) else ''}give a wider range")
+                       f"{bounds + '; ' if None in (low, high) else ''}give a wider range")
             elif None in (low, high):
-                yield f"{key.name} is not identifiable: {told}"
+                yield f"{key.name} is not identifiable: {bounds}"
 
     def _of_pairs(self):
         for one, other in itertools.combinations(self.found, 2):

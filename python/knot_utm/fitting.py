@@ -62,7 +62,7 @@ class Pull:
 
 
 def pull_of_table(table):
-    """Of a curve.csv or curve_full.csv, with the row before the first pull as origin: a balance makes it zero. None where nothing is
+    """The pull of a curve.csv or curve_full.csv, with the row before the first pull as origin: a balance makes it zero. None where nothing is
     pulled."""
     rows = np.flatnonzero(table["phase"].isin(PULLS)) if "phase" in table else np.arange(len(table))
     if len(rows) < 2:
@@ -80,7 +80,7 @@ def pull_of_table(table):
 
 
 def read_pull(file):
-    """Of a curve.csv, as tensile_test or import_instron wrote it. Raises WrongInput."""
+    """The pull of a curve.csv, as tensile_test or import_instron wrote it. Raises WrongInput."""
     try:
         table = pd.read_csv(file, skiprows=[1])
         pull = pull_of_table(table.astype({name: float for name in table if name != "phase"}))
@@ -114,7 +114,7 @@ class Record:
         self.centres, self.measured = self.means(s), self.means(load)
 
     def means(self, readings):
-        """Of values at the readings, part by part."""
+        """The means of values at the readings, part by part."""
         return np.bincount(self.parts, readings) / self.counts
 
     def simulated(self, pull, result, offsets):
@@ -124,7 +124,7 @@ class Record:
         return self.means(pull.at(self.extension - offsets.get("extension", 0.0))) + offsets.get("force", 0.0)
 
     def run_settings(self, free, number):
-        """Of a run with values of the free keys, of one more specimen, which is drawn as tensile_test draws them."""
+        """The settings of a run with values of the free keys: one more specimen, which is drawn as tensile_test draws them."""
         settings, random = {**self.settings, **free}, np.random.default_rng(number)
         for key, law in self.scatter.items():
             (name, spread), = law.items()
@@ -178,7 +178,7 @@ def split(records, means):
 
 
 class Surface:
-    """Of the means of runs, one run a row, at places; of the order with which runs are told best that are left out one at a time."""
+    """A polynomial through the means of runs, one run a row, at places; its order is the one that best predicts runs left out one at a time."""
 
     def __init__(self, places, means, scale):
         self.low, self.width = places.min(axis=0), np.maximum(np.ptp(places, axis=0), 1e-12)
@@ -220,7 +220,7 @@ def scatter_of(rows, freedom):
 
 
 class Search:
-    """Of the best places, which go from 0 to 1 in the range of each key. `run(places, first)`: of each record [(pull, result)] of runs
+    """The search for the best places, which go from 0 to 1 in the range of each key. `run(places, first)`: of each record [(pull, result)] of runs
     there, of specimens counted from `first`."""
 
     def __init__(self, records, keys, run):
@@ -357,12 +357,12 @@ def _sobol(keys, count, seed):
 
 
 def place_of(solved):
-    """Of lmfit's parameters or its result."""
+    """The place that lmfit's parameters or its result have."""
     return np.array(list(getattr(solved, "params", solved).valuesdict().values()))
 
 
 def value_at(node, path):
-    """Of a dotted key of a method; a step of a program is found by its name or its number. None where there is none."""
+    """The value of a dotted key of a method; a step of a program is found by its name or its number. None where there is none."""
     name, _, rest = path.partition(".")
     if isinstance(node, list):
         found = next((step[name] for step in node if isinstance(step, dict) and name in step), None)

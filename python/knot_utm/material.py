@@ -139,7 +139,7 @@ def capstan_friction(m, h, heavy):
 
 
 def kept_curvature(m, group):
-    """Of the arc in which the rope lies once it is let go: its radius, or its chord and the sag of it, was read."""
+    """The curvature of the arc in which the rope lies once it is let go: its radius, or its chord and the sag of it, was read."""
     if (group, "chord") in m:
         chord, sagged = m[group, "chord"], m[group, "sag"]
         return 1 / (chord ** 2 / (8 * sagged) + 0.5 * sagged)

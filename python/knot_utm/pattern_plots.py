@@ -65,7 +65,7 @@ def numbers_of(table, keys, cases):
 
 
 def cells(table, keys):
-    """Of a grid of cells over the keys: the most frequent outcome among the runs nearest to the middle, its share and interval."""
+    """For each of a grid of cells over the keys the most frequent outcome among the runs nearest to the middle, its share and interval."""
     rows, near = _with_result(table, keys)
     sides = [CELLS, *(len(keys) - 2) * [SLICES[0]], CELLS]  # the first and the last are the axes of its picture
     middles = np.array(list(itertools.product(*((np.arange(n) + 0.5) / n for n in sides))))

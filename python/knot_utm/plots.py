@@ -74,9 +74,9 @@ def figure_of_number(table, keys, result, cases=()):
 
 
 def numbers_of_number(table, study, result, in_groups):
-    """Of repeated specimens mean and scatter at each point, and of one number how the result grows with it; of a study that
-    changes one key at a time the differences; of runs with several numbers anywhere the exponents `in_groups`, which is the table
-    in the units of the rod."""
+    """Mean and scatter of repeated specimens at each point, and how the result grows with one number; the differences of a study that
+    changes one key at a time; the exponents of runs with several numbers anywhere, `in_groups`, which is the table in the units of the
+    rod."""
     if study.design == "one_at_a_time":
         return trends.differences(table, study.keys, study.cases, result)
     numbers, words = axes.numbers_and_words(table, study.keys, study.cases)

@@ -39,18 +39,6 @@ class Readings(Mapping):
         return self is other
 
 
-def plot_curve(curve, axes=None, **style):
-    """Draws load [N] over extension [mm] of the pulls of a curve, into new axes unless some are given. Returns the axes."""
-    if axes is None:
-        from matplotlib import pyplot
-        axes = pyplot.subplots(layout="constrained")[1]
-        axes.set_xlabel("extension [mm]")
-        axes.set_ylabel("load [N]")
-    pulled = curve[curve["phase"].isin(PULLS)]
-    axes.plot(1e3 * pulled["extension"], pulled["load"], **style)
-    return axes
-
-
 def shown(value, unit):
     """With four digits."""
     return "none" if value is None or value != value else f"{value:.4g} {unit}".removesuffix(" -")
@@ -77,8 +65,14 @@ class Run(Readings):
         return list(self.results["warnings"])
 
     def plot(self, axes=None, **style):
-        """Draws load over extension of the pull. Returns the axes of Matplotlib."""
-        return plot_curve(self.curve, axes, **style)
+        """Draws load [N] over extension [mm] of the pulls, into new axes of Matplotlib unless some are given. Returns the axes."""
+        if axes is None:
+            from matplotlib import pyplot
+            axes = pyplot.subplots(layout="constrained")[1]
+            axes.set(xlabel="extension [mm]", ylabel="load [N]")
+        pulled = self.curve[self.curve["phase"].isin(PULLS)]
+        axes.plot(1e3 * pulled["extension"], pulled["load"], **style)
+        return axes
 
     def __repr__(self):
         peak, count = shown(self.results["peak_force"], self.results.attrs["units"]["peak_force"]), len(self.warnings)
@@ -193,10 +187,10 @@ def batch(method, out, specimens=8, jobs=None, overwrite=False, **overrides):
 def read_batch(folder):
     """The batch in a folder, whoever made it. Raises WrongInput where there is none that has ended."""
     folder = os.path.abspath(folder)
-    told = load(os.path.join(folder, STATISTICS))
-    rejected = {one["specimen"]: one["reason"] for one in told["rejected"]}
+    written = load(os.path.join(folder, STATISTICS))
+    rejected = {one["specimen"]: one["reason"] for one in written["rejected"]}
     units = {row["key"]: row["unit"] for row in tool.result_keys()}
-    statistics = pd.DataFrame.from_dict({key: told[key] for key in units if "mean" in (told.get(key) or ())}, orient="index",
+    statistics = pd.DataFrame.from_dict({key: written[key] for key in units if "mean" in (written.get(key) or ())}, orient="index",
                                         dtype=float).astype({"n": int})
     statistics.attrs["units"] = {key: units[key] for key in statistics.index}
     specimens = read_table(os.path.join(folder, "specimens.csv")).set_index("specimen")

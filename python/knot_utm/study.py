@@ -78,7 +78,7 @@ def _study(file, given):
 
 
 def _within(given, points):
-    """Those where each key of `below` is below the key that it names."""
+    """The points where each key of `below` is below the key that it names."""
     below = given.get("below", {})
     require(isinstance(below, dict), "below", below, "a map of a key that is varied and the key that it must be below")
     for key in itertools.chain(*below.items()):

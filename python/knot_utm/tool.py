@@ -35,7 +35,7 @@ def tensile_test():
 
 
 def _folders_of_tools():
-    """Of the places where this package is, in their order: a workspace of catkin has one beside the sources."""
+    """The folders beside the places where this package is, in their order: a workspace of catkin has one beside the sources."""
     for place in knot_utm.__path__:
         built = IN_SOURCES and os.path.realpath(place) == HERE
         yield os.path.realpath(os.path.join(SHARE, "build/devel/lib/knot_utm") if built else os.path.join(place, "../../../knot_utm"))
@@ -56,7 +56,7 @@ def version():
 
 
 def package_version():
-    """Of this package. An installation without ROS has no package.xml, so that its programs are asked."""
+    """The version of this package. An installation without ROS has no package.xml, so that its programs are asked."""
     try:
         with open(os.path.join(SHARE, "package.xml"), encoding="utf-8") as file:
             return re.search(r"<version>\s*([^\s<]+)", file.read())[1]

@@ -17,8 +17,8 @@ NEAREST = 15               # runs that tell of a point between them
 @functools.cache  # a map asks the same of thousands of points
 def share(count, n):
     """(share, low, high): count of n with Wilson's 95 % interval."""
-    told = stats.binomtest(count, n).proportion_ci(method="wilson")
-    return count / n, told.low, told.high
+    interval = stats.binomtest(count, n).proportion_ci(method="wilson")
+    return count / n, interval.low, interval.high
 
 
 def power(x, y):
@@ -54,7 +54,7 @@ Threshold = namedtuple("Threshold", "value low high")
 
 
 def threshold(x, happened):
-    """Of something that happens below a value of x only, or above it only. A logistic over ln x by maximum likelihood, its
+    """The threshold of something that happens below a value of x only, or above it only. A logistic over ln x by maximum likelihood, its
     interval by the curvature of the likelihood. Where the cases part without overlap the interval is from the last x on the one
     side to the first on the other. None where it happened always or never."""
     x, happened = np.asarray(x, float), np.asarray(happened, bool)
@@ -89,7 +89,7 @@ def _logistic(u, happened):
 
 
 def levels(table, by, result):
-    """Of each combination of the columns `by`: n, mean, sd and standard_error of the readings that are there."""
+    """For each combination of the columns `by`: n, mean, sd and standard_error of the readings that are there."""
     groups = table.groupby(by, sort=False, dropna=False)[result]
     out = groups.agg(n="count", mean="mean", sd="std").reset_index()
     out["standard_error"] = out["sd"] / np.sqrt(out["n"])
@@ -134,11 +134,6 @@ class Neighbours:
         self.tree = spatial.cKDTree((np.stack(columns, axis=1) - self.low) / self.width)
         self.count = min(NEAREST, len(table) - 1)
 
-    def shares(self, places):
-        """[the share of each name among the nearest runs] of places in the cube."""
-        _, found = self.tree.query(places, self.count)
-        return (self.outcomes[np.reshape(found, (len(places), self.count))][:, :, None] == np.arange(len(self.names))).mean(axis=1)
-
     def values(self, places):
         """The values of the keys at places in the cube."""
         back = [np.exp if scale is np.log else np.asarray for scale in self.scales]
@@ -147,6 +142,6 @@ class Neighbours:
 
     def majority(self, places):
         """(name, share, low, high) of the most frequent outcome near each place, with Wilson's 95 % interval."""
-        shares = self.shares(places)
-        most = shares.argmax(axis=1)
-        return [(self.names[name], *share(round(row[name] * self.count), self.count)) for name, row in zip(most, shares)]
+        _, near = self.tree.query(places, self.count)
+        counts = (self.outcomes[np.reshape(near, (len(places), self.count, 1))] == np.arange(len(self.names))).sum(axis=1)
+        return [(self.names[name], *share(int(row[name]), self.count)) for name, row in zip(counts.argmax(axis=1), counts)]

@@ -184,7 +184,7 @@ def specimens_tables(batch):
 
 
 def name_of(key):
-    """Of a dotted key of the method: a speed is that of a step."""
+    """What a dotted key of the method is called: a speed is that of a step."""
     *where, _ = place_of(key).split(".")
     return f"{label_of(key)}, {where[-1]}" if where[0] == "program" else label_of(key)
 
@@ -200,16 +200,16 @@ def all_readings(batch):
     """Tables of the statistics of every reading that a specimen has, and the keys that none has."""
     labels = {key: short_label(batch.means, key, batch.largest) for key in ("locked_stiffness", "peak_force")}
     titles = {"beside": "Numerical errors and true forces", "certificate": "Checks", "head": "Further"}
-    tables, told = [], {"specimens", "rejected", "motion_pattern"}
+    tables, shown_keys = [], {"specimens", "rejected", "motion_pattern"}
     groups = {title: [key for key in group if key in batch.facts] for title, group in GROUPS.items()}
     groups["head"] = [key for key in batch.facts if key not in ("specimens", "rejected") and not any(key in group for group in groups.values())]
     for title, keys in groups.items():
         rows = [statistics_row(batch, key, labels.get(key) or quantity_of(key).label) for key in keys
                 if batch.statistics(key) and NOTHING.get(key) != batch.means[key]]
-        told.update(row.keys[0] for row in rows)
+        shown_keys.update(row.keys[0] for row in rows)
         if rows:
             tables.append(Table((titles.get(title, title), "Mean", "± 95 %", "SD", "CV", "Least", "Largest", "n", "Unit"), rows))
-    return tables, [key for key in batch.facts if key not in told]
+    return tables, [key for key in batch.facts if key not in shown_keys]
 
 
 def statistics_row(batch, key, label):

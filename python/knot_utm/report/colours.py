@@ -19,7 +19,7 @@ EXTREME = 99.5  # percentile of the values that the colours reach to
 
 
 def node_values(shape):
-    """Those that are known of a shape, by name."""
+    """The values that are known of a shape, by name."""
     parts = ropes(shape)
     tension = None if shape.tension is None else np.concatenate(
         [between_edges(shape.tension[rope.start:rope.stop - 1]) for rope in parts])
@@ -29,7 +29,7 @@ def node_values(shape):
 
 
 def between_edges(values):
-    """Of edges to nodes: the mean of both neighbours."""
+    """Values of edges at nodes: the mean of both neighbours."""
     return np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
 
 

@@ -61,7 +61,7 @@ class Comparison:
         return value if is_number(value) else None
 
     def readings(self, key):
-        """Those of both curves that are numbers, by name."""
+        """The readings of both curves that are numbers, by name."""
         both = self.facts.get(key)
         return {side.name: both[side.name.lower()] for side in self.sides
                 if isinstance(both, dict) and is_number(both.get(side.name.lower()))}

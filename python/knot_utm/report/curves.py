@@ -191,7 +191,7 @@ def events_of(run):
              ("jump_extension", RED, DASHED, lambda _: "a knot jumped open at " + with_unit(value("jump_force"), run.units.force)),
              ("lock_extension", INK, DASHED, lambda lock: "lock " + with_unit(lock, length, value("lock_extension_error"))),
              ("break_extension", RED, "-", lambda broke: "break " + with_unit(broke, length)))
-    found = [(key, length.scale * value(key), told(value(key)), *style) for key, *style, told in words if value(key) is not None]
+    found = [(key, length.scale * value(key), say(value(key)), *style) for key, *style, say in words if value(key) is not None]
     return sorted(found, key=lambda event: event[1])
 
 

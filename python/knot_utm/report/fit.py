@@ -69,12 +69,12 @@ def report_on_fit(folder, command, version):
     correlation, notes = facts.get("correlation") or {}, [printable(str(note)) for note in facts.get("notes") or []]
     fits = facts.get("fits")
     names = list(keys)
-    pairs = [Row(f"{one}, {other}", (), [told(correlation.get(one, {}).get(other))]) for i, one in enumerate(names) for other in names[i + 1:]]
+    pairs = [Row(f"{one}, {other}", (), [shown(correlation.get(one, {}).get(other))]) for i, one in enumerate(names) for other in names[i + 1:]]
     return render(
         folder, command, version, "Fit", "Fit of " + ("/".join(records["1"].split("/")[-2:]) if records else "a curve"), [
             ("Values", [
                 Table(("Key", "Value", "From", "To", "Identifiable"), [
-                    Row(name, [name], [*(told(key.get(part)) for part in ("value", "low", "high")), "yes" if key.get("identifiable") else "no"])
+                    Row(name, [name], [*(shown(key.get(part)) for part in ("value", "low", "high")), "yes" if key.get("identifiable") else "no"])
                     for name, key in keys.items()], "keys"),
                 "The interval is one of 95 %. Where an end is open, the data do not bound the key within its range. Values are in the units of "
                 "the method: m, kg, s, N."]),
@@ -90,12 +90,12 @@ def report_on_fit(folder, command, version):
                 "interval ends where the profile passes 3.84, the dashed line.")]),
             ("Correlations", pairs and [Table(("Keys", "Correlation"), pairs)])],
         " · ".join(records.values()), boxes=[
-            verdict_box((f"The curve fits within the errors: the sum of squares over them is {told(facts.get('chi_square'))} with "
+            verdict_box((f"The curve fits within the errors: the sum of squares over them is {shown(facts.get('chi_square'))} with "
                           f"{facts.get('degrees_of_freedom')} degrees of freedom." if fits else
                           "Nothing fits within the errors, so that the values and their intervals mean little.") +
-                         f" The RMS difference is {told(facts.get('rms'))} N.", fits),
+                         f" The RMS difference is {shown(facts.get('rms'))} N.", fits),
             notes and Box("warnings", notes)])
 
 
-def told(value):
+def shown(value):
     return number(value) if is_number(value) else "open"

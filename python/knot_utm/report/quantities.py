@@ -35,7 +35,7 @@ class Units:
 
 
 def units_of(report):
-    """Those that `report` of a method asks for."""
+    """The units that `report` of a method asks for."""
     asked = report.get("units") or {}
     return Units(asked.get("force", "N"), asked.get("length", "mm"))
 
@@ -118,7 +118,7 @@ def decimals_of(value, digits):
 
 
 def without_zeros(text, value):
-    """Of what was given, such as 250 mm, the zeros at its end say nothing; of a reading of 103.04 mm that of 103.0 does."""
+    """Zeros at the end say nothing of what was given, such as 250 mm; in 103.0, a reading of 103.04 mm, they do."""
     return text.rstrip("0").rstrip(".") if "." in text and math.isclose(float(text), value, rel_tol=1e-9) else text
 
 

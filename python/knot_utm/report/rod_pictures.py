@@ -91,7 +91,7 @@ def rollers(run, shape):
 
 
 def posts_of(drawing, grip, place, radius):
-    """Those of a grip that are seen from their end, and the sections of rings whose holes are seen from the side. The first one is
+    """The posts of a grip that are seen from their end, and the sections of rings whose holes are seen from the side. The first one is
     the grip, at a place along the load axis; radius of the rod."""
     posts = [post for post in drawing.get("posts") or [] if post.get("grip", "lower") == grip]
     found = []

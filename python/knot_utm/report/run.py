@@ -70,7 +70,7 @@ class Run:
         return value if is_number(value) else None
 
     def radii(self, shape):
-        """Of the ropes of a shape [m]."""
+        """The radii of the ropes of a shape [m]."""
         first, other = self.method["material"], self.method.get("other_material")
         return [(other if other and number else first)["radius"] for number in range(len(shape.cuts) + 1)]
 
