@@ -27,7 +27,7 @@ class Listed:
         return [self.values[min(int(share * len(self.values)), len(self.values) - 1)] for share in shares]
 
 
-class Drawn:
+class Sampled:
     """A key that takes the values of a distribution."""
 
     def __init__(self, distribution):
@@ -39,7 +39,7 @@ class Drawn:
 
 
 def varied(key, given, map_of="vary"):
-    """What the study says of one key, as Listed or Drawn, in the unit that it gives. Raises WrongInput."""
+    """What the study says of one key, as Listed or Sampled, in the unit that it gives. Raises WrongInput."""
     where = f"{map_of}.{key}"
     if isinstance(given, list) and given:
         return Listed(given)
@@ -51,7 +51,7 @@ def varied(key, given, map_of="vary"):
 
 
 def points(kinds, design, runs=None, seed=1):
-    """[{key: value}] of every run. `kinds`: {key: Listed or Drawn}; `runs`: of the designs that draw."""
+    """[{key: value}] of every run. `kinds`: {key: Listed or Sampled}; `runs`: of the designs that draw."""
     if design == "grid":
         return combinations(kinds)
     made = _one_at_a_time(kinds) if design == "one_at_a_time" else (_list if design == "list" else _sobol)(kinds, runs, seed)
@@ -69,7 +69,7 @@ def combinations(kinds, where="vary", what="a grid"):
 
 def _require_listed(kinds, where, what):
     for key, kind in kinds.items():
-        if isinstance(kind, Drawn):
+        if isinstance(kind, Sampled):
             raise WrongInput(f"{where}.{key} is drawn or has no steps, but {what} needs values: give steps, or design: list or "
                              "sobol")
 
@@ -90,12 +90,12 @@ def _list(kinds, runs, seed):
         if length != wanted:
             raise WrongInput(f"vary.{key} has {length} values, but must have {wanted} in this design: list, or one")
     count = runs or next(iter(lengths.values()), None)
-    if count is None and any(isinstance(kind, Drawn) for kind in kinds.values()):
+    if count is None and any(isinstance(kind, Sampled) for kind in kinds.values()):
         raise WrongInput("runs is missing: give how many are drawn")
     count = count or 1
     columns = []
     for kind, stream in zip(kinds.values(), np.random.SeedSequence(seed).spawn(len(kinds))):
-        if isinstance(kind, Drawn):
+        if isinstance(kind, Sampled):
             columns.append(kind.at(np.random.default_rng(stream).random(count)))
         else:
             columns.append(kind.values * count if len(kind.values) == 1 else kind.values)
@@ -139,13 +139,13 @@ def _drawn(where, given):
     if name != "normal":
         return _between(where, first, second, name == "log_uniform")
     require(second > 0, f"{where}.sd", second, "above 0")
-    return Drawn(stats.norm(first, second))
+    return Sampled(stats.norm(first, second))
 
 
 def _between(where, low, high, log):
     _require_positive(where, log, low, high)
     require(low < high, f"{where}.to", high, f"above from, {text_of(low)}")
-    return Drawn(stats.loguniform(low, high) if log else stats.uniform(low, high - low))
+    return Sampled(stats.loguniform(low, high) if log else stats.uniform(low, high - low))
 
 
 def _require_positive(where, log, *values):

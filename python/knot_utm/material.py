@@ -8,7 +8,7 @@ import yaml
 from scipy import integrate, optimize
 
 from knot_utm.errors import WrongInput
-from knot_utm.report.commands import OneLineParser, refuse, why_not
+from knot_utm.report.commands import OneLineParser, refuse
 from knot_utm.yaml_text import no_text
 
 GRAVITY = 9.81  # [m/s2]
@@ -463,8 +463,7 @@ def main():
     parser.add_argument("--out", required=True, help="the material file to be written")
     parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
     asked = parser.parse_args()
-    if why := why_not(asked.out, [asked.measurements], asked.overwrite):
-        refuse("material", f"--out: {why}")
+    parser.require_room("--out", asked.out, [asked.measurements], asked.overwrite)
     try:
         with open(asked.measurements, encoding="utf-8") as file:
             given, values, errors = read(file.read())
@@ -472,10 +471,9 @@ def main():
         here, uncertain = with_errors(values, errors)
         with open(asked.out, "w", encoding="utf-8") as file:
             file.write(material(given, here, uncertain, values))
-    except UnicodeDecodeError as error:
-        refuse("material", f"{asked.measurements}: {no_text(error)}")
-    except (WrongInput, OSError, yaml.YAMLError) as error:
-        refuse("material", f"{asked.measurements}: {' '.join(str(error).split())}")
+    except (WrongInput, OSError, yaml.YAMLError, UnicodeDecodeError) as error:
+        why = no_text(error) if isinstance(error, UnicodeDecodeError) else " ".join(str(error).split())
+        refuse("material", f"{asked.measurements}: {why}")
     print(f"{asked.out}: {in_words(here)}")
     if "rate" in here:
         print("for a method: " + rates(here, uncertain))

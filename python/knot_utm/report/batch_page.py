@@ -50,7 +50,7 @@ class Batch:
         self.reasons = {one["specimen"]: in_units(one["reason"], self.units) for one in self.facts["rejected"]}
         self.runs = {number: Run(os.path.join(folder, f"specimen_{number:03d}"))
                      for number, rejected in zip(self.numbers, self.rejected) if not rejected}
-        self.pulls = [(pull["extension"], pull["load"]) for pull in (run.pull() for run in self.runs.values())]
+        self.pulls = [(pull["extension"], pull["load"]) for pull in (run.curve.pull() for run in self.runs.values())]
         # Of a specimen whose load rose to the end, where there is one: then the largest loads are no peaks.
         self.largest = min(filter(None, map(largest_load, self.runs.values())), key=lambda largest: largest.is_peak, default=None)
         self.means = {key: (self.statistics(key) or {}).get("mean") for key in self.facts}  # as a single test could have them
@@ -112,9 +112,9 @@ def report_on_batch(folder, command, version):
                 "" if batch.drawn else "Nothing was drawn: the specimens differ in the noise of the load cell only."]),
             ("All readings", tables and [
                 *tables, "± 95 % is half of the interval that holds the mean of all such specimens with 95 % confidence, and n the number of "
-                "specimens that have the reading. SD is the standard deviation of single specimens, over n – 1, and CV its share of the mean; what is the same for all "
-                "of them, but for rounding, is constant. Scatter says nothing about the numerical error that all specimens share: it stands "
-                "in the report of each one.", no_value("No specimen has a", unmeasured)]),
+                "specimens that have the reading. SD is the standard deviation of single specimens, over n – 1, and CV its share of the mean; "
+                "what is the same for all of them, but for rounding, is constant. Scatter says nothing about the numerical error that all "
+                "specimens share: it stands in the report of each one.", no_value("No specimen has a", unmeasured)]),
             *([certificates] if batch.runs else []),
             ("What was tested, and how", [[*method_facts(batch.method, units, batch.folder), ("Specimens", [
                 ("Count", str(len(batch.numbers))), ("Seed of the drawing", str(specimens.get("seed", ""))), *scatter(batch)], "")],

@@ -51,9 +51,10 @@ class OneLineParser(argparse.ArgumentParser):
             message += f" ({self.prog} --help)" if tool.IN_SOURCES else f" ({' '.join(self.format_usage().split())})"
         refuse(self.prog, message)
 
-    def require_room(self, option, file, folders, overwrite):
-        """Refuses a file that must not be written; the files of folders are read."""
-        if why := why_not(file, [os.path.join(folder, name) for folder in folders for name in os.listdir(folder)], overwrite):
+    def require_room(self, option, file, inputs, overwrite):
+        """Refuses a file that must not be written. `inputs`: files and folders that are read."""
+        files = [file for one in inputs for file in (os.scandir(one) if os.path.isdir(one) else [one])]
+        if why := why_not(file, files, overwrite):
             self.error(f"{option}: {why}")
 
 

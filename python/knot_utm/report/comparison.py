@@ -148,7 +148,8 @@ def comparison_row(comparison, key):
     rises = key == "peak_force" and any(side.ends_at_its_largest_load() for side in comparison.sides)
     values = [shown(readings[name], unit.scale) if name in readings else "none" for name in ("A", "B")]
     difference = shown(both["difference"], unit.scale) if is_number(both.get("difference")) else ""
-    return Row("Largest load" if rises else re.split("[,;]", quantity.label)[0], [key], [*values, difference, unit.name, percent(both.get("relative"))])
+    label = "Largest load" if rises else re.split("[,;]", quantity.label)[0]
+    return Row(label, [key], [*values, difference, unit.name, percent(both.get("relative"))])
 
 
 def words_of(side, units):

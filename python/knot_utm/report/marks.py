@@ -8,8 +8,7 @@ from knot_utm.report.run import PULLING
 
 
 class Mark:
-    """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]; NaN: none is
-    known, behind a break."""
+    """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]."""
 
     def __init__(self, names, time, extension, load):
         self.names, self.time, self.extension, self.load = names, time, extension, load
@@ -19,17 +18,11 @@ class Mark:
         return ", ".join(self.names)
 
 
-def time_of_break(marks):
-    """[s]; None: the rod is whole."""
-    return next((mark.time for mark in marks if "break" in mark.names), None)
-
-
 def marks_of(run):
     """Start of the pull, a knot's jump, lock, largest load, break and end, in order of time; none where nothing was tested."""
-    tested = run.tested()
+    tested, pull = run.curve.tested(), run.curve.pull()
     if not len(tested):
         return []
-    pull = run.pull()
     begin = pull if len(pull) else tested
     found = [("start of the pull" if len(pull) else "start", begin, 0)]
     found += reached(pull, "a knot jumped open", run.value("jump_extension"))
@@ -39,10 +32,7 @@ def marks_of(run):
         found.append((largest.name, largest.rows, largest.row))
     found += reached(pull, "break", run.value("break_extension"))
     all_marks = [Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found]
-    all_marks.append(end_of(run.curve.tested()))
-    if run.time_of_break() is not None:
-        all_marks[-1].load = np.nan
-    return together(all_marks, 0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
+    return together([*all_marks, end_of(tested)], 0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
 
 
 def end_of(curve):
@@ -60,8 +50,7 @@ def reached(pull, name, extension):
 
 
 def together(marks, soon, near):
-    """Marks within `soon` [s] and `near` [N] of the one before become one with it, at the later time; a break lies
-    between others. Then they get their letters."""
+    """Marks within `soon` [s] and `near` [N] of the one before become one with it, at the later time. Then they get their letters."""
     merged = []
     for mark in sorted(marks, key=lambda mark: mark.time):
         if merged and mark.time - merged[-1].time <= soon and abs(mark.load - merged[-1].load) <= near:
@@ -87,14 +76,13 @@ LargestLoad = namedtuple("LargestLoad", "rows row name where is_peak")
 
 def largest_load(run):
     """None: nothing was pulled."""
-    value, pulled, read = run.value("peak_force"), pulled_of(run.tested()), pulled_of(run.tested(run.readings))
-    if value is None or not len(pulled):
+    pulled, read = (curve.where(np.isin(curve.phase, PULLING)) for curve in (run.curve, run.readings))
+    if run.value("peak_force") is None or not len(pulled):
         return None
     broke, rows = run.value("break_extension"), read if len(read) else pulled
     row = int(np.argmax(rows["load"]))
-    if broke is not None and (value > rows["load"][row] or in_length(run, rows["extension"][row]) == in_length(run, broke)):
-        row = int(np.argmin(np.abs(pulled["extension"] - broke)))  # where it parted the load is read, too
-        return LargestLoad(pulled, row, "peak", f"where the rod parted, at {in_length(run, broke)}", True)
+    if broke is not None and in_length(run, rows["extension"][row]) == in_length(run, broke):
+        return LargestLoad(rows, row, "peak", f"where the rod parted, at {in_length(run, broke)}", True)
     place, end = float(rows["extension"][row]), float(pulled["extension"].max())
     if row < len(rows) - 1 and end - place > NEAR * float(np.ptp(pulled["extension"])):
         return LargestLoad(rows, row, "peak", f"at an extension of {in_length(run, place)}", True)
@@ -107,13 +95,9 @@ def largest_load(run):
     return LargestLoad(rows, row, "largest load", where, False)
 
 
-def pulled_of(curve):
-    return curve.where(np.isin(curve.phase, PULLING))
-
-
 def end_of_pull(run, pulled):
     """Why the load went no higher."""
-    if run.tested()["time"][-1] > pulled["time"][-1]:
+    if run.curve["time"][-1] > pulled["time"][-1]:
         return "the pull ended"
     return NOT_STOPPED.get(run.result.get("ended_by"), "the test was stopped")
 

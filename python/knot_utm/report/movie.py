@@ -142,7 +142,7 @@ class OneTest:
     def __init__(self, folder):
         self.run = run = Run(folder)
         self.shapes, note = shapes_of(run)
-        self.tested = run.tested()
+        self.tested = run.curve.tested()
         if note or len(self.shapes) < 2:
             raise CannotReport(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
         if not len(self.tested):
@@ -156,8 +156,8 @@ class OneTest:
         self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())
 
     def at(self, time):
-        """The shape that was computed nearest to it; of a time before a break one from before that."""
-        return nearest(self.shapes, time + self.begin, self.run.time_of_break())
+        """The shape that was computed nearest to it."""
+        return nearest(self.shapes, time + self.begin)
 
     def until(self, time):
         """Extension and load up to a time [s], in the units of the page."""

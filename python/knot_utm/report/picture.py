@@ -57,7 +57,7 @@ def main():
     for word in () if of_runs else asked.words:
         if asked.knots or not re.match(r"(?!record:|out:)\w+:=", word):
             refuse("picture", f"--{'knots' if asked.knots else 'rviz'} takes no {word} (scripts/picture --help)")
-    parser.require_room("--out", asked.out, filter(os.path.isdir, asked.words) if of_runs else (), asked.overwrite)
+    parser.require_room("--out", asked.out, asked.words if of_runs else (), asked.overwrite)
     command = shlex.join(["scripts/picture", *(word for word in sys.argv[1:] if word != "--overwrite")])
     if of_runs:
         return draw(runs_of(asked.words), asked.out, command)
@@ -76,7 +76,7 @@ def runs_of(folders):
     except CannotReport as error:
         refuse("picture", str(error))
     for run in runs:
-        if not len(run.pull()):
+        if not len(run.curve.pull()):
             refuse("picture", f"{run.folder}: a run in which nothing was pulled")
     return runs
 
@@ -99,7 +99,7 @@ def rods(runs, letters):
     for number, (letter, run, shape) in enumerate(zip(letters, runs, shapes), 1):
         axes = figure.add_subplot(len(runs), 1, number)
         draw_shape(axes, run, shape)
-        axes.set_title(f"{letter}   s = {1e3 * run.pull()['extension'][-1]:.1f} mm", loc="left")
+        axes.set_title(f"{letter}   s = {1e3 * run.curve.pull()['extension'][-1]:.1f} mm", loc="left")
         axes.set(xlim=(left, right), ylim=(low, high))
     return figure
 
@@ -107,7 +107,7 @@ def rods(runs, letters):
 def draw(runs, file, command):
     last, ends = runs[-1], []
     for letter, run in zip(string.ascii_lowercase, runs):
-        pull = run.pull()
+        pull = run.curve.pull()
         ends.append(Mark([], *(float(pull[name][-1]) for name in ("time", "extension", "load"))))
         ends[-1].letter = letter
     images = [image_of(figure) for figure in (rods(runs, [end.letter for end in ends]), course(last), force_extension(last, ends))]

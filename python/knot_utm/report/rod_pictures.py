@@ -143,7 +143,7 @@ def touching(shape, radius):
 
 
 def label(axes, mark, shape, run):
-    tested = run.tested()  # a zeroing lets the extension jump; before it a shape is where the test begins
+    tested = run.curve.tested()  # a zeroing lets the extension jump; before it a shape is where the test begins
     curve = tested if len(tested) else run.curve
     at = float(np.interp(shape.time, curve["time"], curve["extension"]))
     place = {"xy": (0.0, 1.0), "xycoords": "axes fraction", "textcoords": "offset points", "va": "baseline", "color": INK}

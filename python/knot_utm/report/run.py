@@ -97,34 +97,10 @@ class Run:
         """Keys whose value would only repeat what was given."""
         return [key for key, why in self.reasons.items() if why.startswith("not predicted")]
 
-    def pull(self):
-        """The pull, up to the break."""
-        pull, broke = self.curve.pull(), self.value("break_extension")
-        return pull if broke is None else pull.where(pull["extension"] <= broke)
-
-    def time_of_break(self):
-        """[s]; None: the rod is whole. Of the rows at the extension of the break it is the one behind which the load
-        falls."""
-        broke = self.value("break_extension")
-        if broke is None or not len(self.curve):
-            return None
-        load, away = self.curve["load"], np.abs(self.curve["extension"] - broke)
-        rows = np.flatnonzero(away <= np.nanmin(away) + 1e-9)
-        falls = load[rows] - load[np.minimum(rows + 1, len(load) - 1)]
-        return float(self.curve["time"][rows[np.argmax(falls)]])
-
-    def tested(self, curve=None):
-        """The rows of the test proper, up to the break: behind it no force is known. `curve`: the one of all time steps,
-        or `readings`."""
-        tested, broke = (self.curve if curve is None else curve).tested(), self.time_of_break()
-        return tested if broke is None else tested.where(tested["time"] <= broke)
-
     def words_at(self, time):
-        """What happens at a time; no place before the test proper and behind a break."""
+        """What happens at a time; no place before the test proper."""
         phase = self.curve.phase[min(int(np.searchsorted(self.curve["time"], time)), len(self.curve) - 1)]
-        tested, broke, said = self.tested(), self.time_of_break(), f"{phase}, {time:.2f} s"
-        if broke is not None and time > (tested["time"][-1] if len(tested) else broke):
-            return said + ": the rod has parted"
+        tested, said = self.curve.tested(), f"{phase}, {time:.2f} s"
         if not len(tested) or time < tested["time"][0]:
             return said
         place = [with_unit(float(np.interp(time, tested["time"], tested[name])), unit)

@@ -3,7 +3,7 @@ from markupsafe import Markup
 
 from knot_utm.report.certificate import certificate, specification_checks, specification_verdict, stiffness_name, verdict
 from knot_utm.report.curves import course, error_band, force_extension
-from knot_utm.report.marks import end_of, largest_load, marks_of, time_of_break
+from knot_utm.report.marks import end_of, largest_load, marks_of
 from knot_utm.report.method_facts import knot_and_materials, method_facts, particulars, program
 from knot_utm.report.page import Box, certificate_section, facts, figure, head_of, Headline, no_value, render, Row, Table, verdict_box
 from knot_utm.report.quantities import (all_in_units, CERTIFICATE, error_shown, GROUPS, HEAD, in_units, is_rounding, quantity_of,
@@ -77,11 +77,11 @@ def figures_of(run, marks, largest):
                            "is not yet zeroed. While the knots are tied the load cell reads nothing.")
         shown_at = marks or [end_of(run.curve)]
         shapes, note = shapes_of(run)
-        at_marks = shapes if len(shapes) == 1 else [nearest(shapes, mark.time, time_of_break(shown_at)) for mark in shown_at]
+        at_marks = shapes if len(shapes) == 1 else [nearest(shapes, mark.time) for mark in shown_at]
         rod = [note and Box("warnings", [note]),
                figure(pictures(run, shown_at[-len(at_marks):], at_marks), "The rod at the marked points, coloured by its tension",
                       "The load axis runs from left to right. Parts of the rod that are farther away are paler. Each picture shows the rod at "
-                      "the recorded instant nearest to its mark; a mark before the break is shown before the break.", "JPEG")]
+                      "the recorded instant nearest to its mark.", "JPEG")]
         curve.append(turnable(run, shapes, marks))
     return curve, rod, over_time
 
@@ -90,7 +90,7 @@ def caption(run, marks, largest):
     band, peak = words_of_band(run), with_unit(run.value("peak_force"), run.units.force)
     sentences = [
         largest and not largest.is_peak and f"The curve has no peak: its largest load, {peak}, was read {largest.where}.",
-        run.time_of_break() is not None and "It ends where the rod parted: no load is known behind that.",
+        run.value("break_extension") is not None and "It ends where the rod parted.",
         f"The band shows the estimated numerical error, from the {'errors' if ' and ' in band else 'error'} of the {band} in the table below."
         if band else "No band of numerical error is drawn: it is made of the errors of the plateau, the lock and the stiffness, which are "
         "not known here.",
@@ -103,7 +103,7 @@ def caption(run, marks, largest):
 
 def words_of_band(run):
     """The readings whose errors it is made of; None: there is no band."""
-    if error_band(run, run.pull()) is None:
+    if error_band(run, run.curve.pull()) is None:
         return None
     names = {"plateau_force": "plateau force", "lock_extension": "lock extension", "locked_stiffness": stiffness_name(run.result)}
     *first, last = [name for key, name in names.items() if run.value(key + "_error") is not None]

@@ -31,7 +31,8 @@ def shapes_of(run):
     """All that the folder of a run has, in order, and what is to be said of them: a line, or nothing."""
     file = os.path.join(run.folder, "shapes.csv")
     if os.path.exists(file):
-        return shapes_in(file), ""
+        *shapes, last = shapes_in(file)
+        return shapes if shapes and last.tension is None else [*shapes, last], ""  # of a rod that has just parted no tension is known
     return [final_shape(run)], "There is no shapes.csv, so only the final shape is shown, without tensions."
 
 
@@ -72,7 +73,5 @@ def final_shape(run):
     return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, cuts=cuts_of(columns))
 
 
-def nearest(shapes, time, broke=None):
-    """The shape nearest to a time; of a time before the rod `broke` one from before that."""
-    i = int(np.argmin([abs(shape.time - time) for shape in shapes]))
-    return shapes[i - 1 if broke is not None and i > 0 and time <= broke < shapes[i].time else i]
+def nearest(shapes, time):
+    return min(shapes, key=lambda shape: abs(shape.time - time))
