@@ -12,7 +12,7 @@ from knot_utm.report.colours import colour_scales, LABELS
 from knot_utm.report.commands import CannotReport, file_ending, in_one_line, OneLineParser, test_in
 from knot_utm.report.curves import draw, small_loads
 from knot_utm.report.method_facts import knot_and_materials
-from knot_utm.report.rod_pictures import draw_rollers, tubes_of, view
+from knot_utm.report.rod_pictures import by_scale, draw_rod, view
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import nearest, shapes_of
 from knot_utm.report.style import BLUE, FAINT, new_figure, ORANGE, USUAL
@@ -114,10 +114,7 @@ class Stage:
     def draw(self, figure, left, wide, test, time):
         shape = test.at(time)
         rod = figure.add_axes([left + 0.01, 0.47, wide - 0.02, 0.42])
-        tubes_of(test.run, shape, self.scale).draw(rod)
-        draw_rollers(rod, test.run, shape)
-        rod.set(xlim=test.box[:2], ylim=test.box[2:], aspect="equal")
-        rod.axis("off")
+        draw_rod(rod, test.run, shape, by_scale(self.scale, shape), test.box)
         figure.text(left + 0.5 * wide, 0.945, test.title, ha="center", fontsize=USUAL + 7, weight="bold")
         figure.text(left + 0.5 * wide, 0.905, test.run.words_at(shape.time), ha="center", fontsize=USUAL + 4)
         # Where the peak hides the plateau small loads are shown again, above.

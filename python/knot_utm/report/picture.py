@@ -23,7 +23,7 @@ from knot_utm.report.commands import CannotReport, in_one_line, OneLineParser, r
 from knot_utm.report.curves import course, force_extension
 from knot_utm.report.marks import Mark
 from knot_utm.report.method_facts import materials_of
-from knot_utm.report.rod_pictures import draw_rollers, Tubes
+from knot_utm.report.rod_pictures import draw_rod
 from knot_utm.report.run import read_yaml, Run
 from knot_utm.report.shapes import final_shape
 from knot_utm.report.style import BLUE, image_of, new_figure, ORANGE, WIDTH
@@ -81,14 +81,6 @@ def runs_of(folders):
     return runs
 
 
-def draw_shape(axes, run, shape):
-    Tubes(run, shape, lambda node: np.where((node < 0.5 * (len(shape.points) - 1))[:, None], FIRST_HALF, SECOND_HALF)).draw(axes)
-    if run.method["specimen"]["knot"] == "fisherman":
-        draw_rollers(axes, run, shape)
-    axes.set_aspect("equal")
-    axes.axis("off")
-
-
 def rods(runs, letters):
     """Their final shapes, on one scale for all of them."""
     shapes = [final_shape(run) for run in runs]
@@ -98,9 +90,9 @@ def rods(runs, letters):
     (left, low), (right, high) = drawn.min(axis=0) - 2e3 * runs[-1].thickest(), drawn.max(axis=0) + 2e3 * runs[-1].thickest()
     for number, (letter, run, shape) in enumerate(zip(letters, runs, shapes), 1):
         axes = figure.add_subplot(len(runs), 1, number)
-        draw_shape(axes, run, shape)
+        draw_rod(axes, run, shape, lambda node, half=0.5 * (len(shape.points) - 1): np.where(
+            (node < half)[:, None], FIRST_HALF, SECOND_HALF), (left, right, low, high))
         axes.set_title(f"{letter}   s = {1e3 * run.curve.pull()['extension'][-1]:.1f} mm", loc="left")
-        axes.set(xlim=(left, right), ylim=(low, high))
     return figure
 
 
