@@ -1,5 +1,6 @@
 """The points of a test that its curve and its pictures have in common: a, b, c …, and where the load was largest."""
 from collections import namedtuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -7,46 +8,44 @@ from knot_utm.report.quantities import shown
 from knot_utm.report.run import PULLING
 
 
+# What is marked besides the start, the largest load and the end: by the key that has its extension.
+REACHED = {"jump_extension": "a knot jumped open", "lock_extension": "lock", "break_extension": "break"}
+
+
+@dataclass
 class Mark:
     """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]."""
 
-    def __init__(self, names, time, extension, load):
-        self.names, self.time, self.extension, self.load = names, time, extension, load
-        self.letter = ""
+    names: list
+    time: float
+    extension: float
+    load: float
+    letter: str = "a"
 
     def title(self):
         return ", ".join(self.names)
 
 
-def marks_of(run):
-    """Start of the pull, a knot's jump, lock, largest load, break and end, in order of time; none where nothing was tested."""
-    tested, pull = run.curve.tested(), run.curve.pull()
-    if not len(tested):
-        return []
-    begin = pull if len(pull) else tested
-    found = [("start of the pull" if len(pull) else "start", begin, 0)]
-    found += reached(pull, "a knot jumped open", run.value("jump_extension"))
-    found += reached(pull, "lock", run.value("lock_extension"))
-    largest = largest_load(run)
-    if largest:
-        found.append((largest.name, largest.rows, largest.row))
-    found += reached(pull, "break", run.value("break_extension"))
-    all_marks = [Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found]
-    return together([*all_marks, end_of(tested)], 0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
+def mark_at(rows, i, *names):
+    return Mark(list(names), *(float(rows[column][i]) for column in ("time", "extension", "load")))
 
 
 def end_of(curve):
     """The mark at the end, and the only one of a test that ended before anything was pulled."""
-    mark = Mark(["end of the test"], curve["time"][-1], curve["extension"][-1], curve["load"][-1])
-    mark.letter = "a"
-    return mark
+    return mark_at(curve, -1, "end of the test")
 
 
-def reached(pull, name, extension):
-    """The row of the pull that is nearest to an extension; none where there is none."""
-    if extension is None or not len(pull):
+def marks_of(run):
+    """Start of the pull, a knot's jump, lock, largest load, break and end, in order of time; none where nothing was tested."""
+    tested, pull, largest = run.curve.tested(), run.curve.pull(), largest_load(run)
+    if not len(tested):
         return []
-    return [(name, pull, int(np.argmin(np.abs(pull["extension"] - extension))))]
+    marks = [mark_at(pull, 0, "start of the pull") if len(pull) else mark_at(tested, 0, "start")]
+    marks += [mark_at(largest.rows, largest.row, largest.name)] if largest else []
+    marks += [mark_at(pull, int(np.argmin(np.abs(pull["extension"] - run.value(key)))), name)
+              for key, name in REACHED.items() if len(pull) and run.value(key) is not None]
+    marks.append(end_of(tested))
+    return together(marks, 0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
 
 
 def together(marks, soon, near):

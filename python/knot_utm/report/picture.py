@@ -21,7 +21,7 @@ from PIL.PngImagePlugin import PngInfo
 from knot_utm import tool
 from knot_utm.report.commands import CannotReport, in_one_line, OneLineParser, refuse
 from knot_utm.report.curves import course, force_extension
-from knot_utm.report.marks import Mark
+from knot_utm.report.marks import mark_at
 from knot_utm.report.method_facts import materials_of
 from knot_utm.report.rod_pictures import draw_rod
 from knot_utm.report.run import read_yaml, Run
@@ -97,11 +97,9 @@ def rods(runs, letters):
 
 
 def draw(runs, file, command):
-    last, ends = runs[-1], []
-    for letter, run in zip(string.ascii_lowercase, runs):
-        pull = run.curve.pull()
-        ends.append(Mark([], *(float(pull[name][-1]) for name in ("time", "extension", "load"))))
-        ends[-1].letter = letter
+    last, ends = runs[-1], [mark_at(run.curve.pull(), -1) for run in runs]
+    for letter, end in zip(string.ascii_lowercase, ends):
+        end.letter = letter
     images = [image_of(figure) for figure in (rods(runs, [end.letter for end in ends]), course(last), force_extension(last, ends))]
     picture = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
     for number, image in enumerate(images):
