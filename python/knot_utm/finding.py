@@ -14,12 +14,12 @@ from scipy import stats
 from knot_utm import tool
 from knot_utm.arguments import folder_of, jobs_of, make_folder, shown, write_whole
 from knot_utm.errors import WrongInput
-from knot_utm.fitting import Record, Search, pull_of_table, read_pull, value_at
+from knot_utm.fitting import Record, Search, pull_of_table, read_pull
 from knot_utm.report.fit import report_on_fit
 from knot_utm.report.page import write as write_page
 from knot_utm.study import Study
 from knot_utm.sweeping import Sweep
-from knot_utm.yaml_text import described, is_number, text_of, value_of
+from knot_utm.yaml_text import described, is_number, text_of, value_at, value_of
 
 WRITTEN = ("fit.yaml", "curves.csv", "profiles.csv", "method.yaml", "method_2.yaml", "report.html", "report.pdf")
 OFFSET = re.compile(r"record(?:\.([1-9]\d*))?\.(force|extension)_offset")

@@ -23,7 +23,7 @@ from scipy.stats import chi2, qmc
 
 from knot_utm.errors import WrongInput
 from knot_utm.runs import PULLS
-from knot_utm.yaml_text import is_number
+from knot_utm.yaml_text import is_number, value_at
 
 SAME_ZERO = 1e-9  # [m]
 AT_ONCE = 0.03    # of the extension, within which a rod that parts lets go of its load
@@ -359,18 +359,6 @@ def _sobol(keys, count, seed):
 def place_of(solved):
     """The place that lmfit's parameters or its result have."""
     return np.array(list(getattr(solved, "params", solved).valuesdict().values()))
-
-
-def value_at(node, path):
-    """The value of a dotted key of a method; a step of a program is found by its name or its number. None where there is none."""
-    name, _, rest = path.partition(".")
-    if isinstance(node, list):
-        found = next((step[name] for step in node if isinstance(step, dict) and name in step), None)
-        if found is None and name.isdigit() and int(name) < len(node):
-            found = node[int(name)]
-    else:
-        found = node.get(name) if isinstance(node, dict) else None
-    return value_at(found, rest) if rest and found is not None else found
 
 
 def _numbers(result):

@@ -42,17 +42,11 @@ def in_si(method, points, units):
         material = {key: value for key, value in point.items() if key.split(".")[0] == "material" and key not in units}
         name = json.dumps(material, sort_keys=True, default=str)
         if name not in rods:
-            rods[name] = _rod(method, material)
+            given = [material.get(key) for key in reversed(OF_THE_ROD)]
+            rods[name] = given if all(map(is_number, given)) else rod_of(value_of(tool.resolved(method, material)))
         found.append({key: value * scale(units[key], rods[name]) if key in units and is_number(value) else value
                       for key, value in point.items()})
     return found
-
-
-def _rod(method, settings):
-    radius, stiffness = (settings.get(key) for key in OF_THE_ROD)
-    if is_number(radius) and is_number(stiffness):
-        return stiffness, radius
-    return rod_of(value_of(tool.resolved(method, settings)))
 
 
 def rod_of(method):

@@ -129,18 +129,15 @@ def _map(table, keys):
 
 
 def _slice(panel, near, places, keys, of, inside):
-    colours = np.array([_paler(COLOURS[name], share) for name, share, _, _ in near.majority(places)])
+    """Each place in the colour of its outcome, as far from white as the share is from a third."""
+    names, shares, *_ = zip(*near.majority(places))
+    strength = 0.75 * np.clip((np.array(shares) - 1 / 3) / (2 / 3), 0.0, 1.0)[:, None]
+    colours = 1.0 - strength * (1.0 - np.array([to_rgb(COLOURS[name]) for name in names]))
     corners = near.values(np.repeat((np.arange(FINE + 1) / FINE)[:, None], len(keys), axis=1))
     panel.pcolormesh(corners[:, of[0]], corners[:, of[1]], np.zeros((FINE, FINE))).set(array=None, facecolor=colours)
     runs = near.values(near.tree.data[inside])
     panel.scatter(runs[:, of[0]], runs[:, of[1]], s=7, c=[COLOURS[near.names[outcome]] for outcome in near.outcomes[inside]],
                   edgecolors="white", linewidths=0.3)
-
-
-def _paler(colour, share):
-    """As far from white as the share is from a third."""
-    strength = 0.75 * np.clip((share - 1 / 3) / (2 / 3), 0.0, 1.0)
-    return 1.0 - strength * (1.0 - np.array(to_rgb(colour)))
 
 
 def _legend(drawn, names):

@@ -68,7 +68,7 @@ def figure_of_number(table, keys, result, cases=()):
     each number, with a colour for each such combination."""
     numbers, words = axes.numbers_and_words(table, keys, cases)
     groups = axes.parts(table, words)
-    if len(numbers) == 2 and all(_is_grid(rows, numbers) for _, rows in groups):
+    if len(numbers) == 2 and all(len(rows[numbers].drop_duplicates()) == rows[numbers].nunique().prod() for _, rows in groups):
         return _maps(table, groups, numbers, result)
     return _panels(table, groups, numbers or words[:1] or keys[:1], result)
 
@@ -130,11 +130,6 @@ def _maps(table, groups, numbers, result):
         axes.name_axes(panel, table, *numbers)
     drawn.colorbar(shown, ax=panels, label=axes.with_unit(result, table))
     return drawn
-
-
-def _is_grid(rows, keys):
-    """Whether every combination of the values is there."""
-    return len(rows[keys].drop_duplicates()) == np.prod([rows[key].nunique() for key in keys])
 
 
 # ---- curves ----

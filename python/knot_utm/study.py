@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from knot_utm import design, groups, tool
 from knot_utm.errors import WrongInput
-from knot_utm.yaml_text import is_number, is_whole, load, require, text_of
+from knot_utm.yaml_text import is_number, is_whole, load, require, text_of, value_at
 
 KEYS = ("method", "for_each", "vary", "below", "design", "runs", "repeat", "seed")
 DESIGNS = ("grid", "one_at_a_time", "list", "sobol")
@@ -109,10 +109,7 @@ def _method(given):
 
 
 def _require_one_specimen(method):
-    given = load(method)
-    specimens = given.get("specimens") if isinstance(given, dict) else None
-    count = specimens.get("count", 1) if isinstance(specimens, dict) else 1
-    if count != 1:
+    if (count := value_at(load(method), tool.COUNT) or 1) != 1:
         raise WrongInput(f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
 
 

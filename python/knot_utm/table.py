@@ -50,7 +50,7 @@ class Table:
         for name, values in zip(self.units, zip(*self.rows) if self.rows else ((),) * len(self.units)):
             if name == "exit_code":
                 columns[name] = pd.Series(values, dtype=int)
-            elif name in numbers or (name in self.keys and all(_is_number(value) for value in values)):
+            elif name in numbers or (name in self.keys and {type(value) for value in values} <= {int, float}):
                 columns[name] = pd.Series([None if value is None else float(value) for value in values], dtype=float)
             else:
                 columns[name] = pd.Series([shown(value) for value in values], dtype=object)
@@ -95,7 +95,3 @@ def shown(value):
     if isinstance(value, list) and all(isinstance(entry, str) for entry in value):
         return "; ".join(value)
     return repr(value) if isinstance(value, float) else text_of(value)
-
-
-def _is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -91,9 +91,7 @@ def _logistic(u, happened):
 def levels(table, by, result):
     """For each combination of the columns `by`: n, mean, sd and standard_error of the readings that are there."""
     groups = table.groupby(by, sort=False, dropna=False)[result]
-    out = groups.agg(n="count", mean="mean", sd="std").reset_index()
-    out["standard_error"] = out["sd"] / np.sqrt(out["n"])
-    return out
+    return groups.agg(n="count", mean="mean", sd="std", standard_error="sem").reset_index()
 
 
 def differences(table, keys, cases, result):
@@ -108,16 +106,12 @@ def differences(table, keys, cases, result):
         for _, run in runs:
             changed = [key for key in others if run[key].iloc[0] != first[key].iloc[0]]
             if len(changed) == 1:
-                rows.append({**dict(zip(cases, case)), "key": changed[0], "value": run[changed[0]].iloc[0],
-                             **_difference(first, run, result)})
+                pairs = pd.DataFrame({"first": first[result].to_numpy(), "then": run[result].to_numpy()}).dropna()
+                change, then = pairs["then"] - pairs["first"], pairs["then"]
+                rows.append({**dict(zip(cases, case)), "key": changed[0], "value": run[changed[0]].iloc[0], "n": len(pairs),
+                             "mean": then.mean(), "sd": then.std(), "difference": change.mean(), "standard_error": change.sem(),
+                             "relative": change.mean() / pairs["first"].mean()})
     return pd.DataFrame(rows)
-
-
-def _difference(first, run, result):
-    pairs = pd.DataFrame({"first": first[result].to_numpy(), "then": run[result].to_numpy()}).dropna()
-    n, change = len(pairs), pairs["then"] - pairs["first"]
-    return {"n": n, "mean": pairs["then"].mean(), "sd": pairs["then"].std(), "difference": change.mean(),
-            "standard_error": change.std() / np.sqrt(n) if n else np.nan, "relative": change.mean() / pairs["first"].mean()}
 
 
 class Neighbours:

@@ -83,3 +83,15 @@ def is_number(value):
 def value_of(text):
     """What a text in YAML says. Raises yaml.YAMLError or WrongInput."""
     return yaml.load(text, _Loader)
+
+
+def value_at(node, path):
+    """The value of a dotted key of a method; a step of a program is found by its name or its number. None where there is none."""
+    name, _, rest = path.partition(".")
+    if isinstance(node, list):
+        found = next((step[name] for step in node if isinstance(step, dict) and name in step), None)
+        if found is None and name.isdigit() and int(name) < len(node):
+            found = node[int(name)]
+    else:
+        found = node.get(name) if isinstance(node, dict) else None
+    return value_at(found, rest) if rest and found is not None else found

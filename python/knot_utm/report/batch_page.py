@@ -233,15 +233,13 @@ def checks_of_all(checks):
     found = {}
     for number_of_specimen, some in checks:
         for check in some:
-            found.setdefault(check.words, []).append((number_of_specimen, check))
-    return [over_all(words, some) for words, some in found.items()]
-
-
-def over_all(words, found):
-    first, missed = found[0][1], [one for one, check in found if not check.kept]
-    if 0 < len(missed) < len(found):
-        words += f"; not so {named(missed)}"
-    return Check(words, first.key, f"{len(found) - len(missed)} of {len(found)} specimens", first.limit, not missed)
+            found.setdefault((check.words, check.key), []).append((number_of_specimen, check))
+    rows = []
+    for (words, key), some in found.items():
+        missed = [number_of_specimen for number_of_specimen, check in some if not check.kept]
+        words += f"; not so {named(missed)}" if 0 < len(missed) < len(some) else ""
+        rows.append(Check(words, key, f"{len(some) - len(missed)} of {len(some)} specimens", some[0][1].limit, not missed))
+    return rows
 
 
 def verdict_of_all(checks, sentence_of):

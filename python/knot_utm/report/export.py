@@ -92,7 +92,7 @@ def at_one_time(arguments, run, shapes, shape):
 
 def glb(mesh, colours, name):
     """The bytes of a file of a mesh [m]. `colours`: red, green, blue of each point, 0 to 1, as a screen shows them."""
-    columns = {"POSITION": mesh.points.astype("<f4"), "NORMAL": mesh.normals.astype("<f4"), "COLOR_0": with_alpha(linear(colours))}
+    columns = {"POSITION": mesh.points.astype("<f4"), "NORMAL": mesh.normals.astype("<f4"), "COLOR_0": linear(colours)}
     arrays = [*columns.values(), mesh.triangles().astype("<u4").reshape(-1)]
     binary, views = b"", []
     for array in arrays:
@@ -120,12 +120,9 @@ def accessor(view, array):
 
 
 def linear(colours):
-    """From sRGB, as glTF has them."""
-    return np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
-
-
-def with_alpha(colours):
-    return np.column_stack([np.rint(255.0 * colours), np.full(len(colours), 255.0)]).astype(np.uint8)
+    """From sRGB, as glTF has them, and opaque."""
+    light = np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
+    return np.rint(255.0 * np.column_stack([light, np.ones(len(light))])).astype(np.uint8)
 
 
 def padded(content, by):

@@ -90,15 +90,11 @@ def largest_load(run):
         return LargestLoad(rows, row, "peak", where + "before the rod parted", True)
     if set(pulled.phase) == {"cycle"}:
         return LargestLoad(rows, row, "largest load", where + "at the upper turning point of the cycles", False)
-    where += f"{'where' if in_length(run, place) == in_length(run, end) else 'before'} {end_of_pull(run, pulled)}"
+    where += "where " if in_length(run, place) == in_length(run, end) else "before "
+    # Why the load went no higher.
+    where += ("the pull ended" if run.curve["time"][-1] > pulled["time"][-1] else
+              NOT_STOPPED.get(run.result.get("ended_by"), "the test was stopped"))
     return LargestLoad(rows, row, "largest load", where, False)
-
-
-def end_of_pull(run, pulled):
-    """Why the load went no higher."""
-    if run.curve["time"][-1] > pulled["time"][-1]:
-        return "the pull ended"
-    return NOT_STOPPED.get(run.result.get("ended_by"), "the test was stopped")
 
 
 def in_length(run, metres):
