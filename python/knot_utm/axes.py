@@ -1,7 +1,8 @@
-"""What all plots of a study share: panels, names of axes, which key makes what."""
+"""What plots with several panels share: panels, names of axes, which key makes what."""
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from knot_utm.report.style import new_figure
 
 FAR = 20  # times the smallest value: the axis is then logarithmic
 ENOUGH_DECADES = 1e3  # times the smallest value: two powers of ten or more lie between, which are ticks enough
@@ -12,7 +13,8 @@ def panels(count, width=4.5, height=4.0, columns=MOST_COLUMNS):
     """A figure and its panels, row by row."""
     columns = min(count, columns)
     rows = -(-count // columns)
-    drawn = Figure(figsize=(2 + width * columns, height * rows), layout="constrained")
+    drawn = new_figure(2 + width * columns, height * rows)
+    drawn.set_layout_engine("constrained")
     places = list(drawn.subplots(rows, columns, squeeze=False).flat)
     for unused in places[count:]:
         unused.set_visible(False)

@@ -100,10 +100,6 @@ class SweepFolder:
         finally:
             shutil.rmtree(part, ignore_errors=True)
 
-    def empty(self, part):
-        shutil.rmtree(part)
-        os.mkdir(part)
-
     def finish(self, part, run, record):
         """Keeps a run that was made, instead of one that may be there."""
         with open(os.path.join(part, RECORD), "w", encoding="utf-8") as file:

@@ -1,6 +1,7 @@
 """A study, run by run, on all cores; and its parts, for those who start the runs in another way."""
 import contextlib
 import os
+import shutil
 import signal
 import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -163,7 +164,8 @@ class Sweep:
             self._stop(said.partition(";")[0])
             return
         if result is None or result.get("reason") == INTERRUPTED:
-            self.folder.empty(part)  # there is nothing in it to rely on
+            shutil.rmtree(part)  # there is nothing in it to rely on
+            os.mkdir(part)
         why = result.get("reason") if result else None
         error = None if code == 0 else f"killed by {signal.Signals(-code).name}" if code < 0 else why or said
         record = {"exit_code": code if code >= 0 else 128 - code, "error": error, "set": point, "version": tool.version(),

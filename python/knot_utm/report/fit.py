@@ -3,11 +3,12 @@ import os
 
 import numpy as np
 
+from knot_utm import axes
 from knot_utm.report.curves import draw, load_axes
 from knot_utm.report.page import Box, figure, render, Row, Table, verdict_box
 from knot_utm.report.quantities import is_number, number, Units
 from knot_utm.report.run import printable, read_table, read_yaml
-from knot_utm.report.style import BLUE, GREEN, GREY, INK, new_figure, ORANGE, short, WIDTH
+from knot_utm.report.style import BLUE, GREEN, GREY, INK, ORANGE, short
 
 NOT_KEYS = ("rms", "correlation", "fits", "chi_square", "degrees_of_freedom", "notes", "records")
 RISE = 3.84  # of -2 log L, which bounds an interval of 95 %
@@ -38,12 +39,8 @@ def curve(name, extension, measured, simulated, error):
 
 def profiles(keys, found):
     """How much less likely other values of each key are. `found`: {key: (values, rises)}."""
-    down = -(-len(keys) // 2)
-    drawn = new_figure(WIDTH, 2.5 * down)
-    panels = drawn.subplots(down, 2, squeeze=False, sharey=True)
-    for panel in panels.ravel()[len(keys):]:
-        panel.set_visible(False)
-    for panel, (name, key) in zip(panels.ravel(), keys.items()):
+    drawn, panels = axes.panels(len(keys), 3.0, 2.5, 2)
+    for panel, (name, key) in zip(panels, keys.items()):
         places, rises = found.get(name, (np.zeros(0), np.zeros(0)))
         panel.axhline(RISE, color=GREY, lw=0.8, ls=(0, (4, 3)))
         panel.plot(places, rises, color=BLUE, lw=1.4)
@@ -52,12 +49,8 @@ def profiles(keys, found):
         near = places[rises <= 1.5 * HIGHEST]
         if len(near) > 1 and np.ptp(near) > 0:
             panel.set_xlim(near[0], near[-1])
-        panel.set_ylim(0.0, HIGHEST)
-        panel.set_xlabel(name)
+        panel.set(ylim=(0.0, HIGHEST), xlabel=name, ylabel="rise of –2 log L")
         panel.locator_params(axis="x", nbins=4)
-    for row in panels:
-        row[0].set_ylabel("rise of –2 log L")
-    drawn.subplots_adjust(left=0.09, right=0.985, bottom=0.55 / (2.5 * down), top=1.0 - 0.12 / (2.5 * down), wspace=0.1, hspace=0.45)
     return drawn
 
 

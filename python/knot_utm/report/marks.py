@@ -26,8 +26,8 @@ class Mark:
         return ", ".join(self.names)
 
 
-def mark_at(rows, i, *names):
-    return Mark(list(names), *(float(rows[column][i]) for column in ("time", "extension", "load")))
+def mark_at(rows, i, *names, letter="a"):
+    return Mark(list(names), *(float(rows[column][i]) for column in ("time", "extension", "load")), letter)
 
 
 def end_of(curve):

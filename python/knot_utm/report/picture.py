@@ -97,14 +97,9 @@ def rods(runs, letters):
 
 
 def draw(runs, file, command):
-    last, ends = runs[-1], [mark_at(run.curve.pull(), -1) for run in runs]
-    for letter, end in zip(string.ascii_lowercase, ends):
-        end.letter = letter
+    last, ends = runs[-1], [mark_at(run.curve.pull(), -1, letter=letter) for letter, run in zip(string.ascii_lowercase, runs)]
     images = [image_of(figure) for figure in (rods(runs, [end.letter for end in ends]), course(last), force_extension(last, ends))]
-    picture = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
-    for number, image in enumerate(images):
-        picture.paste(image, (0, sum(image.height for image in images[:number])))
-    save(picture, file, facts_of_run(last.folder, command))
+    save(Image.fromarray(np.vstack(images)), file, facts_of_run(last.folder, command))
 
 
 def save(picture, file, facts):
