@@ -8,8 +8,8 @@ import yaml
 from scipy import integrate, optimize
 
 from knot_utm.errors import WrongInput
-from knot_utm.report.commands import OneLineParser, refuse
-from knot_utm.yaml_text import no_text
+from knot_utm.report.commands import in_one_line, OneLineParser
+from knot_utm.yaml_text import read_text
 
 GRAVITY = 9.81  # [m/s2]
 LEAST_ANGLE = math.radians(0.05)  # of the end of a cantilever: less is not seen
@@ -464,16 +464,15 @@ def main():
     parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
     asked = parser.parse_args()
     parser.require_room("--out", asked.out, [asked.measurements], asked.overwrite)
+    text = read_text(asked.measurements)
     try:
-        with open(asked.measurements, encoding="utf-8") as file:
-            given, values, errors = read(file.read())
+        given, values, errors = read(text)
         usable(values, properties(values))
         here, uncertain = with_errors(values, errors)
-        with open(asked.out, "w", encoding="utf-8") as file:
-            file.write(material(given, here, uncertain, values))
-    except (WrongInput, OSError, yaml.YAMLError, UnicodeDecodeError) as error:
-        why = no_text(error) if isinstance(error, UnicodeDecodeError) else " ".join(str(error).split())
-        refuse("material", f"{asked.measurements}: {why}")
+    except (WrongInput, yaml.YAMLError) as error:
+        raise WrongInput(f"{asked.measurements}: {' '.join(str(error).split())}") from error
+    with open(asked.out, "w", encoding="utf-8") as file:
+        file.write(material(given, here, uncertain, values))
     print(f"{asked.out}: {in_words(here)}")
     if "rate" in here:
         print("for a method: " + rates(here, uncertain))
@@ -482,4 +481,5 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    with in_one_line("material"):
+        main()

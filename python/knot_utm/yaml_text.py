@@ -31,23 +31,30 @@ for _side in (_Loader, _Dumper):
                                 list("-+.0123456789"))
 
 
-def load(path):
-    """What the file holds. Raises WrongInput, which names the file."""
+def read_text(path, errors="strict"):
+    """What a file holds. Raises WrongInput, which names it."""
     try:
-        with open(path, encoding="utf-8") as file:
-            return yaml.load(file, _Loader)
+        with open(path, encoding="utf-8", errors=errors) as file:
+            return file.read()
     except OSError as error:
         raise WrongInput(f"{path}: {error.strerror.lower()}") from error
     except UnicodeDecodeError as error:
-        raise WrongInput(f"{path}: {no_text(error)}") from error
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise WrongInput(f"{path}: line {line}: the byte 0x{error.object[error.start]:02x} is no text in UTF-8") from error
+
+
+def printable(text):
+    """Names of files are bytes, which need not be text: such bytes as YAML too writes them, and reads them back."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def load(path, errors="strict"):
+    """What a YAML file says. Raises WrongInput, which names it."""
+    text = printable(read_text(path, errors))
+    try:
+        return yaml.load(text, _Loader)
     except (yaml.YAMLError, WrongInput) as error:
         raise WrongInput(f"{path}: {' '.join(str(error).split())}") from error
-
-
-def no_text(error):
-    """What the UnicodeDecodeError of a whole file's reading says."""
-    line = error.object.count(b"\n", 0, error.start) + 1
-    return f"line {line}: the byte 0x{error.object[error.start]:02x} is no text in UTF-8"
 
 
 def text_of(value):

@@ -8,8 +8,8 @@ from collections import Counter
 import numpy as np
 from markupsafe import Markup
 
+from knot_utm.errors import WrongInput
 from knot_utm.report.certificate import certificate, Check, specification_checks
-from knot_utm.report.commands import CannotReport
 from knot_utm.report.curves import draw, load_axes, mean_curve, reach, small_loads
 from knot_utm.report.marks import largest_load
 from knot_utm.report.method_facts import knot_and_materials, label_of, method_facts, particulars, place_of, program, sentence, unit_of
@@ -44,7 +44,7 @@ class Batch:
         self.table = read_table(specimens, ("specimen",), OUTCOME)
         self.numbers, self.rejected = self.table["specimen"].astype(int).tolist(), self.table["rejected"] == "true"
         if not self.numbers:
-            raise CannotReport(f"{specimens}: no specimens")
+            raise WrongInput(f"{specimens}: no specimens")
         self.drawn = list(self.table)[1:list(self.table).index(OUTCOME[0])]
         self.facts = read_yaml(os.path.join(folder, "statistics.yaml"), "specimens", "rejected", "motion_pattern")
         self.reasons = {one["specimen"]: in_units(one["reason"], self.units) for one in self.facts["rejected"]}

@@ -15,10 +15,6 @@ PACKAGES = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml"
             "jinja2": "python3-jinja2", "weasyprint": "weasyprint", "lmfit": "python3-lmfit", "pandas": "python3-pandas"}
 
 
-class CannotReport(RuntimeError):
-    pass
-
-
 @contextlib.contextmanager
 def in_one_line(program, goes_on=False):
     """Ends the program with a line, whatever goes wrong: with exit code 2 for bad input, else with 1. `goes_on`: whether the same

@@ -6,13 +6,14 @@ from collections import namedtuple
 import numpy as np
 from markupsafe import Markup
 
-from knot_utm.report.commands import CannotReport
+from knot_utm.errors import WrongInput
 from knot_utm.report.curves import draw, load_axes, reach, small_loads
 from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.page import Box, figure, Headline, no_value, render, Row, Table
 from knot_utm.report.quantities import all_in_units, is_number, number, percent, quantity_of, shown, Units, units_of, with_unit
-from knot_utm.report.run import printable, read_table, read_yaml, texts_of
+from knot_utm.report.run import read_table, read_yaml, texts_of
 from knot_utm.report.style import BLUE, GREEN, GREY, INK, ORANGE, short, SMALL
+from knot_utm.yaml_text import printable
 
 READINGS = ("peak_force", "plateau_force", "plateau_force_low", "plateau_force_high", "plateau_force_slope",
             "breakaway_force", "largest_drop", "jump_force", "force_after_jump", "lock_extension_by_load",
@@ -45,7 +46,7 @@ def run_beside(file):
     method, result = (os.path.join(folder, name) for name in ("method.yaml", "result.yaml"))
     try:
         return Simulated(folder, read_yaml(method), texts_of(method, "report"), read_yaml(result))
-    except CannotReport:
+    except WrongInput:
         return None
 
 

@@ -11,8 +11,9 @@ import xml.etree.ElementTree as xml
 
 import numpy as np
 
+from knot_utm.errors import WrongInput
 from knot_utm.report.colours import colour_scales, LABELS, node_values
-from knot_utm.report.commands import CannotReport, file_ending, in_one_line, OneLineParser, test_in
+from knot_utm.report.commands import file_ending, in_one_line, OneLineParser, test_in
 from knot_utm.report.rod_pictures import UNKNOWN
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import lengths, nearest, ropes, shapes_of
@@ -79,7 +80,7 @@ def at_one_time(arguments, run, shapes, shape):
     radius, values = run.method["material"]["radius"], node_values(shape)
     scales = {name: scale for name, scale in colour_scales(shapes, radius, run.units).items() if name in values}
     if arguments.color and arguments.color not in scales:
-        raise CannotReport(f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
+        raise WrongInput(f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
                            f"{', '.join(name for name in values if name in scales)}")
     scale = scales.get(arguments.color or "tension")
     mesh = rod_mesh(shape.points, ropes(shape), run.radii(shape))

@@ -7,8 +7,9 @@ from knot_utm import axes
 from knot_utm.report.curves import draw, load_axes
 from knot_utm.report.page import Box, figure, render, Row, Table, verdict_box
 from knot_utm.report.quantities import is_number, number, Units
-from knot_utm.report.run import printable, read_table, read_yaml
+from knot_utm.report.run import read_table, read_yaml
 from knot_utm.report.style import BLUE, GREEN, GREY, INK, ORANGE, short
+from knot_utm.yaml_text import printable
 
 NOT_KEYS = ("rms", "correlation", "fits", "chi_square", "degrees_of_freedom", "notes", "records")
 RISE = 3.84  # of -2 log L, which bounds an interval of 95 %

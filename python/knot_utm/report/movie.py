@@ -8,8 +8,9 @@ import sys
 
 import numpy as np
 
+from knot_utm.errors import WrongInput
 from knot_utm.report.colours import colour_scales, LABELS
-from knot_utm.report.commands import CannotReport, file_ending, in_one_line, OneLineParser, test_in
+from knot_utm.report.commands import file_ending, in_one_line, OneLineParser, test_in
 from knot_utm.report.curves import draw, small_loads
 from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.rod_pictures import by_scale, draw_rod, view
@@ -44,7 +45,7 @@ def asked():
 def main():
     arguments = asked()
     if shutil.which("ffmpeg") is None:
-        raise CannotReport("there is no ffmpeg: install Debian's package ffmpeg")
+        raise RuntimeError("there is no ffmpeg: install Debian's package ffmpeg")
     stage = Stage(arguments.runs, arguments.color, SIZE)
     times = stage.times(round(arguments.seconds * arguments.rate))
     part = arguments.out + ".part"
@@ -75,7 +76,7 @@ def encode(stage, times, rate, file):
         pass  # what the encoder says tells more
     _, said = encoder.communicate()
     if encoder.returncode != 0:
-        raise CannotReport(f"{file}: ffmpeg: {said.decode(errors='replace')}")
+        raise RuntimeError(f"{file}: ffmpeg: {said.decode(errors='replace')}")
 
 
 class Stage:
@@ -87,7 +88,7 @@ class Stage:
         first = self.tests[0].run
         scales = colour_scales([shape for test in self.tests for shape in test.shapes], first.method["material"]["radius"], first.units)
         if name not in scales:
-            raise CannotReport(f"{folders[0]}: --color {name}: it is not known, or nowhere different from zero; known are: "
+            raise WrongInput(f"{folders[0]}: --color {name}: it is not known, or nowhere different from zero; known are: "
                                f"{', '.join(scales)}")
         self.scale = scales[name]
         self.extensions, self.loads = ((min(0.0, *(one.min() for one in of_tests)), max(1e-9, *(one.max() for one in of_tests)))
@@ -141,9 +142,9 @@ class OneTest:
         self.shapes, note = shapes_of(run)
         self.tested = run.curve.tested()
         if note or len(self.shapes) < 2:
-            raise CannotReport(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
+            raise WrongInput(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
         if not len(self.tested):
-            raise CannotReport(f"{folder}: the test ended before the specimen was pulled")
+            raise WrongInput(f"{folder}: the test ended before the specimen was pulled")
         self.begin = float(self.tested["time"][0])
         self.extension = run.units.length.scale * self.tested["extension"]
         self.load = run.units.force.scale * self.tested["load"]

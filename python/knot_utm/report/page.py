@@ -7,8 +7,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from knot_utm.arguments import write_whole
-from knot_utm.report.run import printable
 from knot_utm.report.style import embedded
+from knot_utm.yaml_text import printable
 
 FILES = {
     "curve.csv": "load, extension and knot distance at every reading of the load cell",

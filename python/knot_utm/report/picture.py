@@ -19,7 +19,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from knot_utm import tool
-from knot_utm.report.commands import CannotReport, in_one_line, OneLineParser, refuse
+from knot_utm.report.commands import in_one_line, OneLineParser, refuse
 from knot_utm.report.curves import course, force_extension
 from knot_utm.report.marks import mark_at
 from knot_utm.report.method_facts import materials_of
@@ -71,10 +71,7 @@ def main():
 def runs_of(folders):
     if not folders:
         refuse("picture", "name a folder of a run (scripts/picture --help)")
-    try:
-        runs = [Run(folder) for folder in folders]
-    except CannotReport as error:
-        refuse("picture", str(error))
+    runs = [Run(folder) for folder in folders]
     for run in runs:
         if not len(run.curve.pull()):
             refuse("picture", f"{run.folder}: a run in which nothing was pulled")
@@ -143,7 +140,7 @@ def shot_of_rviz(folder, shot, words):
         display = start("Xvfb", "-displayfd", "1", "-screen", "0", "1280x900x24", "+extension", "GLX", "-nolisten", "tcp",
                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.readline().strip()
         if not display:
-            raise CannotReport("Xvfb did not start")
+            raise RuntimeError("Xvfb did not start")
         with socket.create_server(("127.0.0.1", 0)) as free:
             port = str(free.getsockname()[1])
         os.environ.update(DISPLAY=f":{display}", LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1", XDG_RUNTIME_DIR=folder, ROS_LOG_DIR=folder,
@@ -153,7 +150,7 @@ def shot_of_rviz(folder, shot, words):
         for reached in (begins, lambda: os.path.exists(os.path.join(run, "result.yaml"))):
             while not reached():
                 if launch.poll() is not None:
-                    raise CannotReport("the test has no result")
+                    raise RuntimeError("the test has no result")
                 time.sleep(1)
         time.sleep(5)  # rviz draws what came last
         subprocess.run(["import", "-window", "root", shot], check=True)

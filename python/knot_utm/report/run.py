@@ -7,9 +7,9 @@ import numpy as np
 import yaml
 
 from knot_utm import tool
-from knot_utm.report.commands import CannotReport
+from knot_utm.errors import WrongInput
 from knot_utm.report.quantities import is_number, units_of, with_unit
-from knot_utm.yaml_text import no_text
+from knot_utm.yaml_text import load, read_text
 
 
 def phases(trait):
@@ -118,29 +118,11 @@ class Run:
         return cell["floor"] * cell["capacity"] or None if known else None
 
 
-def read_text(file, errors="strict"):
-    try:
-        with open(file, encoding="utf-8", errors=errors, newline="") as text:
-            return text.read()
-    except UnicodeDecodeError as why:
-        raise CannotReport(f"{file}: {no_text(why)}") from why
-    except OSError as why:
-        raise CannotReport(f"{file}: cannot be read: {why.strerror or why}") from why
-
-
-def printable(text):
-    """Names of files are bytes, which need not be text: such bytes as YAML too writes them, and reads them back."""
-    return text.encode("utf-8", "backslashreplace").decode("utf-8")
-
-
 def read_yaml(file, *wanted, errors="strict"):
     """A map with the keys that are wanted."""
-    try:
-        content = yaml.safe_load(printable(read_text(file, errors)))
-    except yaml.YAMLError as why:
-        raise CannotReport(f"{file}: not YAML: {' '.join(str(why).split())}") from why
+    content = load(file, errors)
     if not isinstance(content, dict):
-        raise CannotReport(f"{file}: a map is needed")
+        raise WrongInput(f"{file}: a map is needed")
     require_keys(file, content, wanted)
     return content
 
@@ -152,28 +134,28 @@ def reasons_in(file):
 
 def texts_of(file, key):
     """A map of a YAML file with every value as it is written: a specimen's name may be 0012, a date is what it says."""
-    found = yaml.load(printable(read_text(file)), Loader=yaml.BaseLoader).get(key)
+    found = yaml.load(read_text(file), Loader=yaml.BaseLoader).get(key)
     return found if isinstance(found, dict) else {}
 
 
 def read_table(file, wanted, words=()):
-    """{column: numbers}, and texts of those columns that hold `words`; row 1 has names, row 2 units. Raises CannotReport where a
+    """{column: numbers}, and texts of those columns that hold `words`; row 1 has names, row 2 units. Raises WrongInput where a
     `wanted` column is missing, or one holds no numbers."""
     rows = list(csv.reader(read_text(file).splitlines()))
     if len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows):
-        raise CannotReport(f"{file}: not a table with a row of names and a row of units")
+        raise WrongInput(f"{file}: not a table with a row of names and a row of units")
     columns = dict(zip(rows[0], zip(*rows[2:]) if len(rows) > 2 else [()] * len(rows[0])))
     require_keys(file, columns, (*wanted, *words), "column")
     try:
         return {name: np.array(column, dtype=str if name in words else float) for name, column in columns.items()}
     except ValueError as why:
-        raise CannotReport(f"{file}: {why}") from why
+        raise WrongInput(f"{file}: {why}") from why
 
 
 def require_keys(file, content, keys, kind="key"):
     for key in keys:
         if key not in content:
-            raise CannotReport(f"{file}: no {kind} {key}")
+            raise WrongInput(f"{file}: no {kind} {key}")
 
 
 def read_curve(file):

@@ -4,8 +4,9 @@ from collections import namedtuple
 
 import numpy as np
 
-from knot_utm.report.commands import CannotReport
-from knot_utm.report.run import read_table, read_text, require_keys
+from knot_utm.errors import WrongInput
+from knot_utm.report.run import read_table, require_keys
+from knot_utm.yaml_text import read_text
 
 # `time` of the test [s]; `points`: the nodes [m]. `tension`: of each edge [N]; `twist`: of each node [rad/m]; `contact_force`: that
 # presses on each node, per length [N/m]. None: not known. `cuts`: edges between one rope and the next, which are no rope.
@@ -41,11 +42,11 @@ def shapes_in(file):
     try:  # which may be long, and holds nothing but numbers
         table = dict(zip(names.split(","), np.loadtxt(filter(None, rows), delimiter=",", comments=None, ndmin=2).T))
     except ValueError as why:
-        raise CannotReport(f"{file}: {why}") from why
+        raise WrongInput(f"{file}: {why}") from why
     require_keys(file, table, ("time", "node", "x", "y", "z", "tension", "twist", "contact_force"), "column")
     begins = np.flatnonzero(table["node"] == 0)
     if not len(begins):
-        raise CannotReport(f"{file}: it holds no shape")
+        raise WrongInput(f"{file}: it holds no shape")
     found = []
     for begin, end in zip(begins, [*begins[1:], len(table["node"])]):
         columns = {name: column[begin:end] for name, column in table.items()}

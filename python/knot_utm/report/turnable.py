@@ -8,8 +8,8 @@ import numpy as np
 from knot_utm.report.colours import colour_scales, node_values
 from knot_utm.report.page import Turnable
 from knot_utm.report.rod_pictures import rollers, UNKNOWN
-from knot_utm.report.run import read_text
 from knot_utm.report.shapes import ropes
+from knot_utm.yaml_text import read_text
 
 LIBRARY = "/usr/share/javascript/three"  # Debian: libjs-three
 SCRIPTS = [os.path.join(LIBRARY, "three.min.js"), os.path.join(LIBRARY, "examples/js/controls/OrbitControls.js"),

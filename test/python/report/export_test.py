@@ -153,7 +153,7 @@ class Refused(unittest.TestCase):
                 (2, "export", [broken, "--vtk", out("full")], "is there already"),
                 (2, "export", [broken, "--vtk", out("x"), "--color", "tension"], "--color"),
                 (2, "export", [broken, "--gltf", out("x.glb"), "--time", "noon"], "noon"),
-                (1, "export", [damaged, "--vtk", out("x")], "no column contact_force"),
+                (2, "export", [damaged, "--vtk", out("x")], "no column contact_force"),
                 (2, "movie", [broken, "--out", out("x.avi")], ".mp4"), (2, "movie", [broken] * 3, "two runs"),
                 (2, "movie", [broken, "--rate", "0"], "--rate 0"), (2, "movie", [out("full")], "no test is there"),
                 (2, "picture", [broken, "--out", out("full/a.glb")], "exists already")):

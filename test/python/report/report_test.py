@@ -14,8 +14,8 @@ import matplotlib.text
 import numpy as np
 import yaml
 
+from knot_utm.errors import WrongInput
 from knot_utm.report import certificate, curves, marks, method_facts, quantities, rod_pictures, run_page, shapes, turnable
-from knot_utm.report.commands import CannotReport
 from knot_utm.report.quantities import Units
 from knot_utm.report.run import Run
 
@@ -173,7 +173,7 @@ class Failures(unittest.TestCase):
                 os.remove(os.path.join(folder, name))
             else:
                 write(text, folder, name)
-            with self.assertRaisesRegex(CannotReport, name):
+            with self.assertRaisesRegex(WrongInput, name):
                 html_of(folder)
 
     def test_a_report_that_cannot_be_written_leaves_the_results(self):
