@@ -58,6 +58,11 @@ def name_axes(panel, table, x, y):
         scale_axis(panel, name, table[column])
 
 
+def scales(values):
+    """How their axis counts, and back."""
+    return (np.log, np.exp) if spans_far(values) else (np.asarray, np.asarray)
+
+
 def scale_axis(panel, name, values):
     """`name`: x or y."""
     if not spans_far(values):
@@ -72,7 +77,7 @@ def scale_axis(panel, name, values):
 
 def edges(values):
     """The edges of cells around values, half-way to the next, as the axis counts."""
-    ahead, back = (np.log, np.exp) if spans_far(values) else (np.asarray, np.asarray)
+    ahead, back = scales(values)
     places = ahead(values.to_numpy(float))
     middles = 0.5 * (places[1:] + places[:-1])
     return back(np.concatenate([[2 * places[0] - middles[0]], middles, [2 * places[-1] - middles[-1]]]))

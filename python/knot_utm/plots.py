@@ -30,34 +30,20 @@ def require_plottable(results):
 def write_plots(table, study, result, folder, runs):
     """RESULT.png in the folder, the same in the units of the rod (RESULT_in_groups.png), and but for loads what stands in
     them (RESULT.csv). `runs`: the SweepFolder."""
-    path = os.path.join(folder, result)
+    path, keys, cases = os.path.join(folder, result), study.keys, study.cases
     rods = [runs.rod(name) for name in table["run"]]
     in_groups = dimensionless(table, rods)
+    if result == pattern_plots.PATTERN:
+        draws, numbers = lambda shown, _: pattern_plots.figure(shown, keys, cases), pattern_plots.numbers_of(table, keys, cases)
+    elif result in ACROSS:
+        draws = lambda shown, of: figure_of_curves(shown, keys, result, cases, runs, of)
+        numbers = numbers_of_curves(table, keys, cases, runs) if result == "knot_distance" else None
+    else:
+        draws, numbers = lambda shown, _: figure_of_number(shown, keys, result, cases), numbers_of_number(table, study, result, in_groups)
     for end, shown, of in (("", table, None), ("_in_groups", in_groups, rods)):
-        figure(shown, study.keys, result, study.cases, runs, of).savefig(path + end + ".png", dpi=150, bbox_inches="tight")
-    said = numbers_of(table, study, result, in_groups, runs)
-    if said is not None:
-        said.to_csv(path + ".csv", index=False)
-
-
-def figure(table, keys, result, cases=(), runs=None, rods=None):
-    """`table`: of knot_utm.sweep, in the units of the picture."""
-    if result == pattern_plots.PATTERN:
-        return pattern_plots.figure(table, keys, cases)
-    if result in ACROSS:
-        return figure_of_curves(table, keys, result, cases, runs, rods)
-    return figure_of_number(table, keys, result, cases)
-
-
-def numbers_of(table, study, result, in_groups, runs):
-    """What stands in a picture, as a table; None of loads over extensions and of too few runs."""
-    if result == pattern_plots.PATTERN:
-        return pattern_plots.numbers_of(table, study.keys, study.cases)
-    if result == "knot_distance":
-        return numbers_of_curves(table, study.keys, study.cases, runs)
-    if result in ACROSS:
-        return None
-    return numbers_of_number(table, study, result, in_groups)
+        draws(shown, of).savefig(path + end + ".png", dpi=150, bbox_inches="tight")
+    if numbers is not None:  # too few runs tell nothing
+        numbers.to_csv(path + ".csv", index=False)
 
 
 # ---- numbers ----

@@ -119,8 +119,8 @@ class Neighbours:
 
     def __init__(self, table, keys, outcomes):
         self.keys = keys
-        self.scales = [np.log if axes.spans_far(table[key]) else np.asarray for key in keys]
-        columns = [scale(table[key].to_numpy(float)) for scale, key in zip(self.scales, keys)]
+        self.scales = [axes.scales(table[key]) for key in keys]
+        columns = [ahead(table[key].to_numpy(float)) for (ahead, _), key in zip(self.scales, keys)]
         self.low = np.array([column.min() for column in columns])
         self.width = np.array([np.ptp(column) for column in columns])
         self.names = sorted(set(outcomes))
@@ -130,9 +130,8 @@ class Neighbours:
 
     def values(self, places):
         """The values of the keys at places in the cube."""
-        back = [np.exp if scale is np.log else np.asarray for scale in self.scales]
-        return np.stack([one(low + width * column) for one, low, width, column
-                         in zip(back, self.low, self.width, np.asarray(places).T)], axis=1)
+        return np.stack([back(low + width * column) for (_, back), low, width, column
+                         in zip(self.scales, self.low, self.width, np.asarray(places).T)], axis=1)
 
     def majority(self, places):
         """(name, share, low, high) of the most frequent outcome near each place, with Wilson's 95 % interval."""
