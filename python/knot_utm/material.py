@@ -87,7 +87,7 @@ def cantilever_stiffness(weight, overhang, drop, group="cantilever"):
     least, share = sag(LEAST_ANGLE)[1], drop / overhang
     if not least < share < 0.9:
         raise WrongInput(f"{group}: the drop is {share:.4f} of the overhang, but must be between {least:.4f} and 0.9; "
-                    "of a rope that hangs straight down, measure a shorter piece")
+                         "of a rope that hangs straight down, measure a shorter piece")
     return weight * overhang ** 3 / sag(0.5 * math.pi - math.exp(steepness(share)))[0]
 
 
@@ -98,7 +98,7 @@ def rubbing_stiffness(weight, overhang, drop, kept, stuck, ratio):
     most = cantilever_stiffness(weight, overhang, drop)  # friction only makes it stiffer
     if stuck and stuck < 1.001 * most:
         raise WrongInput(f"light_cantilever: its bending stiffness comes out as {stuck:.3g} N m2, but must be more than that of cantilever, "
-                    f"{most:.3g} N m2: a rope whose fibres rub is stiffest where it is hardly bent")
+                         f"{most:.3g} N m2: a rope whose fibres rub is stiffest where it is hardly bent")
 
     def hangs(at, kept):
         steep, k_b = min(max(at[0], math.log(1e-12)), 0.4), most * math.exp(min(max(at[1], -9.0), 5e-4))
@@ -116,7 +116,7 @@ def rubbing_stiffness(weight, overhang, drop, kept, stuck, ratio):
     overcome = moment / kept * (1 - (k_b / stuck if stuck else 1 / ratio))
     if max(map(abs, left)) > 1e-6 or overcome < OVERCOME:
         raise WrongInput(f"cantilever: at the clamp it is bent by less than {OVERCOME} times the moment at which the fibres slide, as the kept "
-                    "bend tells, so that it does not show k_b; measure a longer overhang")
+                         "bend tells, so that it does not show k_b; measure a longer overhang")
     return k_b
 
 
@@ -134,7 +134,7 @@ def capstan_friction(m, h, heavy):
     left = 1 - thick * (1 + grown ** 2)
     if left <= 0:
         raise WrongInput(f"capstan: around a post as thin as {m['capstan', 'post_radius']:.3g} m no friction at the surface of the rope gives "
-                    "this ratio of the masses; is post_radius in m? Else take a thicker post")
+                         "this ratio of the masses; is post_radius in m? Else take a thicker post")
     return grown / left
 
 
@@ -167,7 +167,7 @@ def bending(m, weight, h):
         more = kept_curvature(m, "pulled") - kept
         if more < 0:
             raise WrongInput(f"pulled: the rope keeps a radius of {1 / (kept + more):.3g} m, but after a pull it must keep at most the "
-                        f"{1 / kept:.3g} m of mandrel")
+                             f"{1 / kept:.3g} m of mandrel")
         out["compaction"] = k_b * more / (h * m["pulled", "mass"] * GRAVITY)
     return out
 
@@ -191,7 +191,7 @@ def creep(loads, speeds):
     rate, speed = (float(number) for number in np.exp(found.x))
     if rate > 1:
         raise WrongInput("creeping: the speeds grow too little with the masses for a rate of at most 1: with the logarithm of the mass over "
-                    "that of capstan.heavy, they must grow more than in proportion")
+                         "that of capstan.heavy, they must grow more than in proportion")
     return rate, speed
 
 
@@ -234,7 +234,7 @@ def twisting(m, out):
     seen, of_weight = swing(m, out["radius"])
     if seen <= of_weight:
         raise WrongInput("twisted: the weight of the disc alone, which turns a twisted rope back, makes it swing as fast as that; take a lighter "
-                    "and wider disc; is twisted.period in s, there and back?")
+                         "and wider disc; is twisted.period in s, there and back?")
     return seen - of_weight
 
 
@@ -295,7 +295,7 @@ def usable(m, here):
         kept = kept_curvature(m, group)
         if mandrel < least_bend(kept, ratio):
             raise WrongInput(f"{group}: the rope keeps a radius of {1 / kept:.4g} m, for which the mandrel's must be at most "
-                        f"{1 / least_bend(kept, ratio) - h:.4g} m, so that all the friction of its fibres turns round as it is let go")
+                             f"{1 / least_bend(kept, ratio) - h:.4g} m, so that all the friction of its fibres turns round as it is let go")
     weight = m["weighed", "mass"] / m["weighed", "length"] * GRAVITY
     longest = math.sqrt(2 * here["friction_moment"] / h * here["bending_stiffness"] * ratio / (ratio - 1) / weight)
     if ("light_cantilever", "drop") in m and m["light_cantilever", "overhang"] > longest:
@@ -367,20 +367,18 @@ def read(text):
     if "rolled" in given:
         power, error = power_of_rolling(values, errors)
         values["rolled", "grows"], errors["rolled", "grows"] = abs(power) > 2 * error, 0.0  # or falls, with the load
-    if values["capstan", "heavy"] <= values["capstan", "light"]:
-        raise WrongInput("capstan: the heavy mass must be more than the light one")
-    angle = values["capstan", "angle"]
-    if angle > MOST_TURNS:
-        raise WrongInput(f"capstan.angle is {angle:g} rad, which are {angle / (2 * math.pi):.0f} turns; is it in degrees? {angle:g} degrees "
-                    f"are {math.radians(angle):.4g} rad")
-    # As a method takes it (doc/method.md): millimetres given as metres end here.
-    if not 2e-5 <= values["diameter", ""] <= 0.1:
-        raise WrongInput(f"diameter is {values['diameter', '']:g} m, but must be 2e-05 to 0.1 m; is it in metres?")
-    # Before what follows from it: grams given as kilograms end here.
-    density = values["weighed", "mass"] / values["weighed", "length"] / (math.pi * (values["diameter", ""] / 2) ** 2)
-    if not 10 <= density <= 25e3:
-        raise WrongInput(f"the density is {density:.3g} kg/m3, and cork has 200, water 1000, steel 7850: is weighed.mass in kg, and are "
-                         "weighed.length and the diameter in m? A method takes 10 to 25000 kg/m3")
+    angle, diameter = values["capstan", "angle"], values["diameter", ""]
+    density = values["weighed", "mass"] / values["weighed", "length"] / (math.pi * (diameter / 2) ** 2)
+    for is_so, why in (
+            (values["capstan", "heavy"] > values["capstan", "light"], "capstan: the heavy mass must be more than the light one"),
+            (angle <= MOST_TURNS, f"capstan.angle is {angle:g} rad, which are {angle / (2 * math.pi):.0f} turns; is it in degrees? {angle:g} "
+             f"degrees are {math.radians(angle):.4g} rad"),
+            # As a method takes it (doc/method.md): millimetres given as metres end here, and before what follows from it grams as kilograms.
+            (2e-5 <= diameter <= 0.1, f"diameter is {diameter:g} m, but must be 2e-05 to 0.1 m; is it in metres?"),
+            (10 <= density <= 25e3, f"the density is {density:.3g} kg/m3, and cork has 200, water 1000, steel 7850: is weighed.mass in kg, and "
+             "are weighed.length and the diameter in m? A method takes 10 to 25000 kg/m3")):
+        if not is_so:
+            raise WrongInput(why)
     return given, values, errors
 
 

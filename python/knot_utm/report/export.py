@@ -81,7 +81,7 @@ def at_one_time(arguments, run, shapes, shape):
     scales = {name: scale for name, scale in colour_scales(shapes, radius, run.units).items() if name in values}
     if arguments.color and arguments.color not in scales:
         raise WrongInput(f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
-                           f"{', '.join(name for name in values if name in scales)}")
+                         f"{', '.join(name for name in values if name in scales)}")
     scale = scales.get(arguments.color or "tension")
     mesh = rod_mesh(shape.points, ropes(shape), run.radii(shape))
     colours = scale.of(values[scale.name][mesh.along.astype(int)]) if scale else np.tile(UNKNOWN, (len(mesh.points), 1))

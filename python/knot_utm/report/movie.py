@@ -89,7 +89,7 @@ class Stage:
         scales = colour_scales([shape for test in self.tests for shape in test.shapes], first.method["material"]["radius"], first.units)
         if name not in scales:
             raise WrongInput(f"{folders[0]}: --color {name}: it is not known, or nowhere different from zero; known are: "
-                               f"{', '.join(scales)}")
+                             f"{', '.join(scales)}")
         self.scale = scales[name]
         self.extensions, self.loads = ((min(0.0, *(one.min() for one in of_tests)), max(1e-9, *(one.max() for one in of_tests)))
                                        for of_tests in ([test.extension for test in self.tests], [test.load for test in self.tests]))
