@@ -52,7 +52,7 @@ def load(path, errors="strict"):
     """What a YAML file says. Raises WrongInput, which names it."""
     text = printable(read_text(path, errors))
     try:
-        return yaml.load(text, _Loader)
+        return yaml.load(text, _Loader if errors == "strict" else yaml.SafeLoader)  # of names that are no text, C's reader has no idea
     except (yaml.YAMLError, WrongInput) as error:
         raise WrongInput(f"{path}: {' '.join(str(error).split())}") from error
 
