@@ -4,7 +4,7 @@ import os
 
 import yaml
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.report.commands import in_one_line, OneLineParser
 from knot_utm.yaml_text import value_of
 
@@ -31,8 +31,7 @@ def settings_of(words, option="--set"):
     found = {}
     for word in words:
         key, equals, text = word.partition("=")
-        if not key or not equals:
-            raise WrongInput(f"{option}: {word} is no KEY=VALUE, such as specimen.preload=20")
+        refuse_if(not key or not equals, f"{option}: {word} is no KEY=VALUE, such as specimen.preload=20")
         try:
             found[key] = value_of(text)
         except yaml.YAMLError as error:

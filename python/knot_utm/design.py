@@ -6,7 +6,7 @@ import warnings
 import numpy as np
 from scipy import stats
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if
 from knot_utm.yaml_text import is_number, is_whole, require, text_of
 
 MOST_RUNS = 1_000_000
@@ -62,16 +62,14 @@ def combinations(kinds, where="vary", what="a grid"):
     """[{key: value}] of every combination, the last key fastest. `where` and `what` are for messages."""
     _require_listed(kinds, where, what)
     count = math.prod(len(kind.values) for kind in kinds.values())
-    if count > MOST_RUNS:
-        raise WrongInput(f"{where} asks for {count} runs, but must ask for at most {MOST_RUNS}")
+    refuse_if(count > MOST_RUNS, f"{where} asks for {count} runs, but must ask for at most {MOST_RUNS}")
     return [dict(zip(kinds, values)) for values in itertools.product(*(kind.values for kind in kinds.values()))]
 
 
 def _require_listed(kinds, where, what):
     for key, kind in kinds.items():
-        if isinstance(kind, Sampled):
-            raise WrongInput(f"{where}.{key} is drawn or has no steps, but {what} needs values: give steps, or design: list or "
-                             "sobol")
+        refuse_if(isinstance(kind, Sampled), f"{where}.{key} is drawn or has no steps, but {what} needs values: give steps, or design: list or "
+                  "sobol")
 
 
 def _one_at_a_time(kinds):
@@ -87,11 +85,9 @@ def _list(kinds, runs, seed):
     lengths = {key: len(kind.values) for key, kind in kinds.items() if isinstance(kind, Listed) and len(kind.values) > 1}
     for key, length in lengths.items():
         wanted = runs or next(iter(lengths.values()))
-        if length != wanted:
-            raise WrongInput(f"vary.{key} has {length} values, but must have {wanted} in this design: list, or one")
+        refuse_if(length != wanted, f"vary.{key} has {length} values, but must have {wanted} in this design: list, or one")
     count = runs or next(iter(lengths.values()), None)
-    if count is None and any(isinstance(kind, Sampled) for kind in kinds.values()):
-        raise WrongInput("runs is missing: give how many are drawn")
+    refuse_if(count is None and any(isinstance(kind, Sampled) for kind in kinds.values()), "runs is missing: give how many are drawn")
     count = count or 1
     columns = []
     for kind, stream in zip(kinds.values(), np.random.SeedSequence(seed).spawn(len(kinds))):
@@ -104,8 +100,7 @@ def _list(kinds, runs, seed):
 
 def _sobol(kinds, runs, seed):
     """Quantiles at Sobol's points, scrambled by the seed."""
-    if runs is None:
-        raise WrongInput("runs is missing: give how many points, best a power of two")
+    refuse_if(runs is None, "runs is missing: give how many points, best a power of two")
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="The balance properties")
         shares = stats.qmc.Sobol(len(kinds), seed=seed).random(runs)
@@ -155,13 +150,11 @@ def _require_positive(where, log, *values):
 
 def _only(where, given, parts, meant):
     for part in given:
-        if part not in parts:
-            raise WrongInput(f"{where}.{part} is no key of {meant}")
+        refuse_if(part not in parts, f"{where}.{part} is no key of {meant}")
 
 
 def _numbers(where, given, *parts):
     for part in parts:
-        if part not in given:
-            raise WrongInput(f"{where}.{part} is missing: give a number")
+        refuse_if(part not in given, f"{where}.{part} is missing: give a number")
         require(is_number(given[part]), f"{where}.{part}", given[part], "a number")
     return [float(given[part]) for part in parts]

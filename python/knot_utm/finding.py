@@ -13,7 +13,7 @@ from scipy import stats
 
 from knot_utm import tool
 from knot_utm.arguments import folder_of, jobs_of, make_folder, shown, write_whole
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if
 from knot_utm.fitting import Record, Search, pull_of_table, read_pull
 from knot_utm.report.fit import report_on_fit
 from knot_utm.report.page import write as write_page
@@ -72,8 +72,8 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     given out/ and the name of the measured file; `command`: that the page names; `overwrite`: whether another fit in the folder is
     replaced. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it was cut short."""
     measured, settings = os.fspath(measured), dict(settings or {})
-    if not isinstance(free, (tuple, list)) or not all(isinstance(word, str) for word in free):
-        raise WrongInput(f"free is {shown(free)}, but must be a list of words such as 'material.radius=0.001:0.002'")
+    refuse_if(not isinstance(free, (tuple, list)) or not all(isinstance(word, str) for word in free),
+              f"free is {shown(free)}, but must be a list of words such as 'material.radius=0.001:0.002'")
     asked = [(measured, settings)]
     asked += [(os.fspath(file), {**settings, **given}) for file, given in also]
     out = folder_of(out, os.path.join("out", os.path.splitext(os.path.basename(measured))[0] + "_fit"))
@@ -107,8 +107,7 @@ def _searched(method, runs, asked, ranges):
     for _, given in asked:  # all corners of the ranges, and a place within them, before the first run
         for place in [*itertools.product((0.0, 1.0), repeat=len(keys)), [WITHIN] * len(keys)]:
             free = {key.name: short(key.value(at)) for key, at in zip(keys.values(), place)}
-            if refused := tool.refusal(method, {**given, **free}):
-                raise WrongInput(f"--free: a run with {described(free)} would be refused: {refused}")
+            refuse_if(refused := tool.refusal(method, {**given, **free}), f"--free: a run with {described(free)} would be refused: {refused}")
     records = [Record(file, read_pull(file), given, resolved) for (file, given), resolved in zip(asked, methods)]
     for record, model in zip(records, runs([given for _, given in asked])):
         record.require_producible(*model)
@@ -199,27 +198,24 @@ def _csv(table, units):
 def _parsed(word, words):
     """(key, None or (low, high)) of `KEY` or `KEY=low:high`. Raises WrongInput."""
     name, given, limits = word.partition("=")
-    if not name:
-        raise WrongInput(f"--free is {word}, but must be KEY or KEY=low:high")
-    if [one.partition("=")[0] for one in words].count(name) > 1:
-        raise WrongInput(f"--free has {name} twice")
-    if name.startswith("record.") and not OFFSET.fullmatch(name):
-        raise WrongInput(f"--free: {name} is nothing of a record: it has record.force_offset and record.extension_offset")
+    refuse_if(not name, f"--free is {word}, but must be KEY or KEY=low:high")
+    refuse_if([one.partition("=")[0] for one in words].count(name) > 1, f"--free has {name} twice")
+    refuse_if(name.startswith("record.") and not OFFSET.fullmatch(name),
+              f"--free: {name} is nothing of a record: it has record.force_offset and record.extension_offset")
     if not given:
         return name, None
     try:
         low, high = (float(limit) for limit in limits.split(":"))
     except ValueError:
         low = high = math.nan
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise WrongInput(f"--free: the range of {name} is {limits}, but must be low:high, two numbers of which the second is larger")
+    refuse_if(not (math.isfinite(low) and math.isfinite(high) and low < high),
+              f"--free: the range of {name} is {limits}, but must be low:high, two numbers of which the second is larger")
     return name, (low, high)
 
 
 def _offset_key(name, limits, records):
     number, kind = FreeKey(name, 0.0, 0.0).offset
-    if number > len(records):
-        raise WrongInput(f"--free: {name} is of record {number}, but there are {len(records)}")
+    refuse_if(number > len(records), f"--free: {name} is of record {number}, but there are {len(records)}")
     most = OFFSET_SHARE * records[number - 1].largest[kind]
     return FreeKey(name, *(limits or (-most, most)))
 
@@ -228,35 +224,30 @@ def _method_key(name, limits, method, numbers):
     """`method`: as resolved; `numbers`: those of its keys that are numbers and act on the test."""
     value = value_at(method, name)
     said = "nothing" if value is None else "several values" if isinstance(value, (dict, list)) else text_of(value)
-    if name not in numbers:
-        raise WrongInput(f"--free: {name} is {said}, but only a number that acts on the test may be free")
-    if not limits and (not is_number(value) or value <= 0):
-        raise WrongInput(f"--free: the method has {said} at {name}, around which no range can be laid: give --free {name}=low:high")
+    refuse_if(name not in numbers, f"--free: {name} is {said}, but only a number that acts on the test may be free")
+    refuse_if(not limits and (not is_number(value) or value <= 0),
+              f"--free: the method has {said} at {name}, around which no range can be laid: give --free {name}=low:high")
     return FreeKey(name, *(limits or (value / AROUND, value * AROUND)))
 
 
 def _require_free(names, asked):
     """Raises WrongInput where keys are mistyped, or cannot be free. `asked`: [(file, {key: value})] of the records."""
-    if all(OFFSET.fullmatch(name) for name in names):
-        raise WrongInput("--free has nothing but offsets of the record: a fit needs a key of the method" if names
-                         else "--free is missing: say which keys may move")
+    refuse_if(not names, "--free is missing: say which keys may move")
+    refuse_if(all(map(OFFSET.fullmatch, names)), "--free has nothing but offsets of the record: a fit needs a key of the method")
     for name in names:
-        if name in EXACT_CELL:
-            raise WrongInput(f"--free: {name} is an error of the cell, which is one of the errors that a fit goes by")
+        refuse_if(name in EXACT_CELL, f"--free: {name} is an error of the cell, which is one of the errors that a fit goes by")
         for file, given in asked[1:]:
-            if given.get(name) != asked[0][1].get(name):
-                raise WrongInput(f"--also {file}: {name} is set, but it is free, and free keys are the same for all records")
+            refuse_if(given.get(name) != asked[0][1].get(name),
+                      f"--also {file}: {name} is set, but it is free, and free keys are the same for all records")
 
 
 def _require_room(out, inputs, overwrite):
-    if os.path.exists(os.path.join(out, "result.yaml")):
-        raise WrongInput(f"{out} holds a run: choose another folder")
+    refuse_if(os.path.exists(os.path.join(out, "result.yaml")), f"{out} holds a run: choose another folder")
     for file in (os.path.join(out, name) for name in WRITTEN):
         if os.path.exists(file):
-            if any(os.path.exists(one) and os.path.samefile(file, one) for one in inputs):
-                raise WrongInput(f"{file} is an input, and would be written over: choose another folder")
-            if not overwrite:
-                raise WrongInput(f"{file} exists already: choose another folder, or --overwrite")
+            refuse_if(any(os.path.exists(one) and os.path.samefile(file, one) for one in inputs),
+                      f"{file} is an input, and would be written over: choose another folder")
+            refuse_if(not overwrite, f"{file} exists already: choose another folder, or --overwrite")
     if not os.path.isdir(out):
         make_folder(out)
         os.rmdir(out)  # nothing is written before it is known that it can be fitted

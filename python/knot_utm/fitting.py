@@ -21,7 +21,7 @@ import pandas as pd
 from scipy import linalg
 from scipy.stats import chi2, qmc
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.runs import PULLS
 from knot_utm.yaml_text import is_number, value_at
 
@@ -90,8 +90,7 @@ def read_pull(file):
         raise WrongInput(f"{file}: it has no column {error.args[0]}, but must be a curve.csv, which import_instron makes of raw data") from error
     except ValueError as error:
         raise WrongInput(f"{file}: {' '.join(str(error).split())}, but it must be a curve.csv, which import_instron makes of raw data") from error
-    if pull is None:
-        raise WrongInput(f"{file}: nothing is pulled in it, or it has fewer than two readings of a pull")
+    refuse_if(pull is None, f"{file}: nothing is pulled in it, or it has fewer than two readings of a pull")
     return pull
 
 
@@ -139,20 +138,19 @@ class Record:
 
     def require_producible(self, pull, result):
         """Raises WrongInput where nothing is known of the errors of the readings, or the method, as it stands, pulls otherwise."""
-        if pull is None:
-            raise WrongInput(f"{self.name}: the method as it stands leaves no curve: {result.get('reason') or 'its run failed'}")
+        refuse_if(pull is None, f"{self.name}: the method as it stands leaves no curve: {result.get('reason') or 'its run failed'}")
         measured, made = (float(max(load, key=abs)) for load in (self.load, pull.load))
         end = float(pull.extension[-1])
         for one, other, unit in ((self.largest["extension"], end, "m"), (measured, made, "N")):
-            if not 1.0 / FAR < one / (other or np.inf) < FAR:
-                raise WrongInput(f"{self.name}: the measured curve goes to {one:.4g} {unit}, and the method's to {other:.4g} {unit}: one of "
-                                 "them is in other units, has another sign, or is of another test")
-        if not self.is_reached(pull, result):
-            raise WrongInput(f"{self.name}: the measured curve goes to an extension of {self.extension[-1]:.4g} m, but the method's pull "
-                             f"ends at {end:.4g} m ({result.get('ended_by')}): let it go on, as by --set program.pull.until.extension")
-        if not self.scatter and not any(self.cell[key] for key in ("noise", "resolution", "accuracy", "floor")):
-            raise WrongInput(f"{self.name}: nothing says how far a reading may be off: the load cell of the method has no errors; give its "
-                             "class, as by --set machine.load_cell.accuracy=0.005, or resolution or noise")
+            refuse_if(not 1.0 / FAR < one / (other or np.inf) < FAR,
+                      f"{self.name}: the measured curve goes to {one:.4g} {unit}, and the method's to {other:.4g} {unit}: one of "
+                      "them is in other units, has another sign, or is of another test")
+        refuse_if(not self.is_reached(pull, result),
+                  f"{self.name}: the measured curve goes to an extension of {self.extension[-1]:.4g} m, but the method's pull "
+                  f"ends at {end:.4g} m ({result.get('ended_by')}): let it go on, as by --set program.pull.until.extension")
+        refuse_if(not self.scatter and not any(self.cell[key] for key in ("noise", "resolution", "accuracy", "floor")),
+                  f"{self.name}: nothing says how far a reading may be off: the load cell of the method has no errors; give its "
+                  "class, as by --set machine.load_cell.accuracy=0.005, or resolution or noise")
 
     def errors(self, means, result):
         """(variances of single means, c, d) for simulated means, of the run that left `result`."""
@@ -282,9 +280,9 @@ class Search:
         """Surface and scatter, of the runs that are not far from the record, and the best place."""
         self.is_lost = np.isnan(self.means).any(axis=1)
         least = 3 * (len(self.keys) + 1)
-        if (~self.is_lost).sum() < least:
-            raise WrongInput(f"{self.records[0].name}: {(~self.is_lost).sum()} of {len(self.places)} runs in the ranges of the free keys "
-                             "reach as far as the record: narrow the ranges")
+        refuse_if((~self.is_lost).sum() < least,
+                  f"{self.records[0].name}: {(~self.is_lost).sum()} of {len(self.places)} runs in the ranges of the free keys "
+                  "reach as far as the record: narrow the ranges")
         # Runs with loads of another size, as where knots open, tell nothing of the others, unless these are too few.
         error = np.concatenate([np.sqrt(record.errors(record.measured, {})[0]) for record in self.records])
         ratio = np.log((np.abs(self.means) + error) / (np.abs(self.measured) + error))

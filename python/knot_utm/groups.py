@@ -11,7 +11,7 @@ are (doc/studies.md).
 import json
 
 from knot_utm import tool
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.yaml_text import is_number, require, value_of
 
 # {unit of the rod: (SI unit, powers of k_b and h)}
@@ -24,8 +24,7 @@ def asked(vary):
     units = {key: values["unit"] for key, values in vary.items() if isinstance(values, dict) and "unit" in values}
     for key, unit in units.items():
         require(isinstance(unit, str) and unit in UNITS, f"vary.{key}.unit", unit, ", ".join(UNITS))
-        if key in OF_THE_ROD:
-            raise WrongInput(f"vary.{key}.unit is {unit}, but the units of a rod follow from this key")
+        refuse_if(key in OF_THE_ROD, f"vary.{key}.unit is {unit}, but the units of a rod follow from this key")
     return units
 
 

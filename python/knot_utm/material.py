@@ -7,7 +7,7 @@ import numpy as np
 import yaml
 from scipy import integrate, optimize
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.report.commands import in_one_line, OneLineParser
 from knot_utm.yaml_text import read_text
 
@@ -85,9 +85,8 @@ def steepness(share):
 def cantilever_stiffness(weight, overhang, drop, group="cantilever"):
     """k_b of a rod without friction among fibres; s k_b of a rope that is bent so little that they stick."""
     least, share = sag(LEAST_ANGLE)[1], drop / overhang
-    if not least < share < 0.9:
-        raise WrongInput(f"{group}: the drop is {share:.4f} of the overhang, but must be between {least:.4f} and 0.9; "
-                         "of a rope that hangs straight down, measure a shorter piece")
+    refuse_if(not least < share < 0.9, f"{group}: the drop is {share:.4f} of the overhang, but must be between {least:.4f} and 0.9; "
+              "of a rope that hangs straight down, measure a shorter piece")
     return weight * overhang ** 3 / sag(0.5 * math.pi - math.exp(steepness(share)))[0]
 
 
@@ -114,9 +113,9 @@ def rubbing_stiffness(weight, overhang, drop, kept, stuck, ratio):
         if max(map(abs, left)) < 1e-6:
             break
     overcome = moment / kept * (1 - (k_b / stuck if stuck else 1 / ratio))
-    if max(map(abs, left)) > 1e-6 or overcome < OVERCOME:
-        raise WrongInput(f"cantilever: at the clamp it is bent by less than {OVERCOME} times the moment at which the fibres slide, as the kept "
-                         "bend tells, so that it does not show k_b; measure a longer overhang")
+    refuse_if(max(map(abs, left)) > 1e-6 or overcome < OVERCOME,
+              f"cantilever: at the clamp it is bent by less than {OVERCOME} times the moment at which the fibres slide, as the kept "
+              "bend tells, so that it does not show k_b; measure a longer overhang")
     return k_b
 
 
@@ -132,9 +131,8 @@ def capstan_friction(m, h, heavy):
         return grown
     thick = h / (m["capstan", "post_radius"] + h)
     left = 1 - thick * (1 + grown ** 2)
-    if left <= 0:
-        raise WrongInput(f"capstan: around a post as thin as {m['capstan', 'post_radius']:.3g} m no friction at the surface of the rope gives "
-                         "this ratio of the masses; is post_radius in m? Else take a thicker post")
+    refuse_if(left <= 0, f"capstan: around a post as thin as {m['capstan', 'post_radius']:.3g} m no friction at the surface of the rope gives "
+              "this ratio of the masses; is post_radius in m? Else take a thicker post")
     return grown / left
 
 
@@ -157,17 +155,15 @@ def bending(m, weight, h):
     if ("mandrel", "radius") not in m:
         return {"bending_stiffness": cantilever_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"])}
     kept, stuck, ratio = kept_curvature(m, "mandrel"), None, m.get(("stick_ratio", ""))
-    if h * kept > 1:
-        raise WrongInput(f"mandrel: the rope keeps a radius of {1 / kept:.3g} m, but must keep one of more than its own, {h:.3g} m")
+    refuse_if(h * kept > 1, f"mandrel: the rope keeps a radius of {1 / kept:.3g} m, but must keep one of more than its own, {h:.3g} m")
     if ratio is None:
         stuck = cantilever_stiffness(weight, m["light_cantilever", "overhang"], m["light_cantilever", "drop"], "light_cantilever")
     k_b = rubbing_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"], kept, stuck, ratio)
     out = {"bending_stiffness": k_b, "friction_moment": h * kept, "stick_ratio": ratio or stuck / k_b}
     if ("pulled", "mass") in m:
         more = kept_curvature(m, "pulled") - kept
-        if more < 0:
-            raise WrongInput(f"pulled: the rope keeps a radius of {1 / (kept + more):.3g} m, but after a pull it must keep at most the "
-                             f"{1 / kept:.3g} m of mandrel")
+        refuse_if(more < 0, f"pulled: the rope keeps a radius of {1 / (kept + more):.3g} m, but after a pull it must keep at most the "
+                  f"{1 / kept:.3g} m of mandrel")
         out["compaction"] = k_b * more / (h * m["pulled", "mass"] * GRAVITY)
     return out
 
@@ -176,11 +172,9 @@ def creep(loads, speeds):
     """(a, v_0 [m/s]) of v = v_0 (exp((q - 1)/a) - 1) for speeds v at loads q over the one that just does not creep: two readings
     have one answer, more the one of least squares of ln v."""
     over, seen = np.array(loads) - 1, np.log(speeds)
-    if min(over) <= 0:
-        raise WrongInput("creeping: within its uncertainty, every mass must be more than capstan.heavy, which does not creep")
+    refuse_if(min(over) <= 0, "creeping: within its uncertainty, every mass must be more than capstan.heavy, which does not creep")
     slope = np.polyfit(seen, over, 1)[0] if len(set(speeds)) > 1 else 0.0  # of fast creep, this is a
-    if not slope > 0:
-        raise WrongInput("creeping: a larger mass must creep faster")
+    refuse_if(not slope > 0, "creeping: a larger mass must creep faster")
 
     def left(at):  # ln a, ln v_0
         x = over / np.exp(at[0])
@@ -189,9 +183,8 @@ def creep(loads, speeds):
     start = [math.log(slope), np.mean(seen - over / slope)]
     found = optimize.least_squares(left, start, xtol=1e-14, ftol=1e-14, gtol=1e-14, bounds=([-20.0, -200.0], [20.0, 20.0]))
     rate, speed = (float(number) for number in np.exp(found.x))
-    if rate > 1:
-        raise WrongInput("creeping: the speeds grow too little with the masses for a rate of at most 1: with the logarithm of the mass over "
-                         "that of capstan.heavy, they must grow more than in proportion")
+    refuse_if(rate > 1, "creeping: the speeds grow too little with the masses for a rate of at most 1: with the logarithm of the mass over "
+              "that of capstan.heavy, they must grow more than in proportion")
     return rate, speed
 
 
@@ -232,9 +225,9 @@ def twisting(m, out):
     if ("twisted", "period") not in m:
         return out["bending_stiffness"] * (TWIST_OF_ROD if limpness(out) < SOLID else TWIST_OF_ROPE)
     seen, of_weight = swing(m, out["radius"])
-    if seen <= of_weight:
-        raise WrongInput("twisted: the weight of the disc alone, which turns a twisted rope back, makes it swing as fast as that; take a lighter "
-                         "and wider disc; is twisted.period in s, there and back?")
+    refuse_if(seen <= of_weight,
+              "twisted: the weight of the disc alone, which turns a twisted rope back, makes it swing as fast as that; take a lighter "
+              "and wider disc; is twisted.period in s, there and back?")
     return seen - of_weight
 
 
@@ -293,13 +286,12 @@ def usable(m, here):
     mandrel = 1 / (m["mandrel", "radius"] + h)
     for group in ("mandrel", "pulled") if "compaction" in here else ("mandrel",):
         kept = kept_curvature(m, group)
-        if mandrel < least_bend(kept, ratio):
-            raise WrongInput(f"{group}: the rope keeps a radius of {1 / kept:.4g} m, for which the mandrel's must be at most "
-                             f"{1 / least_bend(kept, ratio) - h:.4g} m, so that all the friction of its fibres turns round as it is let go")
+        refuse_if(mandrel < least_bend(kept, ratio), f"{group}: the rope keeps a radius of {1 / kept:.4g} m, for which the mandrel's must be at most "
+                  f"{1 / least_bend(kept, ratio) - h:.4g} m, so that all the friction of its fibres turns round as it is let go")
     weight = m["weighed", "mass"] / m["weighed", "length"] * GRAVITY
     longest = math.sqrt(2 * here["friction_moment"] / h * here["bending_stiffness"] * ratio / (ratio - 1) / weight)
-    if ("light_cantilever", "drop") in m and m["light_cantilever", "overhang"] > longest:
-        raise WrongInput(f"light_cantilever: its overhang must be at most {longest:.3g} m, so that no fibre slides")
+    refuse_if(("light_cantilever", "drop") in m and m["light_cantilever", "overhang"] > longest,
+              f"light_cantilever: its overhang must be at most {longest:.3g} m, so that no fibre slides")
 
 
 def with_errors(values, errors):
@@ -330,16 +322,16 @@ def read_group(group, content):
     """The measured numbers by their keys, and of a list also its length, which is exact."""
     if not GROUPS[group]:
         return {"": measured(group, content)}
-    if not isinstance(content, dict) or all(set(content) != set(keys) for keys in GROUPS[group]):
-        raise WrongInput(f"{group} must be a map with the keys " + ", or ".join(map(", ".join, GROUPS[group])))
+    refuse_if(not isinstance(content, dict) or all(set(content) != set(keys) for keys in GROUPS[group]),
+              f"{group} must be a map with the keys " + ", or ".join(map(", ".join, GROUPS[group])))
     out, lists = {}, [key for key in content if (group, key) in SEVERAL]
     for key, reading in content.items():
         if key not in lists:
             out[key] = measured(f"{group}.{key}", reading)
             continue
         fewest, other = SEVERAL[group, key], lists[1 - lists.index(key)]
-        if not isinstance(reading, list) or len(reading) < fewest or len(reading) != len(content[lists[0]]):
-            raise WrongInput(f"{group}.{key} must be a list of {('one reading', 'two readings')[fewest - 1]} or more, as many as {group}.{other}")
+        refuse_if(not isinstance(reading, list) or len(reading) < fewest or len(reading) != len(content[lists[0]]),
+                  f"{group}.{key} must be a list of {('one reading', 'two readings')[fewest - 1]} or more, as many as {group}.{other}")
         out[key] = len(reading), 0.0
         out.update({f"{key}[{i}]": measured(f"{group}.{key}[{i}]", one) for i, one in enumerate(reading)})
     return out
@@ -347,21 +339,17 @@ def read_group(group, content):
 
 def read(text):
     given = yaml.safe_load(text)
-    if not isinstance(given, dict):
-        raise WrongInput("the file must be a map with the keys " + ", ".join(["name", *GROUPS]))
+    refuse_if(not isinstance(given, dict), "the file must be a map with the keys " + ", ".join(["name", *GROUPS]))
     values, errors = {}, {}
     for group, content in given.items():
         if group in ("name", "notes"):
             continue
-        if group not in GROUPS:
-            raise WrongInput(f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
+        refuse_if(group not in GROUPS, f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
         for key, (value, error) in read_group(group, content).items():
             values[group, key], errors[group, key] = value, error
-    if missing := [group for group in NEEDED if group not in given]:
-        raise WrongInput("missing: " + ", ".join(missing))
+    refuse_if(missing := [group for group in NEEDED if group not in given], "missing: " + ", ".join(missing))
     for group, other in NEEDS.items():
-        if group in given and other not in given:
-            raise WrongInput(f"{group} tells nothing without {other}")
+        refuse_if(group in given and other not in given, f"{group} tells nothing without {other}")
     if "mandrel" in given and "light_cantilever" not in given:
         values["stick_ratio", ""], errors["stick_ratio", ""] = STICK_RATIO
     if "rolled" in given:
@@ -377,8 +365,7 @@ def read(text):
             (2e-5 <= diameter <= 0.1, f"diameter is {diameter:g} m, but must be 2e-05 to 0.1 m; is it in metres?"),
             (10 <= density <= 25e3, f"the density is {density:.3g} kg/m3, and cork has 200, water 1000, steel 7850: is weighed.mass in kg, and "
              "are weighed.length and the diameter in m? A method takes 10 to 25000 kg/m3")):
-        if not is_so:
-            raise WrongInput(why)
+        refuse_if(not is_so, why)
     return given, values, errors
 
 

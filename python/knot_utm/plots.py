@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib import cm
 
 from knot_utm import axes, pattern_plots, trends
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if
 from knot_utm.groups import dimensionless, scale, UNITS
 from knot_utm.report.curves import draw
 from knot_utm.table import NUMBERS, result_columns, SPECIMEN
@@ -23,8 +23,8 @@ def require_plottable(results):
     """Raises WrongInput where one of these can not be drawn."""
     numbers, others = [name for name, _, kind in result_columns().values() if kind in NUMBERS], (pattern_plots.PATTERN, *ACROSS)
     for result in results:
-        if result not in (*numbers, *others):
-            raise WrongInput(f"--plot is {result}, but must be a number of result.yaml, such as plateau_force, or {', '.join(others)}")
+        refuse_if(result not in (*numbers, *others),
+                  f"--plot is {result}, but must be a number of result.yaml, such as plateau_force, or {', '.join(others)}")
 
 
 def write_plots(table, study, result, folder, runs):

@@ -10,7 +10,7 @@ import pandas as pd
 from knot_utm import tool
 from knot_utm.arguments import folder_of, jobs_of, shown, whole
 from knot_utm.command_line import exit_code_of, parsed, parser_of, settings_of
-from knot_utm.errors import RunFailed, WrongInput
+from knot_utm.errors import refuse_if, RunFailed, WrongInput
 from knot_utm.groups import rod_of
 from knot_utm.study import Study
 from knot_utm.sweeping import Sweep
@@ -25,8 +25,8 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method="knot", setti
     """A pandas.DataFrame with a row for each knot, in the order of the largest mean load that it bore, as scripts/rank tells and as it is
     in rank.csv of the folder. `.attrs` has the units of its means and the folder. Raises WrongInput."""
     settings, name = dict(settings or {}), str(material)
-    if isinstance(knots, str) or not knots or len(set(map(str, knots))) < len(list(knots)):
-        raise WrongInput(f"knots is {shown(knots)}, but must be a list of different knots: names or files")
+    refuse_if(isinstance(knots, str) or not knots or len(set(map(str, knots))) < len(list(knots)),
+              f"knots is {shown(knots)}, but must be a list of different knots: names or files")
     for key in {"specimen.knot", "specimen", "material", tool.COUNT, "specimens"} & set(settings):
         raise WrongInput(f"{key} cannot be a setting of a ranking: it has a word of its own")
     # A knot and a material may be files as seen from here; a method would look for them from its own folder.

@@ -11,7 +11,7 @@ import pandas as pd
 
 from knot_utm import tool
 from knot_utm.arguments import jobs_of, whole
-from knot_utm.errors import RunFailed, RunWarning, WrongInput
+from knot_utm.errors import refuse_if, RunFailed, RunWarning, WrongInput
 from knot_utm.sweep_folder import RESULT, STATISTICS
 from knot_utm.yaml_text import load
 
@@ -112,8 +112,7 @@ def _made(reads, result, method, out, specimens, overrides, overwrite, *more):
     words = tool.command(method, overrides, out, "--quiet", "--specimens", str(specimens), *more)
     done = subprocess.run(words, check=False, text=True, errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
     said = tool.lines_of(done.stderr)
-    if done.returncode == tool.REFUSED:
-        raise WrongInput(tool.said_by(done.stderr))
+    refuse_if(done.returncode == tool.REFUSED, tool.said_by(done.stderr))
     left = reads(out) if os.path.exists(os.path.join(out, result)) else None
     for line in (said if isinstance(left, Batch) else left.warnings) if left is not None else ():
         warnings.warn(line, RunWarning, stacklevel=3)

@@ -4,7 +4,7 @@ import os
 from dataclasses import dataclass
 
 from knot_utm import design, groups, tool
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.yaml_text import is_number, is_whole, load, require, text_of, value_at
 
 KEYS = ("method", "for_each", "vary", "below", "design", "runs", "repeat", "seed")
@@ -49,11 +49,9 @@ def load_study(file):
 
 
 def _study(file, given):
-    if not isinstance(given, dict):
-        raise WrongInput("a study is a map with the keys " + ", ".join(KEYS))
+    refuse_if(not isinstance(given, dict), "a study is a map with the keys " + ", ".join(KEYS))
     for key in given:
-        if key not in KEYS:
-            raise WrongInput(f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
+        refuse_if(key not in KEYS, f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
     method = tool.find_method(_method(given), os.path.dirname(os.path.abspath(file)))
     _require_one_specimen(method)
     vary, cases = _keys(given, "vary"), _keys(given, "for_each") if "for_each" in given else {}
@@ -64,16 +62,14 @@ def _study(file, given):
         if name in given and kind not in DRAWING:
             raise WrongInput(f"{name} is {given[name]}, but has no effect in a {kind}")
     for key in cases:
-        if key in vary:
-            raise WrongInput(f"vary has the key {key}, which stands in for_each, too")
+        refuse_if(key in vary, f"vary has the key {key}, which stands in for_each, too")
     units = groups.asked({**cases, **vary})
     kinds = {key: design.varied(key, values) for key, values in vary.items()}
     made = design.points(kinds, kind, runs, seed)
     each = design.combinations({key: design.varied(key, values, "for_each") for key, values in cases.items()}, "for_each",
                                "for_each")
     points = _within(given, groups.in_si(method, [{**case, **point} for case in each for point in made], units))
-    if len(points) * repeat > design.MOST_RUNS:
-        raise WrongInput(f"repeat is {repeat}: these are {len(points) * repeat} tests, of at most {design.MOST_RUNS}")
+    refuse_if(len(points) * repeat > design.MOST_RUNS, f"repeat is {repeat}: these are {len(points) * repeat} tests, of at most {design.MOST_RUNS}")
     return Study(file, method, points, repeat, tuple(cases), kind, given.get("below", {}))
 
 
@@ -82,11 +78,10 @@ def _within(given, points):
     below = given.get("below", {})
     require(isinstance(below, dict), "below", below, "a map of a key that is varied and the key that it must be below")
     for key in itertools.chain(*below.items()):
-        if key not in points[0] or not all(is_number(point[key]) for point in points):
-            raise WrongInput(f"below has the key {text_of(key)}, but must have numbers that are varied")
+        refuse_if(key not in points[0] or not all(is_number(point[key]) for point in points),
+                  f"below has the key {text_of(key)}, but must have numbers that are varied")
     left = [point for point in points if all(point[low] < point[high] for low, high in below.items())]
-    if not left:
-        raise WrongInput(f"below is {text_of(below)}: no run is left")
+    refuse_if(not left, f"below is {text_of(below)}: no run is left")
     return left
 
 
@@ -95,8 +90,7 @@ def _keys(given, name):
     keys = given.get(name)
     require(isinstance(keys, dict) and keys, name, keys, "a map of at least one key of the method and its values")
     for key in keys:
-        if key in (tool.COUNT, "specimens"):
-            raise WrongInput(f"{name} has the key {key}, but a run of a study is one specimen: give repeat")
+        refuse_if(key in (tool.COUNT, "specimens"), f"{name} has the key {key}, but a run of a study is one specimen: give repeat")
     return keys
 
 
@@ -109,8 +103,8 @@ def _method(given):
 
 
 def _require_one_specimen(method):
-    if (count := value_at(load(method), tool.COUNT) or 1) != 1:
-        raise WrongInput(f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
+    refuse_if((count := value_at(load(method), tool.COUNT) or 1) != 1,
+              f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
 
 
 def _integer(given, key, low, high, usual):

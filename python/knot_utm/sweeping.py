@@ -11,7 +11,7 @@ from tqdm import tqdm
 from knot_utm import tool
 from knot_utm.address import Addresses
 from knot_utm.arguments import folder_of, jobs_of
-from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.errors import Interrupted, refuse_if, WrongInput
 from knot_utm.plots import require_plottable, write_plots
 from knot_utm.study import Study, load_study
 from knot_utm.sweep_folder import SweepFolder, result_of
@@ -73,8 +73,7 @@ class Sweep:
 
     def one(self, run):
         """That run alone, beside others of other processes."""
-        if run not in self.runs:
-            raise WrongInput(f"{run} is no run of {self.study.file}")
+        refuse_if(run not in self.runs, f"{run} is no run of {self.study.file}")
         self._require_same_readings()
         with self._may_be_stopped(), self.folder.shared():
             if run in self._open():

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 
 import knot_utm
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.yaml_text import text_of
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -114,8 +114,7 @@ def refusal(method, settings, *more):
 def resolved(method, settings):
     """The text of the method with every value. Raises WrongInput where tensile_test would refuse to run it."""
     done = _asked("--check", *_words(method, settings), folder=os.path.dirname(method))
-    if done.returncode == REFUSED:
-        raise WrongInput(said_by(done.stderr))
+    refuse_if(done.returncode == REFUSED, said_by(done.stderr))
     return done.stdout
 
 

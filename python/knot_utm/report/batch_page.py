@@ -8,7 +8,7 @@ from collections import Counter
 import numpy as np
 from markupsafe import Markup
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if
 from knot_utm.report.certificate import certificate, Check, specification_checks
 from knot_utm.report.curves import draw, load_axes, mean_curve, reach, small_loads
 from knot_utm.report.marks import largest_load
@@ -43,8 +43,7 @@ class Batch:
         self.units = units_of(self.report)
         self.table = read_table(specimens, ("specimen",), OUTCOME)
         self.numbers, self.rejected = self.table["specimen"].astype(int).tolist(), self.table["rejected"] == "true"
-        if not self.numbers:
-            raise WrongInput(f"{specimens}: no specimens")
+        refuse_if(not self.numbers, f"{specimens}: no specimens")
         self.drawn = list(self.table)[1:list(self.table).index(OUTCOME[0])]
         self.facts = read_yaml(os.path.join(folder, "statistics.yaml"), "specimens", "rejected", "motion_pattern")
         self.reasons = {one["specimen"]: in_units(one["reason"], self.units) for one in self.facts["rejected"]}

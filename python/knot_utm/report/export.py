@@ -11,7 +11,7 @@ import xml.etree.ElementTree as xml
 
 import numpy as np
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if
 from knot_utm.report.colours import colour_scales, LABELS, node_values
 from knot_utm.report.commands import file_ending, in_one_line, OneLineParser, test_in
 from knot_utm.report.rod_pictures import UNKNOWN
@@ -79,9 +79,9 @@ def over_time(folder, run, shapes):
 def at_one_time(arguments, run, shapes, shape):
     radius, values = run.method["material"]["radius"], node_values(shape)
     scales = {name: scale for name, scale in colour_scales(shapes, radius, run.units).items() if name in values}
-    if arguments.color and arguments.color not in scales:
-        raise WrongInput(f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
-                         f"{', '.join(name for name in values if name in scales)}")
+    refuse_if(arguments.color and arguments.color not in scales,
+              f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
+              f"{', '.join(name for name in values if name in scales)}")
     scale = scales.get(arguments.color or "tension")
     mesh = rod_mesh(shape.points, ropes(shape), run.radii(shape))
     colours = scale.of(values[scale.name][mesh.along.astype(int)]) if scale else np.tile(UNKNOWN, (len(mesh.points), 1))

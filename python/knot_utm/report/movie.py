@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if
 from knot_utm.report.colours import colour_scales, LABELS
 from knot_utm.report.commands import file_ending, in_one_line, OneLineParser, test_in
 from knot_utm.report.curves import draw, small_loads
@@ -87,9 +87,8 @@ class Stage:
         self.tests = [OneTest(folder) for folder in folders]
         first = self.tests[0].run
         scales = colour_scales([shape for test in self.tests for shape in test.shapes], first.method["material"]["radius"], first.units)
-        if name not in scales:
-            raise WrongInput(f"{folders[0]}: --color {name}: it is not known, or nowhere different from zero; known are: "
-                             f"{', '.join(scales)}")
+        refuse_if(name not in scales, f"{folders[0]}: --color {name}: it is not known, or nowhere different from zero; known are: "
+                  f"{', '.join(scales)}")
         self.scale = scales[name]
         self.extensions, self.loads = ((min(0.0, *(one.min() for one in of_tests)), max(1e-9, *(one.max() for one in of_tests)))
                                        for of_tests in ([test.extension for test in self.tests], [test.load for test in self.tests]))
@@ -141,10 +140,8 @@ class OneTest:
         self.run = run = Run(folder)
         self.shapes, note = shapes_of(run)
         self.tested = run.curve.tested()
-        if note or len(self.shapes) < 2:
-            raise WrongInput(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
-        if not len(self.tested):
-            raise WrongInput(f"{folder}: the test ended before the specimen was pulled")
+        refuse_if(note or len(self.shapes) < 2, f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
+        refuse_if(not len(self.tested), f"{folder}: the test ended before the specimen was pulled")
         self.begin = float(self.tested["time"][0])
         self.extension = run.units.length.scale * self.tested["extension"]
         self.load = run.units.force.scale * self.tested["load"]

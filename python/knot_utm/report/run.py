@@ -7,7 +7,7 @@ import numpy as np
 import yaml
 
 from knot_utm import tool
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.report.quantities import is_number, units_of, with_unit
 from knot_utm.yaml_text import load, read_text
 
@@ -121,8 +121,7 @@ class Run:
 def read_yaml(file, *wanted, errors="strict"):
     """A map with the keys that are wanted."""
     content = load(file, errors)
-    if not isinstance(content, dict):
-        raise WrongInput(f"{file}: a map is needed")
+    refuse_if(not isinstance(content, dict), f"{file}: a map is needed")
     require_keys(file, content, wanted)
     return content
 
@@ -142,8 +141,7 @@ def read_table(file, wanted, words=()):
     """{column: numbers}, and texts of those columns that hold `words`; row 1 has names, row 2 units. Raises WrongInput where a
     `wanted` column is missing, or one holds no numbers."""
     rows = list(csv.reader(read_text(file).splitlines()))
-    if len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows):
-        raise WrongInput(f"{file}: not a table with a row of names and a row of units")
+    refuse_if(len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows), f"{file}: not a table with a row of names and a row of units")
     columns = dict(zip(rows[0], zip(*rows[2:]) if len(rows) > 2 else [()] * len(rows[0])))
     require_keys(file, columns, (*wanted, *words), "column")
     try:
@@ -154,8 +152,7 @@ def read_table(file, wanted, words=()):
 
 def require_keys(file, content, keys, kind="key"):
     for key in keys:
-        if key not in content:
-            raise WrongInput(f"{file}: no {kind} {key}")
+        refuse_if(key not in content, f"{file}: no {kind} {key}")
 
 
 def read_curve(file):

@@ -4,7 +4,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.report.run import read_table, require_keys
 from knot_utm.yaml_text import read_text
 
@@ -45,8 +45,7 @@ def shapes_in(file):
         raise WrongInput(f"{file}: {why}") from why
     require_keys(file, table, ("time", "node", "x", "y", "z", "tension", "twist", "contact_force"), "column")
     begins = np.flatnonzero(table["node"] == 0)
-    if not len(begins):
-        raise WrongInput(f"{file}: it holds no shape")
+    refuse_if(not len(begins), f"{file}: it holds no shape")
     found = []
     for begin, end in zip(begins, [*begins[1:], len(table["node"])]):
         columns = {name: column[begin:end] for name, column in table.items()}
