@@ -53,7 +53,8 @@ def _study(file, given):
     for key in given:
         refuse_if(key not in KEYS, f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
     method = tool.find_method(_method(given), os.path.dirname(os.path.abspath(file)))
-    _require_one_specimen(method)
+    refuse_if((count := value_at(load(method), tool.COUNT) or 1) != 1,
+              f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
     vary, cases = _keys(given, "vary"), _keys(given, "for_each") if "for_each" in given else {}
     kind = given.get("design", "grid")
     require(kind in DESIGNS, "design", kind, ", ".join(DESIGNS))
@@ -100,11 +101,6 @@ def _method(given):
         raise WrongInput("method is missing: give a file, from the folder of the study, or the name of a shipped method")
     require(isinstance(method, str) and method, "method", method, "a file or a name")
     return method
-
-
-def _require_one_specimen(method):
-    refuse_if((count := value_at(load(method), tool.COUNT) or 1) != 1,
-              f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
 
 
 def _integer(given, key, low, high, usual):

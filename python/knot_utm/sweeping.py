@@ -64,7 +64,8 @@ class Sweep:
         self._require_same_readings()
         points = self._open()
         with self._may_be_stopped():
-            reasons = self._each(self._refusal, points, jobs, "checked")
+            reasons = self._each(lambda _, point: None if self._stopped else tool.refusal(self.study.method, point, *self._options),
+                                 points, jobs, "checked")
         refused = [(point, why) for point, why in zip(points.values(), reasons) if why]
         if refused:
             point, why = refused[0]
@@ -138,9 +139,6 @@ class Sweep:
                 self._stop(str(error))
                 raise
             return [future.result() for future in futures]
-
-    def _refusal(self, _run, point):
-        return None if self._stopped else tool.refusal(self.study.method, point, *self._options)
 
     def _make(self, run, point):
         if self._stopped:

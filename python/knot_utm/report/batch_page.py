@@ -63,11 +63,6 @@ class Batch:
         found = self.facts.get(key)
         return found if isinstance(found, dict) and found.get("n") else None
 
-    def common_mean(self, key):
-        """None: not every specimen that counts has the reading."""
-        found = self.statistics(key)
-        return found["mean"] if found and found["n"] == len(self.runs) else None
-
     def main_keys(self):
         return [key for key in MAIN if self.statistics(key)][:HEADLINES]
 
@@ -276,7 +271,9 @@ def curves(batch, mean):
     """`mean`: a MeanCurve, or None. The loads once more where they are small beside the peak."""
     pulls = [pull for pull in batch.pulls if len(pull[0])]
     force, length, loads = batch.units.force.scale, batch.units.length.scale, np.concatenate([load for _, load in pulls])
-    drawn, axes = load_axes(batch.units, small_loads(batch.common_mean, loads))
+    # Where not every specimen that counts has a reading it says nothing of all of them.
+    means = {key: mean for key, mean in batch.means.items() if mean is not None and batch.statistics(key)["n"] == len(batch.runs)}
+    drawn, axes = load_axes(batch.units, small_loads(means.get, loads))
     for one in axes:
         label = "the specimen" if len(pulls) == 1 else f"{len(pulls)} specimens"
         for s, load in pulls:  # so faint that many do not hide the band

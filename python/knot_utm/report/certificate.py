@@ -44,19 +44,15 @@ def verdict(checks):
 
 def specification_checks(method, result, units):
     """The requirements of the user, in the order of the method."""
-    return [requirement(key, limits or {}, result.get(key), units)
-            for key, limits in (method.get("specification") or {}).items()]
-
-
-def requirement(key, limits, value, units):
-    quantity = quantity_of(key)
-    unit = units.of(quantity.kind)
-    least, most = limits.get("min"), limits.get("max")
-    ends = [f"{words} {number(end * unit.scale)}" for words, end in (("at least", least), ("at most", most))
-            if is_number(end)]
-    kept = is_number(value) and not (is_number(least) and value < least) and not (is_number(most) and value > most)
-    return Check(quantity.label.split(",")[0], key, with_unit(value, unit) if is_number(value) else "not measured",
-                 f"{' and '.join(ends)} {unit.name}".strip(), kept)
+    checks = []
+    for key, limits in (method.get("specification") or {}).items():
+        value, unit = result.get(key), units.of(quantity_of(key).kind)
+        least, most = ((limits or {}).get(end) for end in ("min", "max"))
+        ends = [f"{words} {number(end * unit.scale)}" for words, end in (("at least", least), ("at most", most)) if is_number(end)]
+        kept = is_number(value) and not (is_number(least) and value < least) and not (is_number(most) and value > most)
+        checks.append(Check(quantity_of(key).label.split(",")[0], key, with_unit(value, unit) if is_number(value) else "not measured",
+                            f"{' and '.join(ends)} {unit.name}".strip(), kept))
+    return checks
 
 
 def specification_verdict(result, checks):

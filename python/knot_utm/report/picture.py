@@ -19,7 +19,8 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from knot_utm import tool
-from knot_utm.report.commands import in_one_line, OneLineParser, refuse
+from knot_utm.errors import refuse_if
+from knot_utm.report.commands import in_one_line, OneLineParser
 from knot_utm.report.curves import course, force_extension
 from knot_utm.report.marks import mark_at
 from knot_utm.report.method_facts import materials_of
@@ -55,27 +56,17 @@ def main():
     asked = parser.parse_args()
     of_runs = not asked.knots and not asked.rviz
     for word in () if of_runs else asked.words:
-        if asked.knots or not re.match(r"(?!record:|out:)\w+:=", word):
-            refuse("picture", f"--{'knots' if asked.knots else 'rviz'} takes no {word} (scripts/picture --help)")
+        refuse_if(asked.knots or not re.match(r"(?!record:|out:)\w+:=", word),
+                  f"--{'knots' if asked.knots else 'rviz'} takes no {word} (scripts/picture --help)")
     parser.require_room("--out", asked.out, asked.words if of_runs else (), asked.overwrite)
     command = shlex.join(["scripts/picture", *(word for word in sys.argv[1:] if word != "--overwrite")])
     if of_runs:
-        return draw(runs_of(asked.words), asked.out, command)
+        return draw([Run(folder) for folder in asked.words], asked.out, command)
     with tempfile.TemporaryDirectory() as folder:
         shot = os.path.join(folder, "shot.png")
         facts = shot_of_knots(folder, shot) if asked.knots else shot_of_rviz(folder, shot, asked.words)
         with Image.open(shot) as picture:
             save(picture.convert("RGB"), asked.out, {**facts, "command": command})
-
-
-def runs_of(folders):
-    if not folders:
-        refuse("picture", "name a folder of a run (scripts/picture --help)")
-    runs = [Run(folder) for folder in folders]
-    for run in runs:
-        if not len(run.curve.pull()):
-            refuse("picture", f"{run.folder}: a run in which nothing was pulled")
-    return runs
 
 
 def rods(runs, letters):
@@ -94,6 +85,9 @@ def rods(runs, letters):
 
 
 def draw(runs, file, command):
+    refuse_if(not runs, "name a folder of a run (scripts/picture --help)")
+    for run in runs:
+        refuse_if(not len(run.curve.pull()), f"{run.folder}: a run in which nothing was pulled")
     last, ends = runs[-1], [mark_at(run.curve.pull(), -1, letter=letter) for letter, run in zip(string.ascii_lowercase, runs)]
     images = [image_of(figure) for figure in (rods(runs, [end.letter for end in ends]), course(last), force_extension(last, ends))]
     save(Image.fromarray(np.vstack(images)), file, facts_of_run(last.folder, command))

@@ -59,8 +59,10 @@ class Run:
         self.method = read_yaml(os.path.join(folder, "method.yaml"))
         self.report = texts_of(os.path.join(folder, "method.yaml"), "report")
         self.units = units_of(self.report)
-        self.result = read_yaml(os.path.join(folder, "result.yaml"))
-        self.reasons = reasons_in(os.path.join(folder, "result.yaml"))
+        result = os.path.join(folder, "result.yaml")
+        self.result = read_yaml(result)
+        # Why values are null, as the program says it behind them.
+        self.reasons = dict(re.findall(r"^(\w+): null  # (.*)$", read_text(result), re.MULTILINE))
         self.readings = read_curve(os.path.join(folder, "curve.csv"))
         self.curve = read_curve(os.path.join(folder, "curve_full.csv"))
 
@@ -84,14 +86,6 @@ class Run:
 
     def has_knot(self):
         return self.reasons.get("knot_efficiency") != "there is no knot"
-
-    def given_strength(self):
-        """The breaking force of the material with its unit, where the rod parted at it; else None. What is read at such a
-        break follows from it."""
-        other = self.method.get("other_material", {})
-        force = min(filter(is_number, (self.method["material"].get("breaking_force"), other.get("breaking_force"))), default=None)
-        parted = self.value("break_extension") is not None and "at a tension of" in (self.result.get("reason") or "")
-        return with_unit(force, self.units.force) if parted and is_number(force) else None
 
     def not_predicted(self):
         """Keys whose value would only repeat what was given."""
@@ -124,11 +118,6 @@ def read_yaml(file, *wanted, errors="strict"):
     refuse_if(not isinstance(content, dict), f"{file}: a map is needed")
     require_keys(file, content, wanted)
     return content
-
-
-def reasons_in(file):
-    """Why values of a file are null, by key, as the program says it behind them."""
-    return dict(re.findall(r"^(\w+): null  # (.*)$", read_text(file), re.MULTILINE))
 
 
 def texts_of(file, key):

@@ -6,7 +6,7 @@ from knot_utm.report.curves import course, error_band, force_extension
 from knot_utm.report.marks import end_of, largest_load, marks_of
 from knot_utm.report.method_facts import knot_and_materials, method_facts, particulars, program
 from knot_utm.report.page import Box, certificate_section, facts, figure, head_of, Headline, no_value, render, Row, Table, verdict_box
-from knot_utm.report.quantities import (all_in_units, CERTIFICATE, error_shown, GROUPS, HEAD, in_units, is_rounding, quantity_of,
+from knot_utm.report.quantities import (all_in_units, CERTIFICATE, error_shown, GROUPS, HEAD, in_units, is_number, is_rounding, quantity_of,
                                         shown, TABLES, with_unit)
 from knot_utm.report.rod_pictures import pictures
 from knot_utm.report.run import Run
@@ -56,8 +56,12 @@ def report_on_run(folder, command, version):
 
 
 def given_box(run):
-    given = run.given_strength()
-    return given and Box("quiet", [f"The rod parted at the breaking force that was given, {given}" + (
+    """Where the rod parted at the breaking force of its material: what is read at such a break follows from it."""
+    forces = [run.method[of].get("breaking_force") for of in ("material", "other_material") if of in run.method]
+    if run.value("break_extension") is None or "at a tension of" not in (run.result.get("reason") or "") or not any(map(is_number, forces)):
+        return None
+    given = with_unit(min(filter(is_number, forces)), run.units.force)
+    return Box("quiet", [f"The rod parted at the breaking force that was given, {given}" + (
         ": the strength of the knot is not predicted." if "knot_efficiency" in run.not_predicted() else
         ", which the peak force repeats.")])
 
