@@ -110,12 +110,7 @@ def force_extension(run, marks):
     put_marks(axes[0], run, [(mark, run.units.force.scale * mark.load) for mark in marks])
     if knots:
         draw_knot_distance(axes[-1], run, marks)
-    end = scale * float(tested["extension"].max())
-    for one in axes:
-        shade_motion(one, run, end)
-        for place, _, colour, style in events:
-            one.axvline(place, color=colour, lw=0.9, ls=style)
-    name_motion(axes[0], run, events, end)
+    draw_motion(axes, run, events, scale * float(tested["extension"].max()))
     shown = tested["extension"]
     if tested.has_compliant_frame():
         pull = run.curve.pull()
@@ -192,28 +187,29 @@ def events_of(run):
     return sorted((length.scale * value(key), *event) for key, *event in events if value(key) is not None)
 
 
-def shade_motion(axes, run, end):
-    """Up to the lock the knots slide, behind it the rod stretches."""
+def draw_motion(axes, run, events, end):
+    """What moves where: up to the lock the knots slide, behind it the rod stretches. Each event is named on a line of its own above the
+    axes."""
     lock, error, scale = run.value("lock_extension"), run.value("lock_extension_error"), run.units.length.scale
+    pattern, parts = run.result.get("motion_pattern"), []
     if lock is not None:
-        axes.axvspan(0.0, scale * lock, color=PHASES["mount"], alpha=0.45, lw=0, zorder=0)
-        axes.axvspan(scale * lock, end, color=PHASES["tie"], alpha=0.5, lw=0, zorder=0)
-        if error:
-            axes.axvspan(scale * (lock - error), scale * (lock + error), color=GREY, alpha=0.2, lw=0, zorder=0)
-
-
-def name_motion(axes, run, events, end):
-    """Each event on a line of its own above the axes; within them what moves where."""
-    above, lock, pattern = axes.get_xaxis_transform(), run.value("lock_extension"), run.result.get("motion_pattern")
+        parts = [(0.0, scale * lock, "the knots slide", GREEN, "mount", 0.45), (scale * lock, end, "the rod stretches", GOLD, "tie", 0.5)]
+    elif pattern not in (None, "none"):
+        parts = [(0.0, end, f"motion pattern: {pattern}", GREEN, None, 0.0)]
+    for one in axes:
+        for begin, finish, _, _, phase, strength in parts:
+            one.axvspan(begin, finish, color=PHASES.get(phase), alpha=strength, lw=0, zorder=0)
+        if lock is not None and error:
+            one.axvspan(scale * (lock - error), scale * (lock + error), color=GREY, alpha=0.2, lw=0, zorder=0)
+        for place, _, colour, style in events:
+            one.axvline(place, color=colour, lw=0.9, ls=style)
+    above = axes[0].get_xaxis_transform()
     for line, (place, words, colour, _) in enumerate(events):
-        axes.annotate(words, (place, 1.0), xytext=(0, 3 + 10.8 * line), xycoords=above, textcoords="offset points", color=colour,
-                      ha="right" if place > 0.8 * end else "left" if place < 0.1 * end else "center", fontsize=SMALL)
-    parts = [(0.0, end, f"motion pattern: {pattern}", GREEN)] if pattern not in (None, "none") else []
-    if lock is not None:
-        lock *= run.units.length.scale
-        parts = [(0.0, lock, "the knots slide", GREEN), (lock, end, "the rod stretches", GOLD)][:2 if end - lock > 0.2 * end else 1]
-    for begin, finish, words, colour in parts:
-        axes.text(0.5 * (begin + finish), 0.955, words, ha="center", color=colour, transform=above)
+        axes[0].annotate(words, (place, 1.0), xytext=(0, 3 + 10.8 * line), xycoords=above, textcoords="offset points", color=colour,
+                         ha="right" if place > 0.8 * end else "left" if place < 0.1 * end else "center", fontsize=SMALL)
+    for begin, finish, words, colour, *_ in parts:
+        if begin == 0.0 or finish - begin > 0.2 * end:
+            axes[0].text(0.5 * (begin + finish), 0.955, words, ha="center", color=colour, transform=above)
 
 
 # ---- bands ----
