@@ -15,8 +15,6 @@ from knot_utm import tool
 from knot_utm.arguments import folder_of, jobs_of, make_folder, shown, write_whole
 from knot_utm.errors import refuse_if
 from knot_utm.fitting import Record, Search, pull_of_table, read_pull
-from knot_utm.report.fit import report_on_fit
-from knot_utm.report.page import write as write_page
 from knot_utm.study import Study
 from knot_utm.sweeping import Sweep
 from knot_utm.yaml_text import described, is_number, text_of, value_at, value_of
@@ -85,8 +83,9 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
         fitted = Fitted(_searched(method, lambda settings: _made(method, folder, jobs, settings), asked, ranges))
     values = {key: one.value for key, one in fitted.found.items() if not key.startswith("record.")}
     fitted.write(out, [tool.resolved(method, {**given, **values}) for _, given in asked])
-    if report:
-        write_page(out, report_on_fit(out, command or "knot_utm.fit in Python", tool.version()))
+    if report:  # which needs packages that a fit does not
+        from knot_utm.report import fit as of_fit, page
+        page.write(out, of_fit.report_on_fit(out, command or "knot_utm.fit in Python", tool.version()))
     return fitted
 
 
