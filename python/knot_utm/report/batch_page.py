@@ -131,7 +131,7 @@ def under_title(batch):
         return ", ".join(f"{word} {number}" for word, number in sorted(found.items(), key=lambda item: (-item[1], item[0])))
 
     count, rejected = len(batch.numbers), len(batch.reasons)
-    said = [f"knot_utm {run.result.get('version')}" for run in list(batch.runs.values())[:1]]
+    said = [f"knot_utm {next(iter(batch.runs.values())).result.get('version')}"] if batch.runs else []
     said.append(f"{count} specimen{'s' if count > 1 else ''}" + (
         f", of which {count - rejected} count and {rejected} {'are' if rejected > 1 else 'is'} rejected" if rejected else ""))
     if batch.runs:

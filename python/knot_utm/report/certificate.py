@@ -15,7 +15,7 @@ def certificate(result, has_knot=True, soft=False):
     limits = {row["name"]: float(row["limit"]) for row in tool.listing("limits")}
     value, jump = result.get, is_number(result.get("jump_force"))
     true, error, moved = value("true_plateau_force"), value("plateau_force_error"), value("not_equilibrated")
-    checks = [  # what is not known is None, and no check
+    checks = [  # (words, key, what is found, the limit; none where it is yes or no); what is not known is None, and no check
         ("The physics solved every time step", "ended_by", value("ended_by") and value("ended_by") != "solver", ""),
         ("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved") if has_knot else None, ""),
         ("The specimen was at rest as its pull began", "not_equilibrated", None if moved is None else not moved, ""),
@@ -26,9 +26,13 @@ def certificate(result, has_knot=True, soft=False):
           for key, limit in (("energy_balance_error", "energies_differ"), ("force_balance_error", "forces_differ"))),
         ("Estimated numerical error of the plateau force, as a share of it", "plateau_force_error",
          abs(error / true) if is_number(true) and is_number(error) and true else None, "plateau_unsure")]
-    return [Check(words, key, number(found), f"at most {limits[limit]:g}", found <= limits[limit]) if limit else
-            Check(words, key, "yes" if found else "no", "yes", found)
-            for words, key, found, limit in checks if (is_number(found) if limit else found is not None)]
+    known = []
+    for words, key, found, limit in checks:
+        if limit and is_number(found):
+            known.append(Check(words, key, number(found), f"at most {limits[limit]:g}", found <= limits[limit]))
+        elif not limit and found is not None:
+            known.append(Check(words, key, "yes" if found else "no", "yes", found))
+    return known
 
 
 def stiffness_name(result):
