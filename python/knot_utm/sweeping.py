@@ -4,9 +4,8 @@ import os
 import shutil
 import signal
 import threading
-from concurrent.futures import ThreadPoolExecutor, as_completed
 
-from tqdm import tqdm
+from tqdm.contrib.concurrent import thread_map
 
 from knot_utm import tool
 from knot_utm.address import Addresses
@@ -129,16 +128,14 @@ class Sweep:
 
     def _each(self, do, points, jobs, what):
         """`do(run, point)` for all points, some at a time; what each returned, in their order."""
-        with ThreadPoolExecutor(jobs) as pool, tqdm(total=len(points), desc=what, unit="run", disable=None) as bar:
-            futures = [pool.submit(do, *point) for point in points.items()]
+        def done(run, point):
             try:
-                for future in as_completed(futures):
-                    future.result()
-                    bar.update()
+                return do(run, point)
             except BaseException as error:
                 self._stop(str(error))
                 raise
-            return [future.result() for future in futures]
+
+        return thread_map(done, points.keys(), points.values(), max_workers=jobs, desc=what, unit="run", disable=None)
 
     def _make(self, run, point):
         if self._stopped:
