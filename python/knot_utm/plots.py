@@ -9,7 +9,6 @@ from matplotlib import cm
 from knot_utm import axes, pattern_plots, trends
 from knot_utm.errors import refuse_if
 from knot_utm.groups import dimensionless, scale, UNITS
-from knot_utm.report.curves import draw
 from knot_utm.table import NUMBERS, result_columns, SPECIMEN
 
 # {column of curve_full.csv: (what it is drawn over, the phase from which on)}
@@ -135,7 +134,7 @@ def figure_of_curves(table, keys, result, cases, runs, rods=None):
             units = [_unit(column, rod_of[run]) for column in (across, result)]
             x, y = _from(runs.curve(run), phase, across, result)
             if len(x):
-                draw(panel, x / units[0][1], y / units[1][1], color=shade, linewidth=0.8, label=None if value in named else value)
+                panel.plot(x / units[0][1], y / units[1][1], color=shade, linewidth=0.8, label=None if value in named else value)
             named.add(value)
         panel.set_title(name, fontsize="small")
         panel.set(xlabel=f"{across} [{units[0][0]}]", ylabel=f"{result} [{units[1][0]}]")

@@ -10,7 +10,7 @@ from markupsafe import Markup
 
 from knot_utm.errors import refuse_if
 from knot_utm.report.certificate import certificate, Check, specification_checks
-from knot_utm.report.curves import draw, load_axes, mean_curve, reach, small_loads
+from knot_utm.report.curves import load_axes, mean_curve, reach, small_loads
 from knot_utm.report.marks import largest_load
 from knot_utm.report.method_facts import knot_and_materials, label_of, method_facts, particulars, place_of, program, sentence, unit_of
 from knot_utm.report.page import Box, certificate_section, facts, figure, files_of, head_of, Headline, no_value, render, Row, Table, verdict_box
@@ -26,8 +26,6 @@ MAIN = ("knotability", "plateau_force", "jump_force", "force_ratio", "lock_exten
         "break_extension", "knot_efficiency", "elongation_total", "elongation_at_break", "energy_to_break")
 HEADLINES = 5
 FINEST = 1e-5  # of a mean: no spread is so small that more digits are shown
-IN_ALL = 60000  # points of all curves together
-FEWEST = 60     # points of one curve
 
 # What stands in a row of specimens.csv before the readings, and behind what was drawn.
 OUTCOME = ("rejected", "ended_by", "motion_pattern")
@@ -277,8 +275,7 @@ def curves(batch, mean):
     for one in axes:
         label = "the specimen" if len(pulls) == 1 else f"{len(pulls)} specimens"
         for s, load in pulls:  # so faint that many do not hide the band
-            draw(one, length * s, force * load, max(FEWEST, IN_ALL // len(pulls)), color=BLUE, lw=0.8,
-                 alpha=min(0.6, max(0.1, 6.0 / len(pulls))), label=label)
+            one.plot(length * s, force * load, color=BLUE, lw=0.8, alpha=min(0.6, max(0.1, 6.0 / len(pulls))), label=label)
             label = None
         if mean is not None:
             s = length * mean.extension

@@ -7,7 +7,7 @@ import numpy as np
 from markupsafe import Markup
 
 from knot_utm.errors import WrongInput
-from knot_utm.report.curves import draw, load_axes, reach, small_loads
+from knot_utm.report.curves import load_axes, reach, small_loads
 from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.page import Box, figure, Headline, no_value, render, Row, Table
 from knot_utm.report.quantities import all_in_units, is_number, number, percent, quantity_of, shown, Units, units_of, with_unit
@@ -82,7 +82,7 @@ def overlay(comparison):
     figure, axes = load_axes(units, small_loads(lambda key: max(comparison.readings(key).values(), default=None), load), [1.6], above=0.15)
     for one in axes[:-1]:
         for side in comparison.sides:
-            draw(one, length * side.pull.extension, force * side.pull.load, color=side.colour, lw=1.4, label=f"{side.name}: {short(side.file)}")
+            one.plot(length * side.pull.extension, force * side.pull.load, color=side.colour, lw=1.4, label=f"{side.name}: {short(side.file)}")
             if (lock := comparison.readings("lock_extension_by_load").get(side.name)) is not None:
                 one.axvline(length * lock, color=side.colour, lw=0.8, ls=(0, (4, 3)))
     axes[0].legend(loc="upper left")
@@ -98,8 +98,8 @@ def draw_difference(axes, comparison):
     length, force = comparison.units.length, comparison.units.force
     s, difference = comparison.difference()
     axes.axhline(0.0, color=INK, lw=0.8)
-    line = draw(axes, length.scale * s, force.scale * difference, color=GREEN, lw=1.2)
-    axes.fill_between(*line.get_data(), color=GREEN, alpha=0.25, lw=0)
+    axes.plot(length.scale * s, force.scale * difference, color=GREEN, lw=1.2)
+    axes.fill_between(length.scale * s, force.scale * difference, color=GREEN, alpha=0.25, lw=0)
     at, largest = comparison.number("largest_difference_at"), comparison.number("largest_difference")
     if at is not None and largest is not None:
         side = "right" if at > np.mean(comparison.facts["common_extension"]) else "left"

@@ -11,30 +11,9 @@ from knot_utm.report.quantities import with_unit
 from knot_utm.report.run import FORMING
 from knot_utm.report.style import BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, stacked, VIOLET
 
-MOST = 6000  # points of a curve that are drawn
 FEW = 250    # readings of the cell that are drawn as points
 STEPS = 1000
 DASHED, DOTTED = (0, (4, 3)), (0, (1, 2))
-
-
-def few_points(*columns, most=MOST):
-    """Rows to be drawn: all of them, or the first, the smallest and the largest of each column in every stretch."""
-    rows = np.arange(len(columns[0]))
-    if len(rows) <= most:
-        return rows
-    kept = {rows[0], rows[-1]}
-    for stretch in np.array_split(rows, most // (2 * len(columns) + 1)):
-        kept.add(stretch[0])
-        for column in columns:
-            part = np.where(np.isfinite(column[stretch]), column[stretch], 0.0)
-            kept.update((stretch[np.argmin(part)], stretch[np.argmax(part)]))
-    return np.array(sorted(kept))
-
-
-def draw(axes, x, y, most=MOST, **style):
-    """A curve by as many of its points as can be seen."""
-    rows = few_points(x, y, most=most)
-    return axes.plot(x[rows], y[rows], **style)[0]
 
 
 def small_loads(value, load):
@@ -86,7 +65,7 @@ def course(run):
     tested = ~np.isin(curve.phase, FORMING)
     second = axes.twinx()
     for one, name, unit, colour in ((axes, "load", force, BLUE), (second, "extension", length, ORANGE)):
-        draw(one, time, unit.scale * np.where(tested, curve[name], np.nan), color=colour, lw=1.2)
+        one.plot(time, unit.scale * np.where(tested, curve[name], np.nan), color=colour, lw=1.2)
         one.set_ylabel(f"{name} {'F' if name == 'load' else 's'} [{unit.name}]", color=colour)
         one.grid(False)
     second.spines["right"].set_visible(True)
@@ -128,21 +107,20 @@ def draw_loads(axes, run):
                      alpha=0.45, hatch="////", lw=0.0, label=f"cell's floor, {with_unit(floor, force)}")
     band = error_band(run, pull)
     if band:
-        rows = few_points(*band)
-        axes.fill_between(length.scale * pull["extension"][rows], *(force.scale * end[rows] for end in band), color=BLUE, alpha=0.22,
-                          lw=0, label="numerical error")
+        axes.fill_between(length.scale * pull["extension"], *(force.scale * end for end in band), color=BLUE, alpha=0.22, lw=0,
+                          label="numerical error")
     named = set()
     for name, a, b in phases_of(tested):
-        draw(axes, length.scale * tested["extension"][a:b + 1], force.scale * tested["load"][a:b + 1], lw=1.4,
-             color={"hold": VIOLET, "return": GREEN}.get(name, BLUE), label=None if name in named else name)
+        axes.plot(length.scale * tested["extension"][a:b + 1], force.scale * tested["load"][a:b + 1], lw=1.4,
+                  color={"hold": VIOLET, "return": GREEN}.get(name, BLUE), label=None if name in named else name)
         named.add(name)
     cell = run.readings.tested()
     if len(cell) <= FEW:
         axes.plot(length.scale * cell["extension"], force.scale * cell["load"], "o", ms=2.6, mfc="white", mec=BLUE, mew=0.7,
                   label="as the cell reads it")
     if tested.has_compliant_frame():
-        draw(axes, length.scale * tested["crosshead_extension"], force.scale * tested["load"], color=GREY, lw=0.9, ls=(0, (5, 2)),
-             label="over the crosshead's extension")
+        axes.plot(length.scale * tested["crosshead_extension"], force.scale * tested["load"], color=GREY, lw=0.9, ls=(0, (5, 2)),
+                  label="over the crosshead's extension")
 
 
 def draw_plateau(axes, run):
@@ -158,7 +136,7 @@ def draw_plateau(axes, run):
 def draw_knot_distance(axes, run, marks):
     tested, length, lock = run.curve.tested(), run.units.length, run.value("lock_extension")
     s, e = length.scale * tested["extension"], length.scale * tested["knot_distance"]
-    draw(axes, s, e, color=VIOLET, lw=1.4)
+    axes.plot(s, e, color=VIOLET, lw=1.4)
     if lock is not None or (run.result.get("motion_pattern") == "sliding" and run.value("jump_force") is None):
         first, end = np.flatnonzero(np.isfinite(e))[0], length.scale * lock if lock is not None else s[-1]
         rigid = 2 if run.method["machine"]["grips"] == "rollers" else 1

@@ -4,7 +4,7 @@ import os
 import numpy as np
 
 from knot_utm import axes
-from knot_utm.report.curves import draw, load_axes
+from knot_utm.report.curves import load_axes
 from knot_utm.report.page import Box, figure, render, Row, Table, verdict_box
 from knot_utm.report.quantities import is_number, number, Units
 from knot_utm.report.run import read_table, read_yaml
@@ -27,7 +27,7 @@ def curve(name, extension, measured, simulated, error):
     drawn, (above, below) = load_axes(Units(), None, [1.3], above=0.15)
     s = 1e3 * extension
     above.fill_between(s, simulated - 2.0 * error, simulated + 2.0 * error, color=BLUE, alpha=0.18, lw=0, label="twice the error")
-    draw(above, s, simulated, color=BLUE, lw=1.4, label="fitted")
+    above.plot(s, simulated, color=BLUE, lw=1.4, label="fitted")
     above.plot(s, measured, "o", color=ORANGE, ms=3.5, label="measured: " + short(name))
     above.legend(loc="upper left")
     below.axhline(0.0, color=INK, lw=0.8)

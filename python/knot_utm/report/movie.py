@@ -11,7 +11,7 @@ import numpy as np
 from knot_utm.errors import refuse_if
 from knot_utm.report.colours import colour_scales, LABELS
 from knot_utm.report.commands import file_ending, in_one_line, OneLineParser, test_in
-from knot_utm.report.curves import draw, small_loads
+from knot_utm.report.curves import small_loads
 from knot_utm.report.method_facts import knot_and_materials
 from knot_utm.report.rod_pictures import by_scale, draw_rod, view
 from knot_utm.report.run import Run
@@ -126,10 +126,10 @@ class Stage:
         axes.set_xlabel(f"extension [{test.run.units.length.name}]", fontsize=USUAL + 3)
 
     def draw_curve(self, axes, test, shape, loads, name):
-        draw(axes, test.extension, test.load, color=FAINT, lw=2.0)
+        axes.plot(test.extension, test.load, color=FAINT, lw=2.0)
         if shape.time >= test.begin:
             extension, load = test.until(shape.time)
-            draw(axes, extension, load, color=BLUE, lw=2.4)
+            axes.plot(extension, load, color=BLUE, lw=2.4)
             axes.plot(extension[-1], load[-1], "o", ms=9, color=ORANGE, clip_on=not loads[0] <= load[-1] <= loads[1], zorder=5)
         axes.set(xlim=self.extensions, ylim=(loads[0], loads[1] + 0.05 * (loads[1] - loads[0])))
         axes.set_ylabel(f"{name} [{test.run.units.force.name}]", fontsize=USUAL + 3)
