@@ -1,5 +1,4 @@
 """One run of tensile_test, and a batch: several specimens of one method. Made, and read."""
-import csv
 import functools
 import os
 import subprocess
@@ -124,11 +123,9 @@ def _made(reads, result, method, out, specimens, overrides, overwrite, *more):
 
 def read_table(path):
     """A table with names in row 1 and units in row 2, the latter in `.attrs["units"]`."""
-    table = pd.read_csv(path, skiprows=[1], float_precision="round_trip", keep_default_na=False, na_values=["nan", ""])
-    with open(path, encoding="utf-8", newline="") as file:
-        names, units = (row for _, row in zip(range(2), csv.reader(file)))
-    table.attrs["units"] = dict(zip(names, units))
-    return table
+    table = pd.read_csv(path, header=[0, 1], float_precision="round_trip", keep_default_na=False, na_values=["nan", ""])
+    table.attrs["units"] = dict(table.columns)
+    return table.set_axis(table.columns.get_level_values(0), axis="columns", copy=False)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
