@@ -16,33 +16,11 @@ VALUES = "{values: [a, b, ...]}"
 DRAWS = {"uniform": ("from", "to"), "log_uniform": ("from", "to"), "normal": ("mean", "sd")}
 
 
-class Listed:
-    """A key that takes the values of a list."""
-
-    def __init__(self, values):
-        self.values = values
-
-    def at(self, shares):
-        """Those at shares from 0 to 1 of the list."""
-        return [self.values[min(int(share * len(self.values)), len(self.values) - 1)] for share in shares]
-
-
-class Sampled:
-    """A key that takes the values of a distribution."""
-
-    def __init__(self, distribution):
-        self.distribution = distribution
-
-    def at(self, shares):
-        """The quantiles; a share of 0 would be infinitely far out for some."""
-        return self.distribution.ppf(np.clip(shares, 2.0**-31, 1.0 - 2.0**-31)).tolist()
-
-
 def varied(key, given, map_of="vary"):
-    """What the study says of one key, as Listed or Sampled, in the unit that it gives. Raises WrongInput."""
+    """What the study says of one key: a list of values, or a distribution of scipy's, in the unit that it gives. Raises WrongInput."""
     where = f"{map_of}.{key}"
     if isinstance(given, list) and given:
-        return Listed(given)
+        return given
     require(isinstance(given, dict), where, given, f"a list of values, a range {RANGE}, or a draw {DRAW}")
     given = {part: value for part, value in given.items() if part != "unit"}
     if "values" in given:
@@ -51,7 +29,7 @@ def varied(key, given, map_of="vary"):
 
 
 def points(kinds, design, runs=None, seed=1):
-    """[{key: value}] of every run. `kinds`: {key: Listed or Sampled}; `runs`: of the designs that draw."""
+    """[{key: value}] of every run. `kinds`: {key: list or distribution}; `runs`: of the designs that draw."""
     if design == "grid":
         return combinations(kinds)
     made = _one_at_a_time(kinds) if design == "one_at_a_time" else (_list if design == "list" else _sobol)(kinds, runs, seed)
@@ -61,50 +39,50 @@ def points(kinds, design, runs=None, seed=1):
 def combinations(kinds, where="vary", what="a grid"):
     """[{key: value}] of every combination, the last key fastest. `where` and `what` are for messages."""
     _require_listed(kinds, where, what)
-    count = math.prod(len(kind.values) for kind in kinds.values())
+    count = math.prod(map(len, kinds.values()))
     refuse_if(count > MOST_RUNS, f"{where} asks for {count} runs, but must ask for at most {MOST_RUNS}")
-    return [dict(zip(kinds, values)) for values in itertools.product(*(kind.values for kind in kinds.values()))]
+    return [dict(zip(kinds, values)) for values in itertools.product(*kinds.values())]
 
 
 def _require_listed(kinds, where, what):
     for key, kind in kinds.items():
-        refuse_if(isinstance(kind, Sampled), f"{where}.{key} is drawn or has no steps, but {what} needs values: give steps, or design: list or "
-                  "sobol")
+        refuse_if(not isinstance(kind, list), f"{where}.{key} is drawn or has no steps, but {what} needs values: give steps, or design: list "
+                  "or sobol")
 
 
 def _one_at_a_time(kinds):
     """The first values of all keys, and then beside them each other value of each key."""
     _require_listed(kinds, "vary", "one_at_a_time")
-    first = [kind.values[0] for kind in kinds.values()]
-    changed = [[*first[:i], value, *first[i + 1:]] for i, kind in enumerate(kinds.values()) for value in kind.values[1:]]
-    return [first, *changed]
+    first = [values[0] for values in kinds.values()]
+    return [first, *([*first[:i], value, *first[i + 1:]] for i, values in enumerate(kinds.values()) for value in values[1:])]
 
 
 def _list(kinds, runs, seed):
     """The values side by side; a list of one value stands beside every run."""
-    lengths = {key: len(kind.values) for key, kind in kinds.items() if isinstance(kind, Listed) and len(kind.values) > 1}
-    for key, length in lengths.items():
-        wanted = runs or next(iter(lengths.values()))
-        refuse_if(length != wanted, f"vary.{key} has {length} values, but must have {wanted} in this design: list, or one")
+    lengths = {key: len(kind) for key, kind in kinds.items() if isinstance(kind, list) and len(kind) > 1}
     count = runs or next(iter(lengths.values()), None)
-    refuse_if(count is None and any(isinstance(kind, Sampled) for kind in kinds.values()), "runs is missing: give how many are drawn")
-    count = count or 1
-    columns = []
-    for kind, stream in zip(kinds.values(), np.random.SeedSequence(seed).spawn(len(kinds))):
-        if isinstance(kind, Sampled):
-            columns.append(kind.at(np.random.default_rng(stream).random(count)))
-        else:
-            columns.append(kind.values * count if len(kind.values) == 1 else kind.values)
-    return zip(*columns)
+    for key, length in lengths.items():
+        refuse_if(length != count, f"vary.{key} has {length} values, but must have {count} in this design: list, or one")
+    refuse_if(not count and not all(isinstance(kind, list) for kind in kinds.values()), "runs is missing: give how many are drawn")
+    count, streams = count or 1, np.random.SeedSequence(seed).spawn(len(kinds))
+    return zip(*((kind if len(kind) > 1 else kind * count) if isinstance(kind, list) else _at(kind, np.random.default_rng(stream).random(count))
+                 for kind, stream in zip(kinds.values(), streams)))
 
 
 def _sobol(kinds, runs, seed):
-    """Quantiles at Sobol's points, scrambled by the seed."""
+    """Sobol's points, scrambled by the seed."""
     refuse_if(runs is None, "runs is missing: give how many points, best a power of two")
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="The balance properties")
         shares = stats.qmc.Sobol(len(kinds), seed=seed).random(runs)
-    return zip(*(kind.at(column) for kind, column in zip(kinds.values(), shares.T)))
+    return zip(*(_at(kind, column) for kind, column in zip(kinds.values(), shares.T)))
+
+
+def _at(kind, shares):
+    """The values of a list at shares of it from 0 to 1, or the quantiles of a distribution; one of 0 would be infinitely far out for some."""
+    if isinstance(kind, list):
+        return [kind[min(int(share * len(kind)), len(kind) - 1)] for share in shares]
+    return kind.ppf(np.clip(shares, 2.0**-31, 1.0 - 2.0**-31)).tolist()
 
 
 def _values(where, given):
@@ -112,7 +90,7 @@ def _values(where, given):
     _only(where, given, ("values",), VALUES)
     values = given["values"]
     require(isinstance(values, list) and values and all(map(is_number, values)), f"{where}.values", values, "a list of numbers")
-    return Listed(values)
+    return values
 
 
 def _range(where, given):
@@ -123,7 +101,7 @@ def _range(where, given):
         return _between(where, low, high, scale == "log")
     _require_positive(where, scale == "log", low, high)
     require(is_whole(steps, 2, MOST_RUNS), f"{where}.steps", steps, f"an integer from 2 to {MOST_RUNS}")
-    return Listed((np.geomspace if scale == "log" else np.linspace)(low, high, steps).tolist())
+    return (np.geomspace if scale == "log" else np.linspace)(low, high, steps).tolist()
 
 
 def _drawn(where, given):
@@ -134,13 +112,13 @@ def _drawn(where, given):
     if name != "normal":
         return _between(where, first, second, name == "log_uniform")
     require(second > 0, f"{where}.sd", second, "above 0")
-    return Sampled(stats.norm(first, second))
+    return stats.norm(first, second)
 
 
 def _between(where, low, high, log):
     _require_positive(where, log, low, high)
     require(low < high, f"{where}.to", high, f"above from, {text_of(low)}")
-    return Sampled(stats.loguniform(low, high) if log else stats.uniform(low, high - low))
+    return stats.loguniform(low, high) if log else stats.uniform(low, high - low)
 
 
 def _require_positive(where, log, *values):
