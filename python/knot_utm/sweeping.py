@@ -8,7 +8,7 @@ import threading
 from tqdm.contrib.concurrent import thread_map
 
 from knot_utm import tool
-from knot_utm.address import Addresses
+from knot_utm.address import addresses
 from knot_utm.arguments import folder_of, jobs_of
 from knot_utm.errors import Interrupted, refuse_if, WrongInput
 from knot_utm.plots import require_plottable, write_plots
@@ -39,8 +39,7 @@ class Sweep:
         self.study = study if isinstance(study, Study) else load_study(os.fspath(study))
         self.plots, self.readings = plots, readings
         self.folder = SweepFolder(folder_of(out, os.path.join("out", self.study.name)))
-        addresses = Addresses(self.study.method)
-        self.names = [addresses.of(settings) for settings in self.study.settings]
+        self.names = addresses(self.study.method, self.study.settings)
         self.runs = dict(zip(self.names, self.study.settings))
         self._options = ("--readings", readings) if readings else ()
         self._stopped, self._live = None, set()  # why; the runs in flight
