@@ -46,15 +46,11 @@ class Table:
     def frame(self):
         """For pandas: numbers are numbers, a flag is 1 or 0, what is not there is NaN or an empty text."""
         numbers = {name for name, _, kind in self.results.values() if kind in NUMBERS}
-        columns = {}
-        for name, values in zip(self.units, zip(*self.rows) if self.rows else ((),) * len(self.units)):
-            if name == "exit_code":
-                columns[name] = pd.Series(values, dtype=int)
-            elif name in numbers or (name in self.keys and {type(value) for value in values} <= {int, float}):
-                columns[name] = pd.Series([None if value is None else float(value) for value in values], dtype=float)
-            else:
-                columns[name] = pd.Series([shown(value) for value in values], dtype=object)
-        frame = pd.DataFrame(columns)
+        frame = pd.DataFrame(self.rows, columns=list(self.units), dtype=object)
+        numbers |= {name for name in self.keys if set(map(type, frame[name])) <= {int, float}}
+        for name in frame:
+            kind = int if name == "exit_code" else float if name in numbers else None
+            frame[name] = frame[name].astype(kind) if kind else frame[name].map(shown)
         frame.attrs["units"] = self.units
         return frame
 
