@@ -32,7 +32,7 @@ OUTCOME = ("rejected", "ended_by", "motion_pattern")
 
 
 class Batch:
-    """`numbers` of the specimens, which are `rejected`, and their `table`: columns of specimens.csv, of which some are `drawn`."""
+    """`numbers` of the specimens, which are `rejected`, and their `table`: columns of specimens.csv, of which some are `sampled`."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -42,7 +42,7 @@ class Batch:
         self.table = read_table(specimens, ("specimen",), OUTCOME)
         self.numbers, self.rejected = self.table["specimen"].astype(int).tolist(), self.table["rejected"] == "true"
         refuse_if(not self.numbers, f"{specimens}: no specimens")
-        self.drawn = list(self.table)[1:list(self.table).index(OUTCOME[0])]
+        self.sampled = list(self.table)[1:list(self.table).index(OUTCOME[0])]
         self.facts = read_yaml(os.path.join(folder, "statistics.yaml"), "specimens", "rejected", "motion_pattern")
         self.reasons = {one["specimen"]: in_units(one["reason"], self.units) for one in self.facts["rejected"]}
         self.runs = {number: Run(os.path.join(folder, f"specimen_{number:03d}"))
@@ -101,7 +101,7 @@ def report_on_batch(folder, command, version):
             ("Specimens", [*specimens_tables(batch), "Forces are the balanced load." + (
                 " The load of a specimen was still rising when its test was stopped, so that its largest load is no peak."
                 if batch.largest and not batch.largest.is_peak else "") + ("" if units.are_default else " All files are in SI units."),
-                "" if batch.drawn else "Nothing was drawn: the specimens differ in the noise of the load cell only."]),
+                "" if batch.sampled else "Nothing was drawn: the specimens differ in the noise of the load cell only."]),
             ("All readings", tables and [
                 *tables, "± 95 % is half of the interval that holds the mean of all such specimens with 95 % confidence, and n the number of "
                 "specimens that have the reading. SD is the standard deviation of single specimens, over n – 1, and CV its share of the mean; "
@@ -157,7 +157,7 @@ def specimens_tables(batch):
     """What was drawn for each specimen, and its main readings and those that the specification asks for, in as many tables as are
     needed."""
     columns = []  # (label, unit, texts)
-    for key in batch.drawn:
+    for key in batch.sampled:
         values, unit = batch.table[key].tolist(), unit_of(key, batch.units)
         text = digits_of(max(values), float(np.std(values, ddof=1)) if len(values) > 1 else 0.0, unit)
         columns.append((sentence(name_of(key)), unit, [*map(text, values)]))
