@@ -10,10 +10,6 @@ import tempfile
 from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
 
-# Debian's name of what a module is in.
-PACKAGES = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml": "python3-yaml", "scipy": "python3-scipy",
-            "jinja2": "python3-jinja2", "weasyprint": "weasyprint", "lmfit": "python3-lmfit", "pandas": "python3-pandas"}
-
 
 @contextlib.contextmanager
 def in_one_line(program, goes_on=False):
@@ -29,8 +25,8 @@ def in_one_line(program, goes_on=False):
     except Interrupted as error:
         refuse(program, f"{error}{again}", 1)
     except ModuleNotFoundError as missing:
-        package = PACKAGES.get((missing.name or "").split(".")[0])
-        refuse(program, f"{missing}" + (f": install Debian's package {package}" if package else ""), 1)
+        name = (missing.name or "").split(".")[0].lower()
+        refuse(program, f"{missing}: install Debian's package {name if name == 'weasyprint' else 'python3-' + name}", 1)
     except OSError as error:
         why = f"{error.filename}: {error.strerror.lower()}" if error.filename else str(error)
         refuse(program, why + again * tool.is_of_a_full_disk(why), 1)
