@@ -57,19 +57,6 @@ def work_precision(file, scenes):
     save(figure, file)
 
 
-def statuses(file, colours, maps, linear=()):
-    """Runs over two values of each, coloured by status. `maps`: (x label, y label) -> status -> points; `linear`: y labels of axes
-    that are not logarithmic."""
-    figure, all_axes = row_of_axes([""] * len(maps), 4.6, 4.0)
-    for axes, ((x_label, y_label), groups) in zip(all_axes, maps.items()):
-        for status, points in groups.items():
-            axes.plot(*zip(*points), "o", markersize=4, alpha=0.8, color=colours[status],
-                      label=f"{status} ({len(points)})")
-        axes.set(xscale="log", yscale="linear" if y_label in linear else "log", xlabel=x_label, ylabel=y_label)
-    all_axes[0].legend(fontsize="x-small")
-    save(figure, file)
-
-
 def error_against_difference(file, panels_of):
     """Error given over true difference, one panel a reading: what lies above the line holds. `panels_of`: title ->
     [(difference, error, whether it holds)]."""

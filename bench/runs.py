@@ -134,24 +134,13 @@ def known(values):
     return [value for value in values if value is not None]
 
 
-def mean(values):
-    there = known(values)
-    return statistics.fmean(there) if there else None
+def of_known(function, least=1):
+    """The function of the values that are there; None of too few."""
+    return lambda values: function(there) if len(there := known(values)) >= least else None
 
 
-def median(values):
-    there = known(values)
-    return statistics.median(there) if there else None
-
-
-def deviation(values):
-    there = known(values)
-    return statistics.stdev(there) if len(there) > 1 else None
-
-
-def standard_error(values):
-    there = known(values)
-    return divide(deviation(there), math.sqrt(len(there)))
+mean, median, deviation = of_known(statistics.fmean), of_known(statistics.median), of_known(statistics.stdev, 2)
+standard_error = of_known(lambda there: statistics.stdev(there) / math.sqrt(len(there)), 2)
 
 
 def relative_change(value, reference):

@@ -2,6 +2,7 @@
 import csv
 import datetime
 import json
+import operator
 import os
 import re
 import subprocess
@@ -19,20 +20,12 @@ class Gate:
         self.words, self.test = words, test
 
 
-def at_least(bound):
-    return Gate(f">= {bound:g}", lambda value: value >= bound)
+def comparing(sign, compare):
+    """Makes gates of bounds."""
+    return lambda bound: Gate(f"{sign} {bound:g}", lambda value: compare(value, bound))
 
 
-def at_most(bound):
-    return Gate(f"<= {bound:g}", lambda value: value <= bound)
-
-
-def above(bound):
-    return Gate(f"> {bound:g}", lambda value: value > bound)
-
-
-def below(bound):
-    return Gate(f"< {bound:g}", lambda value: value < bound)
+at_least, at_most, above, below = comparing(">=", operator.ge), comparing("<=", operator.le), comparing(">", operator.gt), comparing("<", operator.lt)
 
 
 def within(low, high):

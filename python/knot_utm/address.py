@@ -1,4 +1,5 @@
 """The names of runs. They tell content: what would change a run changes its name."""
+import functools
 import hashlib
 import json
 import os
@@ -10,46 +11,35 @@ from knot_utm.yaml_text import load
 NAMING = {"material": "materials", "other_material": "materials", "load_cell": "load_cells", "knot": "knots", "file": "", "record": ""}
 
 
-class Addresses:
-    """Names the runs of a method."""
+def addresses(method, every):
+    """The names of the runs of a method's file. `every`: [{dotted key: value}], over what the method says."""
+    given, folder, read = load(method), os.path.dirname(os.path.abspath(method)), functools.cache(_read)
 
-    def __init__(self, method):
-        self.method = load(method)
-        self.folder = os.path.dirname(os.path.abspath(method))
-        self.files = {}  # path -> (checksum, what it says, where it is YAML)
+    def address(settings):
+        files, nodes = {}, [given, settings]  # checksums of all files that these name, or that those name
+        while nodes:
+            for name, kind in _names(nodes.pop()):
+                path, named = _find(folder, name, kind), f"{kind}/{name}"
+                if path is not None and named not in files:
+                    files[named], content = read(path)
+                    nodes.append(content)
+        content = {"version": tool.version(), "method": given, "set": settings, "files": files}
+        return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()[:16]
 
-    def of(self, settings):
-        """`settings`: {dotted key: value}, over what the method says."""
-        files = {}
-        self._add(self.method, files)
-        self._add(settings, files)
-        content = {"version": tool.version(), "method": self.method, "set": settings, "files": files}
-        text = json.dumps(content, sort_keys=True, default=str)
-        return hashlib.sha256(text.encode()).hexdigest()[:16]
+    return [address(settings) for settings in every]
 
-    def _add(self, node, files):
-        """Checksums of all files that a node names."""
-        for name, kind in _names(node):
-            path = self._find(name, kind)
-            if path is not None and (named := f"{kind}/{name}") not in files:
-                files[named], content = self._read(path)
-                self._add(content, files)
 
-    def _find(self, name, kind):
-        """As tensile_test looks for it; it is run in the method's folder."""
-        for folder in (self.folder, os.path.join(self.folder, "config"), os.path.join(self.folder, "../config"), tool.CONFIG):
-            for place in ([os.path.join(folder, kind, name + ".yaml")] if kind else []) + [os.path.join(folder, name)]:
-                if os.path.isfile(place):
-                    return place
-        return None
+def _find(folder, name, kind):
+    """As tensile_test looks for it; it is run in the method's folder."""
+    folders = (folder, os.path.join(folder, "config"), os.path.join(folder, "../config"), tool.CONFIG)
+    ends = [(kind, name + ".yaml"), (name,)] if kind else [(name,)]
+    return next(filter(os.path.isfile, (os.path.join(one, *end) for one in folders for end in ends)), None)
 
-    def _read(self, path):
-        if path not in self.files:
-            with open(path, "rb") as file:
-                checksum = hashlib.sha256(file.read()).hexdigest()
-            content = load(path) if path.endswith(".yaml") else None
-            self.files[path] = checksum, content
-        return self.files[path]
+
+def _read(path):
+    """(checksum, what it says, where it is YAML)"""
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest(), load(path) if path.endswith(".yaml") else None
 
 
 def _names(node):

@@ -4,7 +4,7 @@ import os
 from numbers import Integral
 
 from knot_utm import tool
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 
 
 def shown(value):
@@ -14,8 +14,8 @@ def shown(value):
 
 
 def whole(name, value, least, why=""):
-    if not isinstance(value, Integral) or isinstance(value, bool) or value < least:
-        raise WrongInput(f"{name} is {shown(value)}, but must be a whole number from {least}{why}")
+    refuse_if(not isinstance(value, Integral) or isinstance(value, bool) or value < least,
+              f"{name} is {shown(value)}, but must be a whole number from {least}{why}")
     return int(value)
 
 

@@ -1,7 +1,8 @@
-"""What all plots of a study share: panels, names of axes, which key makes what."""
+"""What plots with several panels share: panels, names of axes, which key makes what."""
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from knot_utm.report.style import new_figure
 
 FAR = 20  # times the smallest value: the axis is then logarithmic
 ENOUGH_DECADES = 1e3  # times the smallest value: two powers of ten or more lie between, which are ticks enough
@@ -12,7 +13,8 @@ def panels(count, width=4.5, height=4.0, columns=MOST_COLUMNS):
     """A figure and its panels, row by row."""
     columns = min(count, columns)
     rows = -(-count // columns)
-    drawn = Figure(figsize=(2 + width * columns, height * rows), layout="constrained")
+    drawn = new_figure(2 + width * columns, height * rows)
+    drawn.set_layout_engine("constrained")
     places = list(drawn.subplots(rows, columns, squeeze=False).flat)
     for unused in places[count:]:
         unused.set_visible(False)
@@ -26,27 +28,39 @@ def numbers_and_words(table, keys, cases=()):
     return numbers, [key for key in varied if key not in numbers]
 
 
+def combinations(table, keys):
+    """[(values, rows)] of each combination of the values of the keys."""
+    if not keys:
+        return [((), table)]
+    groups = table.groupby(list(keys) if len(keys) > 1 else keys[0], sort=False)
+    return [(values if isinstance(values, tuple) else (values,), rows) for values, rows in groups]
+
+
 def parts(table, words):
-    """[(label, rows)] of each combination of the words."""
-    if not words:
-        return [("", table)]
-    return [(label(name, words, table), rows) for name, rows in table.groupby(words if len(words) > 1 else words[0], sort=False)]
+    """[(label, rows)] of each combination of the words: words as they are, a number with the last part of its key."""
+    return [(", ".join(f"{word.split('.')[-1]} {value:g}" if table[word].dtype.kind in "if" else str(value)
+                       for word, value in zip(words, values)), rows) for values, rows in combinations(table, words)]
 
 
-def label(name, words, table):
-    """Words as they are; a number with the last part of its key."""
-    values = name if isinstance(name, tuple) else (name,)
-    return ", ".join(f"{word.split('.')[-1]} {value:g}" if table[word].dtype.kind in "if" else str(value)
-                     for word, value in zip(words, values))
-
-
-def name_axis(set_label, table, column):
+def with_unit(column, table):
     unit = table.attrs["units"][column]
-    set_label(column if unit == "-" else f"{column} [{unit}]")
+    return column if unit == "-" else f"{column} [{unit}]"
 
 
 def spans_far(values):
     return values.dtype.kind in "if" and values.min() > 0 and values.max() > FAR * values.min()
+
+
+def name_axes(panel, table, x, y):
+    """Names both axes by their columns, and lets them be logarithmic."""
+    for name, column in (("x", x), ("y", y)):
+        panel.set(**{f"{name}label": with_unit(column, table)})
+        scale_axis(panel, name, table[column])
+
+
+def scales(values):
+    """How their axis counts, and back."""
+    return (np.log, np.exp) if spans_far(values) else (np.asarray, np.asarray)
 
 
 def scale_axis(panel, name, values):
@@ -62,8 +76,8 @@ def scale_axis(panel, name, values):
 
 
 def edges(values):
-    """Of cells around values, half-way to the next, as the axis counts."""
-    ahead, back = (np.log, np.exp) if spans_far(values) else (np.asarray, np.asarray)
+    """The edges of cells around values, half-way to the next, as the axis counts."""
+    ahead, back = scales(values)
     places = ahead(values.to_numpy(float))
     middles = 0.5 * (places[1:] + places[:-1])
     return back(np.concatenate([[2 * places[0] - middles[0]], middles, [2 * places[-1] - middles[-1]]]))

@@ -21,3 +21,9 @@ class RunWarning(UserWarning):
 
 class Interrupted(RuntimeError):
     """It was cut short, and goes on when it is asked for again; the text is one line that says why."""
+
+
+def refuse_if(is_wrong, why):
+    """Raises WrongInput with a line that says why, where something is wrong."""
+    if is_wrong:
+        raise WrongInput(why)

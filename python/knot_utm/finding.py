@@ -3,8 +3,6 @@ import itertools
 import math
 import os
 import re
-import subprocess
-import sys
 import tempfile
 from dataclasses import asdict, dataclass
 
@@ -15,11 +13,11 @@ from scipy import stats
 
 from knot_utm import tool
 from knot_utm.arguments import folder_of, jobs_of, make_folder, shown, write_whole
-from knot_utm.errors import WrongInput
-from knot_utm.fitting import Record, Search, pull_of_table, read_pull, value_at
+from knot_utm.errors import refuse_if
+from knot_utm.fitting import Record, Search, pull_of_table, read_pull
 from knot_utm.study import Study
 from knot_utm.sweeping import Sweep
-from knot_utm.yaml_text import described, is_number, text_of, value_of
+from knot_utm.yaml_text import described, is_number, text_of, value_at, value_of
 
 WRITTEN = ("fit.yaml", "curves.csv", "profiles.csv", "method.yaml", "method_2.yaml", "report.html", "report.pdf")
 OFFSET = re.compile(r"record(?:\.([1-9]\d*))?\.(force|extension)_offset")
@@ -56,7 +54,7 @@ class FreeKey:
 
 @dataclass(frozen=True)
 class Estimate:
-    """Of one key: its value and 95 % interval; an end that the data do not tell is None."""
+    """The value of a key and its 95 % interval; an end that the data do not tell is None."""
 
     value: float
     low: object
@@ -72,8 +70,8 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     given out/ and the name of the measured file; `command`: that the page names; `overwrite`: whether another fit in the folder is
     replaced. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it was cut short."""
     measured, settings = os.fspath(measured), dict(settings or {})
-    if not isinstance(free, (tuple, list)) or not all(isinstance(word, str) for word in free):
-        raise WrongInput(f"free is {shown(free)}, but must be a list of words such as 'material.radius=0.001:0.002'")
+    refuse_if(not isinstance(free, (tuple, list)) or not all(isinstance(word, str) for word in free),
+              f"free is {shown(free)}, but must be a list of words such as 'material.radius=0.001:0.002'")
     asked = [(measured, settings)]
     asked += [(os.fspath(file), {**settings, **given}) for file, given in also]
     out = folder_of(out, os.path.join("out", os.path.splitext(os.path.basename(measured))[0] + "_fit"))
@@ -82,43 +80,34 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     ranges = dict(_parsed(word, list(free)) for word in free)
     _require_free(list(ranges), asked)
     with tempfile.TemporaryDirectory(prefix="knot_utm_fit.", ignore_cleanup_errors=True) as folder:
-        fitted = Fitted(_searched(_Runs(method, folder, jobs), asked, ranges))
+        fitted = Fitted(_searched(method, lambda settings: _made(method, folder, jobs, settings), asked, ranges))
     values = {key: one.value for key, one in fitted.found.items() if not key.startswith("record.")}
     fitted.write(out, [tool.resolved(method, {**given, **values}) for _, given in asked])
-    if report:
-        words = [sys.executable, "-m", "knot_utm.report", "--command", command or "knot_utm.fit in Python", "--version", tool.version()]
-        done = subprocess.run([*words, "--", out], env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}, check=False, text=True,
-                              errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
-        if done.returncode != 0:
-            raise RuntimeError(tool.said_by(done.stderr) or "the report was not written")
+    if report:  # which needs packages that a fit does not
+        from knot_utm.report import fit as of_fit, page
+        page.write(out, of_fit.report_on_fit(out, command or "knot_utm.fit in Python", tool.version()))
     return fitted
 
 
-class _Runs:
-    """Runs of a method as those of a sweep, in a folder that is gone when the fit has ended."""
-
-    def __init__(self, method, folder, jobs):
-        self.method, self.folder, self.jobs = method, folder, jobs
-
-    def __call__(self, settings):
-        """[(pull, result)] of [{key: value}]; the pull is None where there is none to speak of."""
-        points = [{**given, **EXACT_CELL} for given in settings]
-        sweep = Sweep(Study("the fit", self.method, points, 1, (), "list", {}), self.folder)
-        sweep.make(self.jobs)
-        return [(pull_of_table(sweep.folder.curve(name)), sweep.folder.result(name)) for name in sweep.names]
+def _made(method, folder, jobs, settings):
+    """[(pull, result)] of runs of a method, made as those of a sweep, for [{key: value}]; the pull is None where there is none to speak
+    of."""
+    points = [{**given, **EXACT_CELL} for given in settings]
+    sweep = Sweep(Study("the fit", method, points, 1, (), "list", {}), folder)
+    sweep.make(jobs)
+    return [(pull_of_table(sweep.folder.curve(name)), sweep.folder.result(name)) for name in sweep.names]
 
 
-def _searched(runs, asked, ranges):
-    """A search that has ended."""
-    methods = [value_of(tool.resolved(runs.method, {**given, tool.COUNT: 2})) for _, given in asked]  # one specimen does not scatter
-    numbers = tool.key_units(runs.method, asked[0][1])
+def _searched(method, runs, asked, ranges):
+    """A search that has ended. `runs`: what _made gives for settings."""
+    methods = [value_of(tool.resolved(method, {**given, tool.COUNT: 2})) for _, given in asked]  # one specimen does not scatter
+    numbers = tool.key_units(method, asked[0][1])
     keys = {name: _method_key(name, limits, methods[0], numbers) for name, limits in ranges.items() if not OFFSET.fullmatch(name)}
     for _, given in asked:  # all corners of the ranges, and a place within them, before the first run
         for place in [*itertools.product((0.0, 1.0), repeat=len(keys)), [WITHIN] * len(keys)]:
             free = {key.name: short(key.value(at)) for key, at in zip(keys.values(), place)}
-            if refused := tool.refusal(runs.method, {**given, **free}):
-                raise WrongInput(f"--free: a run with {described(free)} would be refused: {refused}")
-    records = [Record(file, read_pull(file), given, method) for (file, given), method in zip(asked, methods)]
+            refuse_if(refused := tool.refusal(method, {**given, **free}), f"--free: a run with {described(free)} would be refused: {refused}")
+    records = [Record(file, read_pull(file), given, resolved) for (file, given), resolved in zip(asked, methods)]
     for record, model in zip(records, runs([given for _, given in asked])):
         record.require_producible(*model)
     keys |= {name: _offset_key(name, limits, records) for name, limits in ranges.items() if name not in keys}
@@ -178,13 +167,13 @@ class Fitted:
         """What the data do not tell of single keys, in words."""
         for at, key in zip(best, keys):
             low, high = self.found[key.name].low, self.found[key.name].high
-            told = (f"no value from {key.low:.6g} to {key.high:.6g} fits worse than the errors allow" if low is high is None else
+            bounds = (f"no value from {key.low:.6g} to {key.high:.6g} fits worse than the errors allow" if low is high is None else
                     f"the data only tell that it is {f'above {low:.4g}' if high is None else f'below {high:.4g}'}")
             if not AT_THE_END < at < 1.0 - AT_THE_END:
                 yield (f"{key.name} is at the {'lower' if at < 0.5 else 'upper'} end of its range: "
-                       f"{told + '; ' if None in (low, high) else ''}give a wider range")
+                       f"{bounds + '; ' if None in (low, high) else ''}give a wider range")
             elif None in (low, high):
-                yield f"{key.name} is not identifiable: {told}"
+                yield f"{key.name} is not identifiable: {bounds}"
 
     def _of_pairs(self):
         for one, other in itertools.combinations(self.found, 2):
@@ -208,27 +197,24 @@ def _csv(table, units):
 def _parsed(word, words):
     """(key, None or (low, high)) of `KEY` or `KEY=low:high`. Raises WrongInput."""
     name, given, limits = word.partition("=")
-    if not name:
-        raise WrongInput(f"--free is {word}, but must be KEY or KEY=low:high")
-    if [one.partition("=")[0] for one in words].count(name) > 1:
-        raise WrongInput(f"--free has {name} twice")
-    if name.startswith("record.") and not OFFSET.fullmatch(name):
-        raise WrongInput(f"--free: {name} is nothing of a record: it has record.force_offset and record.extension_offset")
+    refuse_if(not name, f"--free is {word}, but must be KEY or KEY=low:high")
+    refuse_if([one.partition("=")[0] for one in words].count(name) > 1, f"--free has {name} twice")
+    refuse_if(name.startswith("record.") and not OFFSET.fullmatch(name),
+              f"--free: {name} is nothing of a record: it has record.force_offset and record.extension_offset")
     if not given:
         return name, None
     try:
         low, high = (float(limit) for limit in limits.split(":"))
     except ValueError:
         low = high = math.nan
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise WrongInput(f"--free: the range of {name} is {limits}, but must be low:high, two numbers of which the second is larger")
+    refuse_if(not (math.isfinite(low) and math.isfinite(high) and low < high),
+              f"--free: the range of {name} is {limits}, but must be low:high, two numbers of which the second is larger")
     return name, (low, high)
 
 
 def _offset_key(name, limits, records):
     number, kind = FreeKey(name, 0.0, 0.0).offset
-    if number > len(records):
-        raise WrongInput(f"--free: {name} is of record {number}, but there are {len(records)}")
+    refuse_if(number > len(records), f"--free: {name} is of record {number}, but there are {len(records)}")
     most = OFFSET_SHARE * records[number - 1].largest[kind]
     return FreeKey(name, *(limits or (-most, most)))
 
@@ -237,35 +223,30 @@ def _method_key(name, limits, method, numbers):
     """`method`: as resolved; `numbers`: those of its keys that are numbers and act on the test."""
     value = value_at(method, name)
     said = "nothing" if value is None else "several values" if isinstance(value, (dict, list)) else text_of(value)
-    if name not in numbers:
-        raise WrongInput(f"--free: {name} is {said}, but only a number that acts on the test may be free")
-    if not limits and (not is_number(value) or value <= 0):
-        raise WrongInput(f"--free: the method has {said} at {name}, around which no range can be laid: give --free {name}=low:high")
+    refuse_if(name not in numbers, f"--free: {name} is {said}, but only a number that acts on the test may be free")
+    refuse_if(not limits and (not is_number(value) or value <= 0),
+              f"--free: the method has {said} at {name}, around which no range can be laid: give --free {name}=low:high")
     return FreeKey(name, *(limits or (value / AROUND, value * AROUND)))
 
 
 def _require_free(names, asked):
     """Raises WrongInput where keys are mistyped, or cannot be free. `asked`: [(file, {key: value})] of the records."""
-    if all(OFFSET.fullmatch(name) for name in names):
-        raise WrongInput("--free has nothing but offsets of the record: a fit needs a key of the method" if names
-                         else "--free is missing: say which keys may move")
+    refuse_if(not names, "--free is missing: say which keys may move")
+    refuse_if(all(map(OFFSET.fullmatch, names)), "--free has nothing but offsets of the record: a fit needs a key of the method")
     for name in names:
-        if name in EXACT_CELL:
-            raise WrongInput(f"--free: {name} is an error of the cell, which is one of the errors that a fit goes by")
+        refuse_if(name in EXACT_CELL, f"--free: {name} is an error of the cell, which is one of the errors that a fit goes by")
         for file, given in asked[1:]:
-            if given.get(name) != asked[0][1].get(name):
-                raise WrongInput(f"--also {file}: {name} is set, but it is free, and free keys are the same for all records")
+            refuse_if(given.get(name) != asked[0][1].get(name),
+                      f"--also {file}: {name} is set, but it is free, and free keys are the same for all records")
 
 
 def _require_room(out, inputs, overwrite):
-    if os.path.exists(os.path.join(out, "result.yaml")):
-        raise WrongInput(f"{out} holds a run: choose another folder")
+    refuse_if(os.path.exists(os.path.join(out, "result.yaml")), f"{out} holds a run: choose another folder")
     for file in (os.path.join(out, name) for name in WRITTEN):
         if os.path.exists(file):
-            if any(os.path.exists(one) and os.path.samefile(file, one) for one in inputs):
-                raise WrongInput(f"{file} is an input, and would be written over: choose another folder")
-            if not overwrite:
-                raise WrongInput(f"{file} exists already: choose another folder, or --overwrite")
+            refuse_if(any(os.path.exists(one) and os.path.samefile(file, one) for one in inputs),
+                      f"{file} is an input, and would be written over: choose another folder")
+            refuse_if(not overwrite, f"{file} exists already: choose another folder, or --overwrite")
     if not os.path.isdir(out):
         make_folder(out)
         os.rmdir(out)  # nothing is written before it is known that it can be fitted

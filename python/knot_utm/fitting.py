@@ -21,9 +21,9 @@ import pandas as pd
 from scipy import linalg
 from scipy.stats import chi2, qmc
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.runs import PULLS
-from knot_utm.yaml_text import is_number
+from knot_utm.yaml_text import is_number, value_at
 
 SAME_ZERO = 1e-9  # [m]
 AT_ONCE = 0.03    # of the extension, within which a rod that parts lets go of its load
@@ -62,7 +62,7 @@ class Pull:
 
 
 def pull_of_table(table):
-    """Of a curve.csv or curve_full.csv, with the row before the first pull as origin: a balance makes it zero. None where nothing is
+    """The pull of a curve.csv or curve_full.csv, with the row before the first pull as origin: a balance makes it zero. None where nothing is
     pulled."""
     rows = np.flatnonzero(table["phase"].isin(PULLS)) if "phase" in table else np.arange(len(table))
     if len(rows) < 2:
@@ -80,7 +80,7 @@ def pull_of_table(table):
 
 
 def read_pull(file):
-    """Of a curve.csv, as tensile_test or import_instron wrote it. Raises WrongInput."""
+    """The pull of a curve.csv, as tensile_test or import_instron wrote it. Raises WrongInput."""
     try:
         table = pd.read_csv(file, skiprows=[1])
         pull = pull_of_table(table.astype({name: float for name in table if name != "phase"}))
@@ -90,8 +90,7 @@ def read_pull(file):
         raise WrongInput(f"{file}: it has no column {error.args[0]}, but must be a curve.csv, which import_instron makes of raw data") from error
     except ValueError as error:
         raise WrongInput(f"{file}: {' '.join(str(error).split())}, but it must be a curve.csv, which import_instron makes of raw data") from error
-    if pull is None:
-        raise WrongInput(f"{file}: nothing is pulled in it, or it has fewer than two readings of a pull")
+    refuse_if(pull is None, f"{file}: nothing is pulled in it, or it has fewer than two readings of a pull")
     return pull
 
 
@@ -114,7 +113,7 @@ class Record:
         self.centres, self.measured = self.means(s), self.means(load)
 
     def means(self, readings):
-        """Of values at the readings, part by part."""
+        """The means of values at the readings, part by part."""
         return np.bincount(self.parts, readings) / self.counts
 
     def simulated(self, pull, result, offsets):
@@ -124,7 +123,7 @@ class Record:
         return self.means(pull.at(self.extension - offsets.get("extension", 0.0))) + offsets.get("force", 0.0)
 
     def run_settings(self, free, number):
-        """Of a run with values of the free keys, of one more specimen, which is drawn as tensile_test draws them."""
+        """The settings of a run with values of the free keys: one more specimen, which is drawn as tensile_test draws them."""
         settings, random = {**self.settings, **free}, np.random.default_rng(number)
         for key, law in self.scatter.items():
             (name, spread), = law.items()
@@ -139,20 +138,19 @@ class Record:
 
     def require_producible(self, pull, result):
         """Raises WrongInput where nothing is known of the errors of the readings, or the method, as it stands, pulls otherwise."""
-        if pull is None:
-            raise WrongInput(f"{self.name}: the method as it stands leaves no curve: {result.get('reason') or 'its run failed'}")
+        refuse_if(pull is None, f"{self.name}: the method as it stands leaves no curve: {result.get('reason') or 'its run failed'}")
         measured, made = (float(max(load, key=abs)) for load in (self.load, pull.load))
         end = float(pull.extension[-1])
         for one, other, unit in ((self.largest["extension"], end, "m"), (measured, made, "N")):
-            if not 1.0 / FAR < one / (other or np.inf) < FAR:
-                raise WrongInput(f"{self.name}: the measured curve goes to {one:.4g} {unit}, and the method's to {other:.4g} {unit}: one of "
-                                 "them is in other units, has another sign, or is of another test")
-        if not self.is_reached(pull, result):
-            raise WrongInput(f"{self.name}: the measured curve goes to an extension of {self.extension[-1]:.4g} m, but the method's pull "
-                             f"ends at {end:.4g} m ({result.get('ended_by')}): let it go on, as by --set program.pull.until.extension")
-        if not self.scatter and not any(self.cell[key] for key in ("noise", "resolution", "accuracy", "floor")):
-            raise WrongInput(f"{self.name}: nothing says how far a reading may be off: the load cell of the method has no errors; give its "
-                             "class, as by --set machine.load_cell.accuracy=0.005, or resolution or noise")
+            refuse_if(not 1.0 / FAR < one / (other or np.inf) < FAR,
+                      f"{self.name}: the measured curve goes to {one:.4g} {unit}, and the method's to {other:.4g} {unit}: one of "
+                      "them is in other units, has another sign, or is of another test")
+        refuse_if(not self.is_reached(pull, result),
+                  f"{self.name}: the measured curve goes to an extension of {self.extension[-1]:.4g} m, but the method's pull "
+                  f"ends at {end:.4g} m ({result.get('ended_by')}): let it go on, as by --set program.pull.until.extension")
+        refuse_if(not self.scatter and not any(self.cell[key] for key in ("noise", "resolution", "accuracy", "floor")),
+                  f"{self.name}: nothing says how far a reading may be off: the load cell of the method has no errors; give its "
+                  "class, as by --set machine.load_cell.accuracy=0.005, or resolution or noise")
 
     def errors(self, means, result):
         """(variances of single means, c, d) for simulated means, of the run that left `result`."""
@@ -178,7 +176,7 @@ def split(records, means):
 
 
 class Surface:
-    """Of the means of runs, one run a row, at places; of the order with which runs are told best that are left out one at a time."""
+    """A polynomial through the means of runs, one run a row, at places; its order is the one that best predicts runs left out one at a time."""
 
     def __init__(self, places, means, scale):
         self.low, self.width = places.min(axis=0), np.maximum(np.ptp(places, axis=0), 1e-12)
@@ -220,7 +218,7 @@ def scatter_of(rows, freedom):
 
 
 class Search:
-    """Of the best places, which go from 0 to 1 in the range of each key. `run(places, first)`: of each record [(pull, result)] of runs
+    """The search for the best places, which go from 0 to 1 in the range of each key. `run(places, first)`: of each record [(pull, result)] of runs
     there, of specimens counted from `first`."""
 
     def __init__(self, records, keys, run):
@@ -282,9 +280,9 @@ class Search:
         """Surface and scatter, of the runs that are not far from the record, and the best place."""
         self.is_lost = np.isnan(self.means).any(axis=1)
         least = 3 * (len(self.keys) + 1)
-        if (~self.is_lost).sum() < least:
-            raise WrongInput(f"{self.records[0].name}: {(~self.is_lost).sum()} of {len(self.places)} runs in the ranges of the free keys "
-                             "reach as far as the record: narrow the ranges")
+        refuse_if((~self.is_lost).sum() < least,
+                  f"{self.records[0].name}: {(~self.is_lost).sum()} of {len(self.places)} runs in the ranges of the free keys "
+                  "reach as far as the record: narrow the ranges")
         # Runs with loads of another size, as where knots open, tell nothing of the others, unless these are too few.
         error = np.concatenate([np.sqrt(record.errors(record.measured, {})[0]) for record in self.records])
         ratio = np.log((np.abs(self.means) + error) / (np.abs(self.measured) + error))
@@ -357,20 +355,8 @@ def _sobol(keys, count, seed):
 
 
 def place_of(solved):
-    """Of lmfit's parameters or its result."""
+    """The place that lmfit's parameters or its result have."""
     return np.array(list(getattr(solved, "params", solved).valuesdict().values()))
-
-
-def value_at(node, path):
-    """Of a dotted key of a method; a step of a program is found by its name or its number. None where there is none."""
-    name, _, rest = path.partition(".")
-    if isinstance(node, list):
-        found = next((step[name] for step in node if isinstance(step, dict) and name in step), None)
-        if found is None and name.isdigit() and int(name) < len(node):
-            found = node[int(name)]
-    else:
-        found = node.get(name) if isinstance(node, dict) else None
-    return value_at(found, rest) if rest and found is not None else found
 
 
 def _numbers(result):

@@ -10,9 +10,9 @@ are (doc/studies.md).
 """
 import json
 
-from knot_utm import design, tool
-from knot_utm.errors import WrongInput
-from knot_utm.yaml_text import text_of, value_of
+from knot_utm import tool
+from knot_utm.errors import refuse_if, WrongInput
+from knot_utm.yaml_text import is_number, require, value_of
 
 # {unit of the rod: (SI unit, powers of k_b and h)}
 UNITS = {"h": ("m", 0, 1), "k_b/h2": ("N", 1, -2), "k_b/h3": ("N/m", 1, -3), "k_b": ("N m2", 1, 0), "k_b/h": ("J", 1, -1)}
@@ -23,10 +23,8 @@ def asked(vary):
     """{key: unit} of the keys whose values a study gives in a unit of the rod. Raises WrongInput."""
     units = {key: values["unit"] for key, values in vary.items() if isinstance(values, dict) and "unit" in values}
     for key, unit in units.items():
-        if not isinstance(unit, str) or unit not in UNITS:
-            raise WrongInput(f"vary.{key}.unit is {text_of(unit)}, but must be " + ", ".join(UNITS))
-        if key in OF_THE_ROD:
-            raise WrongInput(f"vary.{key}.unit is {unit}, but the units of a rod follow from this key")
+        require(isinstance(unit, str) and unit in UNITS, f"vary.{key}.unit", unit, ", ".join(UNITS))
+        refuse_if(key in OF_THE_ROD, f"vary.{key}.unit is {unit}, but the units of a rod follow from this key")
     return units
 
 
@@ -38,24 +36,16 @@ def in_si(method, points, units):
     for key, unit in units.items():
         if known.get(key, "-") not in ("-", UNITS[unit][0]):
             raise WrongInput(f"vary.{key}.unit is {unit}, but this key is in {known[key]}")
-    rods = {}
-    return [_in_si(method, point, units, rods) for point in points]
-
-
-def _in_si(method, point, units, rods):
-    told = {key: value for key, value in point.items() if key.split(".")[0] == "material" and key not in units}
-    name = json.dumps(told, sort_keys=True, default=str)
-    if name not in rods:
-        rods[name] = _rod(method, told)
-    return {key: value * scale(units[key], rods[name]) if key in units and design.is_number(value) else value
-            for key, value in point.items()}
-
-
-def _rod(method, told):
-    radius, stiffness = (told.get(key) for key in OF_THE_ROD)
-    if design.is_number(radius) and design.is_number(stiffness):
-        return stiffness, radius
-    return rod_of(value_of(tool.resolved(method, told)))
+    rods, found = {}, []
+    for point in points:
+        material = {key: value for key, value in point.items() if key.split(".")[0] == "material" and key not in units}
+        name = json.dumps(material, sort_keys=True, default=str)
+        if name not in rods:
+            given = [material.get(key) for key in reversed(OF_THE_ROD)]
+            rods[name] = given if all(map(is_number, given)) else rod_of(value_of(tool.resolved(method, material)))
+        found.append({key: value * scale(units[key], rods[name]) if key in units and is_number(value) else value
+                      for key, value in point.items()})
+    return found
 
 
 def rod_of(method):

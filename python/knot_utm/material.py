@@ -7,8 +7,9 @@ import numpy as np
 import yaml
 from scipy import integrate, optimize
 
-from knot_utm.report.commands import OneLineParser, refuse, why_not
-from knot_utm.yaml_text import no_text
+from knot_utm.errors import refuse_if, WrongInput
+from knot_utm.report.commands import in_one_line, OneLineParser
+from knot_utm.yaml_text import read_text
 
 GRAVITY = 9.81  # [m/s2]
 LEAST_ANGLE = math.radians(0.05)  # of the end of a cantilever: less is not seen
@@ -22,23 +23,31 @@ STICK_RATIO = 20.0, 10.0  # and its uncertainty, where none is measured: knots h
 TWIST_OF_ROPE, TWIST_OF_ROD = 1 / 4, 2 / 3  # k_t/k_b where k_t is not measured: of fibres twice their G/E, 0.22 to 0.27; nu = 1/2
 PRESSED = 10.0     # [N/m] of strands in knots at the least
 
-# What may be measured: of each group the keys, all of them needed but for those that may be added.
-GROUPS = {"diameter": None, "weighed": ("length", "mass"), "stretched": ("length", "mass", "elongation"),
-          "cantilever": ("overhang", "drop"), "capstan": ("angle", "light", "heavy"),
-          "mandrel": ("radius", "kept_radius"), "light_cantilever": ("overhang", "drop"), "pulled": ("mass", "kept_radius"),
-          "rolled": ("masses", "rises", "run", "length"), "twisted": ("length", "mass", "radius", "period"),
-          "creeping": ("masses", "speeds"),
-          "pressed": ("mass", "approach"), "tied": ("mass",), "broken": ("force",)}
-INSTEAD = {"kept_radius": ("chord", "sag")}  # the keys that may stand instead of one: the radius of an arc
-MAY_BE_ADDED = {"capstan": ("post_radius",)}
-SEVERAL = ("masses", "speeds", "rises")      # the keys with a list of readings
-FEWEST = {"creeping": (2, "two readings"), "rolled": (1, "one reading")}
+# What may be measured: of each group the keys, and others that will do as well; none of a reading that stands alone.
+GROUPS = {"diameter": (), "weighed": (("length", "mass"),), "stretched": (("length", "mass", "elongation"),),
+          "cantilever": (("overhang", "drop"),),
+          "capstan": (("angle", "light", "heavy"), ("angle", "light", "heavy", "post_radius")),
+          "mandrel": (("radius", "kept_radius"), ("radius", "chord", "sag")), "light_cantilever": (("overhang", "drop"),),
+          "pulled": (("mass", "kept_radius"), ("mass", "chord", "sag")), "rolled": (("masses", "rises", "run", "length"),),
+          "twisted": (("length", "mass", "radius", "period"),), "creeping": (("masses", "speeds"),),
+          "pressed": (("mass", "approach"),), "tied": (("mass",),), "broken": (("force",),)}
+# The keys with a list of readings, and how many are needed.
+SEVERAL = {("rolled", "masses"): 1, ("rolled", "rises"): 1, ("creeping", "masses"): 2, ("creeping", "speeds"): 2}
 NEEDED = ("diameter", "weighed", "stretched", "cantilever", "capstan")
 NEEDS = {"light_cantilever": "mandrel", "pulled": "mandrel"}  # of these groups, the one without which they tell nothing
 
-
-class Wrong(Exception):
-    """The measurements cannot be used; the text says why."""
+# Of each property its unit and how it is found; where it may come out wrong, what a method takes (doc/method.md), and of which group.
+PROPERTIES = {
+    "radius": ("m", "measured: half the diameter"), "density": ("kg/m3", "measured: mass over volume"),
+    "stretching_stiffness": ("N", "measured: load over strain"), "friction_coefficient": ("-", "measured: capstan", 0.0, 5.0, "capstan"),
+    "bending_stiffness": ("N m2", "measured: sag under its own weight"), "friction_moment": ("k_b/h", "measured: kept bend"),
+    "stick_ratio": ("-", "measured: light over heavy cantilever", 1.01, 1e3, "light_cantilever"),
+    "compaction": ("-", "measured: kept bend after a pull", 0.0, 1.0, "pulled"),
+    "twisting_stiffness": ("N m2", "assumed: k_b/4 of a rope, 2/3 k_b of a solid rod"),
+    "contact_stiffness": ("N/m2", "measured: pressed crosswise"), "tying_preload": ("N", "measured"), "breaking_force": ("N", "measured"),
+    "rolling_resistance": ("-", "measured: rolled", 0.0, 1.0, "rolled"),
+    "rolling_hysteresis": ("-", "measured: rolled, grows as the root of the load", 0.0, 1.0, "rolled"),
+    "rate": ("-", ""), "rate_speed": ("m/s", "", 1e-9, 1.0, "creeping")}  # of the law of friction, which is a method's
 
 
 # ---- shapes of a heavy rod: w its weight per length ----------------------------------------------------------------
@@ -76,9 +85,8 @@ def steepness(share):
 def cantilever_stiffness(weight, overhang, drop, group="cantilever"):
     """k_b of a rod without friction among fibres; s k_b of a rope that is bent so little that they stick."""
     least, share = sag(LEAST_ANGLE)[1], drop / overhang
-    if not least < share < 0.9:
-        raise Wrong(f"{group}: the drop is {share:.4f} of the overhang, but must be between {least:.4f} and 0.9; "
-                    "of a rope that hangs straight down, measure a shorter piece")
+    refuse_if(not least < share < 0.9, f"{group}: the drop is {share:.4f} of the overhang, but must be between {least:.4f} and 0.9; "
+              "of a rope that hangs straight down, measure a shorter piece")
     return weight * overhang ** 3 / sag(0.5 * math.pi - math.exp(steepness(share)))[0]
 
 
@@ -88,8 +96,8 @@ def rubbing_stiffness(weight, overhang, drop, kept, stuck, ratio):
     stuck the bending stiffness of a small bend or None, whose ratio to k_b is then given."""
     most = cantilever_stiffness(weight, overhang, drop)  # friction only makes it stiffer
     if stuck and stuck < 1.001 * most:
-        raise Wrong(f"light_cantilever: its bending stiffness comes out as {stuck:.3g} N m2, but must be more than that of cantilever, "
-                    f"{most:.3g} N m2: a rope whose fibres rub is stiffest where it is hardly bent")
+        raise WrongInput(f"light_cantilever: its bending stiffness comes out as {stuck:.3g} N m2, but must be more than that of cantilever, "
+                         f"{most:.3g} N m2: a rope whose fibres rub is stiffest where it is hardly bent")
 
     def hangs(at, kept):
         steep, k_b = min(max(at[0], math.log(1e-12)), 0.4), most * math.exp(min(max(at[1], -9.0), 5e-4))
@@ -105,9 +113,9 @@ def rubbing_stiffness(weight, overhang, drop, kept, stuck, ratio):
         if max(map(abs, left)) < 1e-6:
             break
     overcome = moment / kept * (1 - (k_b / stuck if stuck else 1 / ratio))
-    if max(map(abs, left)) > 1e-6 or overcome < OVERCOME:
-        raise Wrong(f"cantilever: at the clamp it is bent by less than {OVERCOME} times the moment at which the fibres slide, as the kept "
-                    "bend tells, so that it does not show k_b; measure a longer overhang")
+    refuse_if(max(map(abs, left)) > 1e-6 or overcome < OVERCOME,
+              f"cantilever: at the clamp it is bent by less than {OVERCOME} times the moment at which the fibres slide, as the kept "
+              "bend tells, so that it does not show k_b; measure a longer overhang")
     return k_b
 
 
@@ -123,14 +131,13 @@ def capstan_friction(m, h, heavy):
         return grown
     thick = h / (m["capstan", "post_radius"] + h)
     left = 1 - thick * (1 + grown ** 2)
-    if left <= 0:
-        raise Wrong(f"capstan: around a post as thin as {m['capstan', 'post_radius']:.3g} m no friction at the surface of the rope gives "
-                    "this ratio of the masses; is post_radius in m? Else take a thicker post")
+    refuse_if(left <= 0, f"capstan: around a post as thin as {m['capstan', 'post_radius']:.3g} m no friction at the surface of the rope gives "
+              "this ratio of the masses; is post_radius in m? Else take a thicker post")
     return grown / left
 
 
 def kept_curvature(m, group):
-    """Of the arc in which the rope lies once it is let go: its radius, or its chord and the sag of it, was read."""
+    """The curvature of the arc in which the rope lies once it is let go: its radius, or its chord and the sag of it, was read."""
     if (group, "chord") in m:
         chord, sagged = m[group, "chord"], m[group, "sag"]
         return 1 / (chord ** 2 / (8 * sagged) + 0.5 * sagged)
@@ -148,17 +155,15 @@ def bending(m, weight, h):
     if ("mandrel", "radius") not in m:
         return {"bending_stiffness": cantilever_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"])}
     kept, stuck, ratio = kept_curvature(m, "mandrel"), None, m.get(("stick_ratio", ""))
-    if h * kept > 1:
-        raise Wrong(f"mandrel: the rope keeps a radius of {1 / kept:.3g} m, but must keep one of more than its own, {h:.3g} m")
+    refuse_if(h * kept > 1, f"mandrel: the rope keeps a radius of {1 / kept:.3g} m, but must keep one of more than its own, {h:.3g} m")
     if ratio is None:
         stuck = cantilever_stiffness(weight, m["light_cantilever", "overhang"], m["light_cantilever", "drop"], "light_cantilever")
     k_b = rubbing_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"], kept, stuck, ratio)
     out = {"bending_stiffness": k_b, "friction_moment": h * kept, "stick_ratio": ratio or stuck / k_b}
     if ("pulled", "mass") in m:
         more = kept_curvature(m, "pulled") - kept
-        if more < 0:
-            raise Wrong(f"pulled: the rope keeps a radius of {1 / (kept + more):.3g} m, but after a pull it must keep at most the "
-                        f"{1 / kept:.3g} m of mandrel")
+        refuse_if(more < 0, f"pulled: the rope keeps a radius of {1 / (kept + more):.3g} m, but after a pull it must keep at most the "
+                  f"{1 / kept:.3g} m of mandrel")
         out["compaction"] = k_b * more / (h * m["pulled", "mass"] * GRAVITY)
     return out
 
@@ -167,11 +172,9 @@ def creep(loads, speeds):
     """(a, v_0 [m/s]) of v = v_0 (exp((q - 1)/a) - 1) for speeds v at loads q over the one that just does not creep: two readings
     have one answer, more the one of least squares of ln v."""
     over, seen = np.array(loads) - 1, np.log(speeds)
-    if min(over) <= 0:
-        raise Wrong("creeping: within its uncertainty, every mass must be more than capstan.heavy, which does not creep")
+    refuse_if(min(over) <= 0, "creeping: within its uncertainty, every mass must be more than capstan.heavy, which does not creep")
     slope = np.polyfit(seen, over, 1)[0] if len(set(speeds)) > 1 else 0.0  # of fast creep, this is a
-    if not slope > 0:
-        raise Wrong("creeping: a larger mass must creep faster")
+    refuse_if(not slope > 0, "creeping: a larger mass must creep faster")
 
     def left(at):  # ln a, ln v_0
         x = over / np.exp(at[0])
@@ -180,9 +183,8 @@ def creep(loads, speeds):
     start = [math.log(slope), np.mean(seen - over / slope)]
     found = optimize.least_squares(left, start, xtol=1e-14, ftol=1e-14, gtol=1e-14, bounds=([-20.0, -200.0], [20.0, 20.0]))
     rate, speed = (float(number) for number in np.exp(found.x))
-    if rate > 1:
-        raise Wrong("creeping: the speeds grow too little with the masses for a rate of at most 1: with the logarithm of the mass over "
-                    "that of capstan.heavy, they must grow more than in proportion")
+    refuse_if(rate > 1, "creeping: the speeds grow too little with the masses for a rate of at most 1: with the logarithm of the mass over "
+              "that of capstan.heavy, they must grow more than in proportion")
     return rate, speed
 
 
@@ -192,30 +194,21 @@ def creep(loads, speeds):
 def power_of_rolling(values, errors):
     """The power n of the mass with which the slope grows at which the board runs away, mu_r ~ W^n, by least squares of logarithms, and
     its uncertainty, which is infinite where there is one mass."""
-    of = [("rolled", f"masses[{i}]") for i in range(values["rolled", "masses"])]
-    up = [("rolled", f"rises[{i}]") for i in range(len(of))]
-    apart = np.log([values[key] for key in of])
-    apart -= np.mean(apart)
+    masses, rises = (np.array(several(values, "rolled", key)) for key in ("masses", "rises"))
+    of_masses, of_rises = (np.array([errors["rolled", f"{key}[{i}]"] for i in range(len(masses))]) for key in ("masses", "rises"))
+    apart = np.log(masses) - np.mean(np.log(masses))
     if not np.ptp(apart) > 0:
         return 0.0, math.inf
     share = apart / np.sum(apart ** 2)
-    power = float(share @ np.log([values[key] for key in up]))
-    squares = [(errors[rise] / values[rise]) ** 2 + (power * errors[mass] / values[mass]) ** 2 for rise, mass in zip(up, of)]
-    return power, math.sqrt(share ** 2 @ squares)
-
-
-def grows_with_load(values, errors):
-    """Whether the readings say more than twice their uncertainty that mu_r grows with the load, or falls."""
-    power, error = power_of_rolling(values, errors)
-    return abs(power) > 2 * error
+    power = float(share @ np.log(rises))
+    return power, math.sqrt(share ** 2 @ ((of_rises / rises) ** 2 + (power * of_masses / masses) ** 2))
 
 
 def rolling(m, out):
     """The key of rolling: pieces that roll between a board and a loaded board, each with the couple mu_r h p at both, let the upper one
     go by 2 h for each rad, so that its push is mu_r W whatever their radius (doc/developers/material_readings.md). Of a solid rod, whose
     mu_r grows as sqrt W, the share of work that contacts lose (RollingResistance::growth_of_hysteresis)."""
-    masses = [m["rolled", f"masses[{i}]"] for i in range(m["rolled", "masses"])]
-    slopes = [m["rolled", f"rises[{i}]"] / m["rolled", "run"] for i in range(len(masses))]
+    masses, slopes = several(m, "rolled", "masses"), [rise / m["rolled", "run"] for rise in several(m, "rolled", "rises")]
     if limpness(out) >= SOLID:
         return {"rolling_resistance": slopes[masses.index(max(masses))] if m["rolled", "grows"] else sum(slopes) / len(slopes)}
     widths = [math.sqrt(3 * out["radius"] * line_load(m, mass) / out["stretching_stiffness"]) for mass in masses]  # a/h
@@ -232,9 +225,9 @@ def twisting(m, out):
     if ("twisted", "period") not in m:
         return out["bending_stiffness"] * (TWIST_OF_ROD if limpness(out) < SOLID else TWIST_OF_ROPE)
     seen, of_weight = swing(m, out["radius"])
-    if seen <= of_weight:
-        raise Wrong("twisted: the weight of the disc alone, which turns a twisted rope back, makes it swing as fast as that; take a lighter "
-                    "and wider disc; is twisted.period in s, there and back?")
+    refuse_if(seen <= of_weight,
+              "twisted: the weight of the disc alone, which turns a twisted rope back, makes it swing as fast as that; take a lighter "
+              "and wider disc; is twisted.period in s, there and back?")
     return seen - of_weight
 
 
@@ -258,59 +251,57 @@ def properties(m):
     per_length = m["weighed", "mass"] / m["weighed", "length"]
     out = {"radius": h, "density": per_length / (math.pi * h * h),
            "stretching_stiffness": m["stretched", "mass"] * GRAVITY * m["stretched", "length"] / m["stretched", "elongation"],
-           "friction_coefficient": capstan_friction(m, h, m["capstan", "heavy"])}
-    weight = per_length * GRAVITY
-    out.update(bending(m, weight, h))
+           "friction_coefficient": capstan_friction(m, h, m["capstan", "heavy"]), **bending(m, per_length * GRAVITY, h)}
     out["twisting_stiffness"] = twisting(m, out)
-    if ("pressed", "mass") in m:
-        out["contact_stiffness"] = (3 * m["pressed", "mass"] * GRAVITY /
-                                    (8 * math.sqrt(h) * m["pressed", "approach"] ** 1.5))
-    if ("tied", "mass") in m:
+    measured_groups = {group for group, _ in m}
+    if "pressed" in measured_groups:
+        out["contact_stiffness"] = 3 * m["pressed", "mass"] * GRAVITY / (8 * math.sqrt(h) * m["pressed", "approach"] ** 1.5)
+    if "tied" in measured_groups:
         out["tying_preload"] = m["tied", "mass"] * GRAVITY
-    if ("broken", "force") in m:
+    if "broken" in measured_groups:
         out["breaking_force"] = m["broken", "force"]
-    if ("rolled", "run") in m:
+    if "rolled" in measured_groups:
         out.update(rolling(m, out))
-    if ("creeping", "masses") in m:
-        count = m["creeping", "masses"]
-        loads = [capstan_friction(m, h, m["creeping", f"masses[{i}]"]) / out["friction_coefficient"] for i in range(count)]
-        out["rate"], out["rate_speed"] = creep(loads, [m["creeping", f"speeds[{i}]"] for i in range(count)])
+    if "creeping" in measured_groups:
+        loads = [capstan_friction(m, h, mass) / out["friction_coefficient"] for mass in several(m, "creeping", "masses")]
+        out["rate"], out["rate_speed"] = creep(loads, several(m, "creeping", "speeds"))
     return out
+
+
+def several(m, group, key):
+    """The readings of a list."""
+    return [m[group, f"{key}[{i}]"] for i in range(m[group, key])]
 
 
 def usable(m, here):
     """Refuses readings from which the numbers do not follow, and numbers that no method takes (doc/method.md)."""
-    for name, low, high, group in TAKEN:
-        if name in here and not low <= here[name] <= high:
-            unit = f" {UNITS[name]}".replace(" -", "")
-            raise Wrong(f"{group}: {name} comes out as {here[name]:.3g}{unit}, but a method takes {low:g} to {high:g}{unit}")
+    for name, value in here.items():
+        unit, _, *taken = PROPERTIES[name]
+        if taken and not taken[0] <= value <= taken[1]:
+            low, high, group, unit = *taken, "" if unit == "-" else f" {unit}"
+            raise WrongInput(f"{group}: {name} comes out as {value:.3g}{unit}, but a method takes {low:g} to {high:g}{unit}")
     if "friction_moment" not in here:
         return
     h, ratio = here["radius"], here["stick_ratio"]
     mandrel = 1 / (m["mandrel", "radius"] + h)
     for group in ("mandrel", "pulled") if "compaction" in here else ("mandrel",):
         kept = kept_curvature(m, group)
-        if mandrel < least_bend(kept, ratio):
-            raise Wrong(f"{group}: the rope keeps a radius of {1 / kept:.4g} m, for which the mandrel's must be at most "
-                        f"{1 / least_bend(kept, ratio) - h:.4g} m, so that all the friction of its fibres turns round as it is let go")
+        refuse_if(mandrel < least_bend(kept, ratio), f"{group}: the rope keeps a radius of {1 / kept:.4g} m, for which the mandrel's must be at most "
+                  f"{1 / least_bend(kept, ratio) - h:.4g} m, so that all the friction of its fibres turns round as it is let go")
     weight = m["weighed", "mass"] / m["weighed", "length"] * GRAVITY
     longest = math.sqrt(2 * here["friction_moment"] / h * here["bending_stiffness"] * ratio / (ratio - 1) / weight)
-    if ("light_cantilever", "drop") in m and m["light_cantilever", "overhang"] > longest:
-        raise Wrong(f"light_cantilever: its overhang must be at most {longest:.3g} m, so that no fibre slides")
+    refuse_if(("light_cantilever", "drop") in m and m["light_cantilever", "overhang"] > longest,
+              f"light_cantilever: its overhang must be at most {longest:.3g} m, so that no fibre slides")
 
 
 def with_errors(values, errors):
     """The properties and their standard uncertainties: those of the measurements, independent, to first order."""
-    here = properties(values)
-    squares = dict.fromkeys(here, 0.0)
+    here, squares = properties(values), 0.0
     for key, error in errors.items():
         if error > 0:
-            step = 0.5 * error
-            above = properties({**values, key: values[key] + step})
-            below = properties({**values, key: values[key] - step})
-            for name in here:
-                squares[name] += (above[name] - below[name]) ** 2
-    return here, {name: math.sqrt(square) for name, square in squares.items()}
+            above, below = (np.array([*properties({**values, key: values[key] + half}).values()]) for half in (0.5 * error, -0.5 * error))
+            squares = squares + (above - below) ** 2
+    return here, dict(zip(here, np.sqrt(squares + np.zeros(len(here)))))
 
 
 # ---- files ---------------------------------------------------------------------------------------------------------
@@ -324,90 +315,58 @@ def measured(where, given):
             return value, error
     except (TypeError, ValueError):
         pass
-    raise Wrong(f"{where} is {given}, but must be [value, uncertainty], the value above 0 and more than the uncertainty")
+    raise WrongInput(f"{where} is {given}, but must be [value, uncertainty], the value above 0 and more than the uncertainty")
 
 
 def read_group(group, content):
     """The measured numbers by their keys, and of a list also its length, which is exact."""
-    keys = GROUPS[group]
-    if keys is None:
+    if not GROUPS[group]:
         return {"": measured(group, content)}
-    for key, others in INSTEAD.items():
-        if key in keys and isinstance(content, dict) and key not in content and set(content) & set(others):
-            keys = tuple(name for name in keys if name != key) + others
-    keys += tuple(key for key in MAY_BE_ADDED.get(group, ()) if isinstance(content, dict) and key in content)
-    if not isinstance(content, dict) or set(content) != set(keys):
-        others = "".join(f"; instead of {key}, {' and '.join(INSTEAD[key])} will do" for key in GROUPS[group] if key in INSTEAD)
-        others += "".join(f"; {key} may be added" for key in MAY_BE_ADDED.get(group, ()))
-        raise Wrong(f"{group} must be a map with the keys " + ", ".join(GROUPS[group]) + others)
-    out = {}
-    for key in keys:
-        if key not in SEVERAL:
-            out[key] = measured(f"{group}.{key}", content[key])
+    refuse_if(not isinstance(content, dict) or all(set(content) != set(keys) for keys in GROUPS[group]),
+              f"{group} must be a map with the keys " + ", or ".join(map(", ".join, GROUPS[group])))
+    out, lists = {}, [key for key in content if (group, key) in SEVERAL]
+    for key, reading in content.items():
+        if key not in lists:
+            out[key] = measured(f"{group}.{key}", reading)
             continue
-        several = content[key]
-        fewest, in_word = FEWEST[group]
-        if not isinstance(several, list) or len(several) < fewest or len(several) != len(content[keys[0]]):
-            other = next(name for name in keys if name in SEVERAL and name != key)
-            raise Wrong(f"{group}.{key} must be a list of {in_word} or more, as many as {group}.{other}")
-        out[key] = len(several), 0.0
-        out.update({f"{key}[{i}]": measured(f"{group}.{key}[{i}]", reading) for i, reading in enumerate(several)})
+        fewest, other = SEVERAL[group, key], lists[1 - lists.index(key)]
+        refuse_if(not isinstance(reading, list) or len(reading) < fewest or len(reading) != len(content[lists[0]]),
+                  f"{group}.{key} must be a list of {('one reading', 'two readings')[fewest - 1]} or more, as many as {group}.{other}")
+        out[key] = len(reading), 0.0
+        out.update({f"{key}[{i}]": measured(f"{group}.{key}[{i}]", one) for i, one in enumerate(reading)})
     return out
 
 
 def read(text):
     given = yaml.safe_load(text)
-    if not isinstance(given, dict):
-        raise Wrong("the file must be a map with the keys " + ", ".join(["name", *GROUPS]))
+    refuse_if(not isinstance(given, dict), "the file must be a map with the keys " + ", ".join(["name", *GROUPS]))
     values, errors = {}, {}
     for group, content in given.items():
         if group in ("name", "notes"):
             continue
-        if group not in GROUPS:
-            raise Wrong(f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
+        refuse_if(group not in GROUPS, f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
         for key, (value, error) in read_group(group, content).items():
             values[group, key], errors[group, key] = value, error
-    missing = [group for group in NEEDED if group not in given]
-    if missing:
-        raise Wrong("missing: " + ", ".join(missing))
+    refuse_if(missing := [group for group in NEEDED if group not in given], "missing: " + ", ".join(missing))
     for group, other in NEEDS.items():
-        if group in given and other not in given:
-            raise Wrong(f"{group} tells nothing without {other}")
+        refuse_if(group in given and other not in given, f"{group} tells nothing without {other}")
     if "mandrel" in given and "light_cantilever" not in given:
         values["stick_ratio", ""], errors["stick_ratio", ""] = STICK_RATIO
     if "rolled" in given:
-        values["rolled", "grows"], errors["rolled", "grows"] = grows_with_load(values, errors), 0.0
-    if values["capstan", "heavy"] <= values["capstan", "light"]:
-        raise Wrong("capstan: the heavy mass must be more than the light one")
-    angle = values["capstan", "angle"]
-    if angle > MOST_TURNS:
-        raise Wrong(f"capstan.angle is {angle:g} rad, which are {angle / (2 * math.pi):.0f} turns; is it in degrees? {angle:g} degrees "
-                    f"are {math.radians(angle):.4g} rad")
-    # As a method takes it (doc/method.md): millimetres given as metres end here.
-    low, high = 1e-5, 0.05
-    if not low <= values["diameter", ""] / 2 <= high:
-        raise Wrong(f"diameter is {values['diameter', '']:g} m, but must be {2 * low:g} to {2 * high:g} m; is it in metres?")
-    # Before what follows from it: grams given as kilograms end here.
-    density = values["weighed", "mass"] / values["weighed", "length"] / (math.pi * (values["diameter", ""] / 2) ** 2)
-    if not 10 <= density <= 25e3:
-        raise Wrong(f"{which_density(density)} A method takes 10 to 25000 kg/m3")
+        power, error = power_of_rolling(values, errors)
+        values["rolled", "grows"], errors["rolled", "grows"] = abs(power) > 2 * error, 0.0  # or falls, with the load
+    angle, diameter = values["capstan", "angle"], values["diameter", ""]
+    density = values["weighed", "mass"] / values["weighed", "length"] / (math.pi * (diameter / 2) ** 2)
+    for is_so, why in (
+            (values["capstan", "heavy"] > values["capstan", "light"], "capstan: the heavy mass must be more than the light one"),
+            (angle <= MOST_TURNS, f"capstan.angle is {angle:g} rad, which are {angle / (2 * math.pi):.0f} turns; is it in degrees? {angle:g} "
+             f"degrees are {math.radians(angle):.4g} rad"),
+            # As a method takes it (doc/method.md): millimetres given as metres end here, and before what follows from it grams as kilograms.
+            (2e-5 <= diameter <= 0.1, f"diameter is {diameter:g} m, but must be 2e-05 to 0.1 m; is it in metres?"),
+            (10 <= density <= 25e3, f"the density is {density:.3g} kg/m3, and cork has 200, water 1000, steel 7850: is weighed.mass in kg, and "
+             "are weighed.length and the diameter in m? A method takes 10 to 25000 kg/m3")):
+        refuse_if(not is_so, why)
     return given, values, errors
-
-
-UNITS = {"radius": "m", "density": "kg/m3", "stretching_stiffness": "N", "bending_stiffness": "N m2",
-         "twisting_stiffness": "N m2", "friction_coefficient": "-", "contact_stiffness": "N/m2", "tying_preload": "N",
-         "breaking_force": "N", "friction_moment": "k_b/h", "stick_ratio": "-", "compaction": "-", "rolling_resistance": "-",
-         "rolling_hysteresis": "-", "rate": "-", "rate_speed": "m/s"}
-HOW = {"radius": "measured: half the diameter", "density": "measured: mass over volume", "tying_preload": "measured",
-       "stretching_stiffness": "measured: load over strain", "friction_coefficient": "measured: capstan",
-       "bending_stiffness": "measured: sag under its own weight", "breaking_force": "measured",
-       "twisting_stiffness": "assumed: k_b/4 of a rope, 2/3 k_b of a solid rod", "contact_stiffness": "measured: pressed crosswise",
-       "friction_moment": "measured: kept bend", "stick_ratio": "measured: light over heavy cantilever",
-       "compaction": "measured: kept bend after a pull", "rolling_resistance": "measured: rolled",
-       "rolling_hysteresis": "measured: rolled, grows as the root of the load"}
-# Of the numbers that may come out wrong, those which a method takes, and the group that gives them.
-TAKEN = (("friction_coefficient", 0.0, 5.0, "capstan"), ("stick_ratio", 1.01, 1e3, "light_cantilever"), ("compaction", 0.0, 1.0, "pulled"),
-         ("rolling_resistance", 0.0, 1.0, "rolled"), ("rolling_hysteresis", 0.0, 1.0, "rolled"), ("rate_speed", 1e-9, 1.0, "creeping"))
 
 
 def rates(here, errors):
@@ -421,7 +380,7 @@ def how_found(name, given, values):
         return "assumed"
     if name == "twisting_stiffness" and "twisted" in given:
         return "measured: torsion pendulum"
-    return HOW[name] + (", under the heaviest mass" if name == "rolling_resistance" and values["rolled", "grows"] else "")
+    return PROPERTIES[name][1] + (", under the heaviest mass" if name == "rolling_resistance" and values["rolled", "grows"] else "")
 
 
 def material(given, here, errors, values):
@@ -430,9 +389,8 @@ def material(given, here, errors, values):
     for name, value in here.items():
         if name == "friction_moment":
             lines.append(f"{'bending_law: frictional':<38}# because a rope that keeps a bend has fibres that rub")
-        if name in HOW:
-            how = how_found(name, given, values)
-            lines.append(f"{f'{name}: {value:.6g}':<38}# [{UNITS[name]}] +- {errors[name]:.2g}, {how}")
+        if how := how_found(name, given, values):
+            lines.append(f"{f'{name}: {value:.6g}':<38}# [{PROPERTIES[name][0]}] +- {errors[name]:.2g}, {how}")
     if "rate" in here:
         lines.append("# for a method: " + rates(here, errors))
     lines.append("notes: " + yaml.safe_dump(str(given.get("notes", "Measured with a ruler, a weight and a scale.")),
@@ -441,23 +399,13 @@ def material(given, here, errors, values):
 
 
 def in_words(here):
-    """The rod in numbers that a person can check."""
+    """The rod in numbers that a person can check; E is that of the whole cross-section."""
     area = math.pi * here["radius"]**2
-    limp = limpness(here) / 4
+    limp, modulus = limpness(here) / 4, 1e-9 * here["stretching_stiffness"] / area  # [GPa]
     bent = f"1/{float(f'{limp:.2g}'):.0f}" if limp > 2 else f"{1 / limp:.2g} times"
-    return (f"{1e3 * here['density'] * area:.3g} g/m at a diameter of {2e3 * here['radius']:.3g} mm, E = {modulus(here):.2g} GPa "
+    return (f"{1e3 * here['density'] * area:.3g} g/m at a diameter of {2e3 * here['radius']:.3g} mm, E = {modulus:.2g} GPa "
             f"stretched, friction {here['friction_coefficient']:.2g}; in bending {bent} as stiff as a solid rod of this E"
             + (", as ropes are" if ROPE < limpness(here) < 4e6 else ""))
-
-
-def modulus(here):
-    """Of the whole cross-section, stretched [GPa]."""
-    return 1e-9 * here["stretching_stiffness"] / (math.pi * here["radius"]**2)
-
-
-def which_density(density):
-    return (f"the density is {density:.3g} kg/m3, and cork has 200, water 1000, steel 7850: is weighed.mass in kg, and are "
-            "weighed.length and the diameter in m?")
 
 
 def doubts_of_rolling(here, values, errors):
@@ -467,7 +415,7 @@ def doubts_of_rolling(here, values, errors):
     elif values["rolled", "grows"] and "rolling_resistance" in here:
         yield (f"rolled: the rises grow as the mass to the power {power:.2g} +- {error:.2g}: that of the heaviest mass is taken; are the "
                "pieces straight, and do they roll?")
-    pressed = max(line_load(values, values["rolled", f"masses[{i}]"]) for i in range(values["rolled", "masses"]))
+    pressed = line_load(values, max(several(values, "rolled", "masses")))
     if pressed < PRESSED:
         yield (f"rolled: the pieces bear at most {pressed:.2g} N/m, and strands in knots {PRESSED:g} to 1e5: take a heavier board; are "
                "rolled.masses in kg, and rolled.length in m?")
@@ -500,19 +448,16 @@ def main():
     parser.add_argument("--out", required=True, help="the material file to be written")
     parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
     asked = parser.parse_args()
-    if why := why_not(asked.out, [asked.measurements], asked.overwrite):
-        refuse("material", f"--out: {why}")
+    parser.require_room("--out", asked.out, [asked.measurements], asked.overwrite)
+    text = read_text(asked.measurements)
     try:
-        with open(asked.measurements, encoding="utf-8") as file:
-            given, values, errors = read(file.read())
+        given, values, errors = read(text)
         usable(values, properties(values))
         here, uncertain = with_errors(values, errors)
-        with open(asked.out, "w", encoding="utf-8") as file:
-            file.write(material(given, here, uncertain, values))
-    except UnicodeDecodeError as error:
-        refuse("material", f"{asked.measurements}: {no_text(error)}")
-    except (Wrong, OSError, yaml.YAMLError) as error:
-        refuse("material", f"{asked.measurements}: {' '.join(str(error).split())}")
+    except (WrongInput, yaml.YAMLError) as error:
+        raise WrongInput(f"{asked.measurements}: {' '.join(str(error).split())}") from error
+    with open(asked.out, "w", encoding="utf-8") as file:
+        file.write(material(given, here, uncertain, values))
     print(f"{asked.out}: {in_words(here)}")
     if "rate" in here:
         print("for a method: " + rates(here, uncertain))
@@ -521,4 +466,5 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    with in_one_line("material"):
+        main()

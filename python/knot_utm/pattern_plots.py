@@ -43,8 +43,7 @@ def figure(table, keys, cases=()):
     for panel, (name, rows) in zip(panels, groups):
         _bars(panel, rows, key)
         panel.set_title(name, fontsize="small")
-        axes.name_axis(panel.set_xlabel, table, key)
-        panel.set_ylabel("share of the specimens")
+        panel.set(xlabel=axes.with_unit(key, table), ylabel="share of the specimens")
     _legend(drawn, set(outcomes(table)))
     return drawn
 
@@ -57,21 +56,18 @@ def numbers_of(table, keys, cases):
     key = (numbers or words[:1] or keys[:1])[0]
     rows = []
     for name, part in axes.parts(table, words):
-        found = _threshold(part, key) if numbers else None
+        threshold = numbers and _threshold(part, key) or (None, None, None)
         for value, at in part.groupby(key, sort=False):
             names = outcomes(at)
-            for outcome in sorted(set(names)):
-                share, low, high = trends.share(names.count(outcome), len(names))
-                rows.append({"case": name, key: value, "outcome": outcome, "n": len(names), "share": share, "low": low,
-                             "high": high, "threshold": found and found.value, "threshold_low": found and found.low,
-                             "threshold_high": found and found.high})
-    return pd.DataFrame(rows)
+            rows += [(name, value, outcome, len(names), *trends.share(names.count(outcome), len(names)), *threshold)
+                     for outcome in sorted(set(names))]
+    return pd.DataFrame(rows, columns=["case", key, "outcome", "n", "share", "low", "high", "threshold", "threshold_low", "threshold_high"])
 
 
 def cells(table, keys):
-    """Of a grid of cells over the keys: the most frequent outcome among the runs nearest to the middle, its share and interval."""
+    """For each of a grid of cells over the keys the most frequent outcome among the runs nearest to the middle, its share and interval."""
     rows, near = _with_result(table, keys)
-    sides = [CELLS if i in _axes_of(keys) else SLICES[0] for i in range(len(keys))]
+    sides = [CELLS, *(len(keys) - 2) * [SLICES[0]], CELLS]  # the first and the last are the axes of its picture
     middles = np.array(list(itertools.product(*((np.arange(n) + 0.5) / n for n in sides))))
     found = pd.DataFrame(near.values(middles), columns=keys)
     found[["outcome", "share", "low", "high"]] = near.majority(middles)
@@ -106,17 +102,12 @@ def _with_result(table, keys):
     return table[known], trends.Neighbours(table[known], keys, [name for name in names if name != FAILED])
 
 
-def _axes_of(keys):
-    """Places of the keys along x and y: the last and the first."""
-    return len(keys) - 1, 0
-
-
 def _map(table, keys):
     """Slices: the last key along x, the first along y, panels for the two between them at the middles of equal parts. The colour
     is that of the most frequent pattern near by, paler where its share is smaller; dots are runs."""
     rows, near = _with_result(table, keys)
-    across, up = _axes_of(keys)
-    between = [i for i in range(len(keys)) if i not in (across, up)][:2]
+    across, up = len(keys) - 1, 0
+    between = list(range(1, across))[:2]
     parts = [range(SLICES[place]) for place in range(len(between))]
     drawn, panels = axes.panels(int(np.prod([len(part) for part in parts])), 3.6, 3.4, SLICES[0])
     x, y = np.meshgrid(*(2 * [(np.arange(FINE) + 0.5) / FINE]))
@@ -131,36 +122,22 @@ def _map(table, keys):
             inside &= np.floor(np.minimum(cube[:, place], 1 - 1e-9) * count) == part
         _slice(panel, near, places, keys, (across, up), inside)
         middle = near.values(places[:1])[0]
-        panel.set_title(", ".join(f"{_short(keys[place], table)} {middle[place]:.3g}" for place in between), fontsize="small")
-        for place, set_label, name in ((across, panel.set_xlabel, "x"), (up, panel.set_ylabel, "y")):
-            axes.name_axis(set_label, table, keys[place])
-            axes.scale_axis(panel, name, table[keys[place]])
+        panel.set_title(", ".join(f"{axes.with_unit(keys[place], table).split('.')[-1]} {middle[place]:.3g}" for place in between), fontsize="small")
+        axes.name_axes(panel, table, keys[across], keys[up])
     _legend(drawn, set(near.names))
     return drawn
 
 
 def _slice(panel, near, places, keys, of, inside):
-    colours = np.array([_paler(COLOURS[name], share) for name, share, _, _ in near.majority(places)])
+    """Each place in the colour of its outcome, as far from white as the share is from a third."""
+    names, shares, *_ = zip(*near.majority(places))
+    strength = 0.75 * np.clip((np.array(shares) - 1 / 3) / (2 / 3), 0.0, 1.0)[:, None]
+    colours = 1.0 - strength * (1.0 - np.array([to_rgb(COLOURS[name]) for name in names]))
     corners = near.values(np.repeat((np.arange(FINE + 1) / FINE)[:, None], len(keys), axis=1))
-    panel.pcolormesh(corners[:, of[0]], corners[:, of[1]], np.zeros((FINE, FINE)), facecolors=None, alpha=0)
-    mesh = panel.collections[-1]
-    mesh.set_array(None)
-    mesh.set_alpha(None)
-    mesh.set_facecolor(colours)
+    panel.pcolormesh(corners[:, of[0]], corners[:, of[1]], np.zeros((FINE, FINE))).set(array=None, facecolor=colours)
     runs = near.values(near.tree.data[inside])
     panel.scatter(runs[:, of[0]], runs[:, of[1]], s=7, c=[COLOURS[near.names[outcome]] for outcome in near.outcomes[inside]],
                   edgecolors="white", linewidths=0.3)
-
-
-def _paler(colour, share):
-    """As far from white as the share is from a third."""
-    strength = 0.75 * np.clip((share - 1 / 3) / (2 / 3), 0.0, 1.0)
-    return 1.0 - strength * (1.0 - np.array(to_rgb(colour)))
-
-
-def _short(key, table):
-    unit = table.attrs["units"][key]
-    return key.split(".")[-1] + ("" if unit == "-" else f" [{unit}]")
 
 
 def _legend(drawn, names):

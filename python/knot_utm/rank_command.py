@@ -1,4 +1,5 @@
-"""Knots in one rope, pulled alike: a preset of a sweep, over specimen.knot, and what each bears; scripts/rank has the words of its command line."""
+"""Knots in one rope, pulled alike: a preset of a sweep, over specimen.knot, and what each bears; scripts/rank has the words of its
+command line."""
 import os
 import re
 import sys
@@ -8,8 +9,8 @@ import pandas as pd
 
 from knot_utm import tool
 from knot_utm.arguments import folder_of, jobs_of, shown, whole
-from knot_utm.command_line import exit_code_of, parsed, parser_of, say, settings_of
-from knot_utm.errors import WrongInput
+from knot_utm.command_line import exit_code_of, parsed, parser_of, settings_of
+from knot_utm.errors import refuse_if, RunFailed, WrongInput
 from knot_utm.groups import rod_of
 from knot_utm.study import Study
 from knot_utm.sweeping import Sweep
@@ -24,8 +25,8 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method="knot", setti
     """A pandas.DataFrame with a row for each knot, in the order of the largest mean load that it bore, as scripts/rank tells and as it is
     in rank.csv of the folder. `.attrs` has the units of its means and the folder. Raises WrongInput."""
     settings, name = dict(settings or {}), str(material)
-    if isinstance(knots, str) or not knots or len(set(map(str, knots))) < len(list(knots)):
-        raise WrongInput(f"knots is {shown(knots)}, but must be a list of different knots: names or files")
+    refuse_if(isinstance(knots, str) or not knots or len(set(map(str, knots))) < len(list(knots)),
+              f"knots is {shown(knots)}, but must be a list of different knots: names or files")
     for key in {"specimen.knot", "specimen", "material", tool.COUNT, "specimens"} & set(settings):
         raise WrongInput(f"{key} cannot be a setting of a ranking: it has a word of its own")
     # A knot and a material may be files as seen from here; a method would look for them from its own folder.
@@ -35,7 +36,8 @@ def rank(knots, material, specimens=3, out=None, jobs=None, method="knot", setti
                   whole("specimens", specimens, 2, ": one start is no reading"), (), "list", {})
     out = folder_of(out, os.path.join("out/rank", re.sub(r"[^\w.-]+", "_", os.path.splitext(os.path.basename(name))[0])))
     runs, pulled = Sweep(study, out).all(jobs_of(jobs)), value_of(tool.resolved(study.method, points[0]))
-    runs["tail_slip"] = [max(map(float, re.findall(r"-?\d\S*\b", str(tails))), default=np.nan) / rod_of(pulled)[1] for tails in runs["tail_slip"]]
+    runs["tail_slip"] = [max(map(float, re.findall(r"-?\d\S*\b", str(tails))), default=np.nan) / rod_of(pulled)[1]
+                         for tails in runs["tail_slip"]]
     reach = max((step["pull"]["until"].get("extension", np.inf) for step in pulled["program"] if "pull" in step), default=np.inf)
     table = pd.DataFrame([{"knot": str(knot), **_row(runs[runs["specimen.knot"] == point["specimen.knot"]], reach), "material": name,
                            "method": str(method), "settings": described(settings)} for knot, point in zip(knots, points)])
@@ -67,15 +69,16 @@ def main(words):
 
 def _rank(asked):
     table = rank(asked.knots, asked.material, asked.specimens, asked.out, asked.jobs, asked.method, settings_of(asked.set))
-    told, (with_settings, *_) = table[["knot", "broke"]].copy(), table["settings"]
+    shown_table, (with_settings, *_) = table[["knot", "broke"]].copy(), table["settings"]
     for name in MEANS:
-        told[name] = ["-" if mean != mean else f"{mean:.4g} ± {error:.2g}" for mean, error in zip(table[name], table[name + "_error"])]
-    told.loc[table["still_rose"] > 0, "slip_load"] = "at least " + told["slip_load"]
+        shown_table[name] = ["-" if mean != mean else f"{mean:.4g} ± {error:.2g}" for mean, error in zip(table[name], table[name + "_error"])]
+    shown_table.loc[table["still_rose"] > 0, "slip_load"] = "at least " + shown_table["slip_load"]
     print(f"in {asked.material}, by {asked.method}" + (f" with {with_settings}" if with_settings else "") + ":")
-    print(told.rename(columns={"slip_load": "slip load [N]", "break_load": "break load [N]"}).to_string(index=False))
+    print(shown_table.rename(columns={"slip_load": "slip load [N]", "break_load": "break load [N]"}).to_string(index=False))
     print(f"the table is in {table.attrs['folder']}/rank.csv")
-    failed = table["failed"].sum()
-    return say(PROGRAM, f"{failed} specimens failed: see error in {table.attrs['folder']}/table.csv", 1) if failed else 0
+    if failed := table["failed"].sum():
+        raise RunFailed(f"{failed} specimens failed: see error in {table.attrs['folder']}/table.csv")
+    return 0
 
 
 if __name__ == "__main__":

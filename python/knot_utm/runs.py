@@ -1,5 +1,4 @@
 """One run of tensile_test, and a batch: several specimens of one method. Made, and read."""
-import csv
 import functools
 import os
 import subprocess
@@ -11,12 +10,12 @@ import pandas as pd
 
 from knot_utm import tool
 from knot_utm.arguments import jobs_of, whole
-from knot_utm.errors import RunFailed, RunWarning, WrongInput
+from knot_utm.errors import refuse_if, RunFailed, RunWarning, WrongInput
+from knot_utm.sweep_folder import RESULT, STATISTICS
 from knot_utm.yaml_text import load
 
 PULLS = ("pull", "cycle", "follow")  # the phases of curve.csv in which the specimen is pulled
-OF_A_RUN = ("result.yaml", "statistics.yaml", "samples.csv")  # where one of them is, tensile_test takes another folder
-STATISTICS = "statistics.yaml"
+OF_A_RUN = RESULT, STATISTICS, "samples.csv"  # where one of them is, tensile_test takes another folder
 
 
 class Readings(Mapping):
@@ -37,18 +36,6 @@ class Readings(Mapping):
 
     def __eq__(self, other):
         return self is other
-
-
-def plot_curve(curve, axes=None, **style):
-    """Draws load [N] over extension [mm] of the pulls of a curve, into new axes unless some are given. Returns the axes."""
-    if axes is None:
-        from matplotlib import pyplot
-        axes = pyplot.subplots(layout="constrained")[1]
-        axes.set_xlabel("extension [mm]")
-        axes.set_ylabel("load [N]")
-    pulled = curve[curve["phase"].isin(PULLS)]
-    axes.plot(1e3 * pulled["extension"], pulled["load"], **style)
-    return axes
 
 
 def shown(value, unit):
@@ -77,12 +64,18 @@ class Run(Readings):
         return list(self.results["warnings"])
 
     def plot(self, axes=None, **style):
-        """Draws load over extension of the pull. Returns the axes of Matplotlib."""
-        return plot_curve(self.curve, axes, **style)
+        """Draws load [N] over extension [mm] of the pulls, into new axes of Matplotlib unless some are given. Returns the axes."""
+        if axes is None:
+            from matplotlib import pyplot
+            axes = pyplot.subplots(layout="constrained")[1]
+            axes.set(xlabel="extension [mm]", ylabel="load [N]")
+        pulled = self.curve[self.curve["phase"].isin(PULLS)]
+        axes.plot(1e3 * pulled["extension"], pulled["load"], **style)
+        return axes
 
     def __repr__(self):
-        peak = shown(self.results["peak_force"], self.results.attrs["units"]["peak_force"])
-        return f"<Run {self.folder}: ended by {self.results['ended_by']}, largest load {peak}, {len(self.warnings)} warning{'' if len(self.warnings) == 1 else 's'}>"
+        peak, count = shown(self.results["peak_force"], self.results.attrs["units"]["peak_force"]), len(self.warnings)
+        return f"<Run {self.folder}: ended by {self.results['ended_by']}, largest load {peak}, {count} warning{'' if count == 1 else 's'}>"
 
 
 def read(folder):
@@ -100,37 +93,12 @@ def run(method, out, overwrite=False, **overrides):
     run("tighten", "out/a", **{"specimen.preload": 20}). What the test warns of is a RunWarning of Python. Raises WrongInput where
     tensile_test refuses, or `out` holds a run; RunFailed where the test ended without what it was to measure, with what there is
     as its `.run`."""
-    made = make(method, out, 1, overrides, overwrite)
-    left = read(out) if made.has("result.yaml") else None
-    for line in left.warnings if left else ():
-        warnings.warn(line, RunWarning, stacklevel=2)
-    made.require_success(left)
-    return left
+    return _made(read, RESULT, method, out, 1, overrides, overwrite)
 
 
-@dataclass(frozen=True)
-class Made:
-    """How tensile_test ended: what it left in `out`, its exit code, and the lines that it said."""
-
-    out: str
-    code: int
-    said: list
-
-    def has(self, name):
-        return os.path.exists(os.path.join(self.out, name))
-
-    def require_success(self, left):
-        """Raises RunFailed with what it left, where it failed."""
-        if self.code == 0 and left is not None:
-            return
-        told = [line for line in self.said if line.startswith(("the physics gave up", "the test failed", "the knot came undone"))]
-        why = next(reversed(told or self.said), f"tensile_test ended with {self.code}")
-        raise RunFailed(f"{self.out}: {why}", left)
-
-
-def make(method, out, specimens, overrides, overwrite, *more):
-    """Runs tensile_test to its end, with more words where they are given. Raises WrongInput where it refuses, or `out` holds a
-    run that is not to be written over."""
+def _made(reads, result, method, out, specimens, overrides, overwrite, *more):
+    """What `reads` reads of the folder, which has the file `result`, once tensile_test has run to its end, with more words where they
+    are given. Raises as `run` does."""
     if tool.COUNT in overrides:
         raise WrongInput(f"{tool.COUNT} is {overrides[tool.COUNT]}, but run tests one specimen, and batch as many as its argument "
                          "specimens says")
@@ -142,18 +110,22 @@ def make(method, out, specimens, overrides, overwrite, *more):
     method = tool.find_method(os.fspath(method), os.getcwd())
     words = tool.command(method, overrides, out, "--quiet", "--specimens", str(specimens), *more)
     done = subprocess.run(words, check=False, text=True, errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
-    if done.returncode == tool.REFUSED:
-        raise WrongInput(tool.said_by(done.stderr))
-    return Made(out, done.returncode, tool.lines_of(done.stderr))
+    said = tool.lines_of(done.stderr)
+    refuse_if(done.returncode == tool.REFUSED, tool.said_by(done.stderr))
+    left = reads(out) if os.path.exists(os.path.join(out, result)) else None
+    for line in (said if isinstance(left, Batch) else left.warnings) if left is not None else ():
+        warnings.warn(line, RunWarning, stacklevel=3)
+    if done.returncode != 0 or left is None:
+        reasons = [line for line in said if line.startswith(("the physics gave up", "the test failed", "the knot came undone"))]
+        raise RunFailed(f"{out}: {next(reversed(reasons or said), f'tensile_test ended with {done.returncode}')}", left)
+    return left
 
 
 def read_table(path):
     """A table with names in row 1 and units in row 2, the latter in `.attrs["units"]`."""
-    table = pd.read_csv(path, skiprows=[1], float_precision="round_trip", keep_default_na=False, na_values=["nan", ""])
-    with open(path, encoding="utf-8", newline="") as file:
-        names, units = (row for _, row in zip(range(2), csv.reader(file)))
-    table.attrs["units"] = dict(zip(names, units))
-    return table
+    table = pd.read_csv(path, header=[0, 1], float_precision="round_trip", keep_default_na=False, na_values=["nan", ""])
+    table.attrs["units"] = dict(table.columns)
+    return table.set_axis(table.columns.get_level_values(0), axis="columns", copy=False)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -204,21 +176,17 @@ def batch(method, out, specimens=8, jobs=None, overwrite=False, **overrides):
     cores; the numbers are the same. `overwrite`, `overrides`, warnings and what it raises: as `run`; it raises RunFailed where no
     specimen counts."""
     whole("specimens", specimens, 2, ": knot_utm.run tests one")
-    made = make(method, out, specimens, overrides, overwrite, *(["--jobs", str(jobs_of(jobs))] if jobs is not None else []))
-    left = read_batch(out) if made.has(STATISTICS) else None
-    for line in made.said if left else ():
-        warnings.warn(line, RunWarning, stacklevel=2)
-    made.require_success(left)
-    return left
+    at_a_time = ["--jobs", str(jobs_of(jobs))] if jobs is not None else []
+    return _made(read_batch, STATISTICS, method, out, specimens, overrides, overwrite, *at_a_time)
 
 
 def read_batch(folder):
     """The batch in a folder, whoever made it. Raises WrongInput where there is none that has ended."""
     folder = os.path.abspath(folder)
-    told = load(os.path.join(folder, STATISTICS))
-    rejected = {one["specimen"]: one["reason"] for one in told["rejected"]}
+    written = load(os.path.join(folder, STATISTICS))
+    rejected = {one["specimen"]: one["reason"] for one in written["rejected"]}
     units = {row["key"]: row["unit"] for row in tool.result_keys()}
-    statistics = pd.DataFrame.from_dict({key: told[key] for key in units if "mean" in (told.get(key) or ())}, orient="index",
+    statistics = pd.DataFrame.from_dict({key: written[key] for key in units if "mean" in (written.get(key) or ())}, orient="index",
                                         dtype=float).astype({"n": int})
     statistics.attrs["units"] = {key: units[key] for key in statistics.index}
     specimens = read_table(os.path.join(folder, "specimens.csv")).set_index("specimen")

@@ -1,14 +1,16 @@
 """A study: a method, the keys of it that are varied, and how (doc/studies.md)."""
+import itertools
 import os
 from dataclasses import dataclass
 
 from knot_utm import design, groups, tool
-from knot_utm.errors import WrongInput
-from knot_utm.yaml_text import load, text_of
+from knot_utm.errors import refuse_if, WrongInput
+from knot_utm.yaml_text import is_number, is_whole, load, require, text_of, value_at
 
 KEYS = ("method", "for_each", "vary", "below", "design", "runs", "repeat", "seed")
 DESIGNS = ("grid", "one_at_a_time", "list", "sobol")
 DRAWING = ("list", "sobol")
+INTEGERS = {"runs": (1, design.MOST_RUNS, None), "seed": (0, 2**32 - 1, 1), "repeat": (1, 10_000, 1)}  # least, most, where none is given
 
 
 @dataclass(frozen=True)
@@ -47,83 +49,62 @@ def load_study(file):
 
 
 def _study(file, given):
-    if not isinstance(given, dict):
-        raise WrongInput("a study is a map with the keys " + ", ".join(KEYS))
+    refuse_if(not isinstance(given, dict), "a study is a map with the keys " + ", ".join(KEYS))
     for key in given:
-        if key not in KEYS:
-            raise WrongInput(f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
+        refuse_if(key not in KEYS, f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
     method = tool.find_method(_method(given), os.path.dirname(os.path.abspath(file)))
-    _require_one_specimen(method)
+    refuse_if((count := value_at(load(method), tool.COUNT) or 1) != 1,
+              f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
     vary, cases = _keys(given, "vary"), _keys(given, "for_each") if "for_each" in given else {}
     kind = given.get("design", "grid")
-    if kind not in DESIGNS:
-        raise WrongInput(f"design is {text_of(kind)}, but must be " + ", ".join(DESIGNS))
-    runs, seed = _integer(given, "runs", 1, design.MOST_RUNS), _integer(given, "seed", 0, 2**32 - 1)
-    for name, value in (("runs", runs), ("seed", seed)):
-        if kind not in DRAWING and value is not None:
-            raise WrongInput(f"{name} is {value}, but has no effect in a {kind}")
+    require(kind in DESIGNS, "design", kind, ", ".join(DESIGNS))
+    runs, seed, repeat = (_integer(given, key, *limits) for key, limits in INTEGERS.items())
+    for name in ("runs", "seed"):
+        if name in given and kind not in DRAWING:
+            raise WrongInput(f"{name} is {given[name]}, but has no effect in a {kind}")
     for key in cases:
-        if key in vary:
-            raise WrongInput(f"vary has the key {key}, which stands in for_each, too")
+        refuse_if(key in vary, f"vary has the key {key}, which stands in for_each, too")
     units = groups.asked({**cases, **vary})
     kinds = {key: design.varied(key, values) for key, values in vary.items()}
-    made = design.points(kinds, kind, runs, 1 if seed is None else seed)
+    made = design.points(kinds, kind, runs, seed)
     each = design.combinations({key: design.varied(key, values, "for_each") for key, values in cases.items()}, "for_each",
                                "for_each")
     points = _within(given, groups.in_si(method, [{**case, **point} for case in each for point in made], units))
-    repeat = _integer(given, "repeat", 1, 10_000) or 1
-    if len(points) * repeat > design.MOST_RUNS:
-        raise WrongInput(f"repeat is {repeat}: these are {len(points) * repeat} tests, of at most {design.MOST_RUNS}")
+    refuse_if(len(points) * repeat > design.MOST_RUNS, f"repeat is {repeat}: these are {len(points) * repeat} tests, of at most {design.MOST_RUNS}")
     return Study(file, method, points, repeat, tuple(cases), kind, given.get("below", {}))
 
 
 def _within(given, points):
-    """Those where each key of `below` is below the key that it names."""
+    """The points where each key of `below` is below the key that it names."""
     below = given.get("below", {})
-    if not isinstance(below, dict):
-        raise WrongInput(f"below is {text_of(below)}, but must be a map of a key that is varied and the key that it must be below")
-    for pair in below.items():
-        for key in pair:
-            if key not in points[0] or not all(design.is_number(point[key]) for point in points):
-                raise WrongInput(f"below has the key {text_of(key)}, but must have numbers that are varied")
+    require(isinstance(below, dict), "below", below, "a map of a key that is varied and the key that it must be below")
+    for key in itertools.chain(*below.items()):
+        refuse_if(key not in points[0] or not all(is_number(point[key]) for point in points),
+                  f"below has the key {text_of(key)}, but must have numbers that are varied")
     left = [point for point in points if all(point[low] < point[high] for low, high in below.items())]
-    if not left:
-        raise WrongInput(f"below is {text_of(below)}: no run is left")
+    refuse_if(not left, f"below is {text_of(below)}: no run is left")
     return left
 
 
 def _keys(given, name):
     """{key of the method: its values}."""
     keys = given.get(name)
-    if not isinstance(keys, dict) or not keys:
-        raise WrongInput(f"{name} is {text_of(keys)}, but must be a map of at least one key of the method and its values")
+    require(isinstance(keys, dict) and keys, name, keys, "a map of at least one key of the method and its values")
     for key in keys:
-        if key in (tool.COUNT, "specimens"):
-            raise WrongInput(f"{name} has the key {key}, but a run of a study is one specimen: give repeat")
+        refuse_if(key in (tool.COUNT, "specimens"), f"{name} has the key {key}, but a run of a study is one specimen: give repeat")
     return keys
 
 
 def _method(given):
     method = given.get("method")
-    if not isinstance(method, str) or not method:
-        raise WrongInput("method is missing: give a file, from the folder of the study, or the name of a shipped method"
-                         if method is None else f"method is {text_of(method)}, but must be a file or a name")
+    if method is None:
+        raise WrongInput("method is missing: give a file, from the folder of the study, or the name of a shipped method")
+    require(isinstance(method, str) and method, "method", method, "a file or a name")
     return method
 
 
-def _require_one_specimen(method):
-    given = load(method)
-    specimens = given.get("specimens") if isinstance(given, dict) else None
-    count = specimens.get("count", 1) if isinstance(specimens, dict) else 1
-    if count != 1:
-        raise WrongInput(f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
-
-
-def _integer(given, key, low, high):
-    value = given.get(key)
-    if value is None and key not in given:
-        return None
-    if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
-        raise WrongInput(f"{key} is {text_of(value)}, but must be an integer from {low} to {high}")
-    return value
-
+def _integer(given, key, low, high, usual):
+    if key not in given:
+        return usual
+    require(is_whole(given[key], low, high), key, given[key], f"an integer from {low} to {high}")
+    return given[key]

@@ -26,16 +26,10 @@ def _sweep(asked):
     elif asked.only not in (None, "table"):
         work.one(asked.only)
     else:
-        _tell(work, work.table() if asked.only else work.all(asked.jobs))
+        table, out = work.table() if asked.only else work.all(asked.jobs), os.path.relpath(work.folder.path)
+        out = work.folder.path if out.startswith(os.pardir) else out
+        print(f"{len(table)} runs, {(table['exit_code'] != 0).sum()} of which failed: the table is in {out}/table.csv and {out}/table.h5")
     return 0
-
-
-def _tell(work, table):
-    out = os.path.relpath(work.folder.path)
-    if out.startswith(os.pardir):
-        out = work.folder.path
-    failed = int((table["exit_code"] != 0).sum())
-    print(f"{len(table)} runs, {failed} of which failed: the table is in {out}/table.csv and {out}/table.h5")
 
 
 if __name__ == "__main__":

@@ -55,41 +55,41 @@ class SweepFolder:
                 raise WrongInput(f"another sweep is at work in {self.path}") from error
             yield
 
-    def of(self, run):
-        return os.path.join(self.runs, run)
+    def of(self, run, *name):
+        """The folder of a run, or a file in it."""
+        return os.path.join(self.runs, run, *name)
 
     def record(self, run):
         """{exit_code, error, set, version} of a run that has ended, and readings where they are not all; None of any other."""
-        file = self._file(run, RECORD)
-        return load(file) if os.path.exists(file) else None
+        return self._read(run, RECORD)
 
     def is_done(self, run):
         """Whether it has ended and left a result; those that left none are tried again."""
-        return os.path.exists(self._file(run, RECORD)) and any(os.path.exists(self._file(run, name))
-                                                               for name in (RESULT, STATISTICS))
+        has_record, *has_result = (os.path.exists(self.of(run, name)) for name in (RECORD, RESULT, STATISTICS))
+        return has_record and any(has_result)
 
     def result(self, run):
-        """Of a run that has ended; empty where it left none."""
-        file = self._file(run, RESULT)
-        return load(file) if os.path.exists(file) else {}
+        """The result.yaml of a run that has ended; empty where it left none."""
+        return self._read(run, RESULT) or {}
 
     def rejected(self, run):
         """{specimen: reason} of a batch."""
-        file = self._file(run, STATISTICS)
-        return {entry["specimen"]: entry["reason"] for entry in load(file)["rejected"]} if os.path.exists(file) else {}
+        return {entry["specimen"]: entry["reason"] for entry in (self._read(run, STATISTICS) or {}).get("rejected", ())}
 
     def curve(self, run):
         """Its curve_full.csv, a pandas.DataFrame without units; empty where it left none."""
-        file = self._file(run, CURVE)
+        file = self.of(run, CURVE)
         return pd.read_csv(file, skiprows=[1]) if os.path.exists(file) else pd.DataFrame(columns=CURVE_COLUMNS)
 
     def rod(self, run):
         """(k_b, h) of a run that left a result, else NaN."""
-        file = self._file(run, METHOD)
-        return rod_of(load(file)) if os.path.exists(file) else (math.nan, math.nan)
+        method = self._read(run, METHOD)
+        return rod_of(method) if method else (math.nan, math.nan)
 
-    def _file(self, run, name):
-        return os.path.join(self.of(run), name)
+    def _read(self, run, name):
+        """What a YAML file of a run says; None where it is not there."""
+        file = self.of(run, name)
+        return load(file) if os.path.exists(file) else None
 
     @contextlib.contextmanager
     def making(self, run):
@@ -100,10 +100,6 @@ class SweepFolder:
         finally:
             shutil.rmtree(part, ignore_errors=True)
 
-    def empty(self, part):
-        shutil.rmtree(part)
-        os.mkdir(part)
-
     def finish(self, part, run, record):
         """Keeps a run that was made, instead of one that may be there."""
         with open(os.path.join(part, RECORD), "w", encoding="utf-8") as file:
@@ -111,3 +107,14 @@ class SweepFolder:
         os.chmod(part, 0o755)  # mkdtemp's are for nobody else
         shutil.rmtree(self.of(run), ignore_errors=True)
         os.rename(part, self.of(run))
+
+
+def result_of(folder):
+    """result.yaml of a run that has ended, or statistics.yaml of a batch; None where there is none, or it is not whole."""
+    with contextlib.suppress(WrongInput):
+        if os.path.exists(os.path.join(folder, STATISTICS)):
+            return load(os.path.join(folder, STATISTICS))
+        result = load(os.path.join(folder, RESULT))
+        if isinstance(result, dict) and "specification_failed" in result:
+            return result
+    return None

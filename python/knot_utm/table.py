@@ -15,6 +15,7 @@ from knot_utm.yaml_text import text_of
 # What the machine was, and not the test: it would differ each time.
 NOT_OF_THE_TEST = ("wall_time", "real_time_factor", "peak_memory")
 NUMBERS = ("number", "count", "flag")
+SPECIMEN = "specimen"  # the column that tells repeats apart
 
 
 class Table:
@@ -39,24 +40,17 @@ class Table:
     def csv(self):
         """Row 1 names, row 2 units. What is not there is empty."""
         out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(self.units)
-        writer.writerow(self.units.values())
-        writer.writerows([shown(value) for value in row] for row in self.rows)
+        csv.writer(out, lineterminator="\n").writerows(map(shown, row) for row in (self.units, self.units.values(), *self.rows))
         return out.getvalue()
 
     def frame(self):
         """For pandas: numbers are numbers, a flag is 1 or 0, what is not there is NaN or an empty text."""
         numbers = {name for name, _, kind in self.results.values() if kind in NUMBERS}
-        columns = {}
-        for name, values in zip(self.units, zip(*self.rows) if self.rows else ((),) * len(self.units)):
-            if name == "exit_code":
-                columns[name] = pd.Series(values, dtype=int)
-            elif name in numbers or (name in self.keys and all(_is_number(value) for value in values)):
-                columns[name] = pd.Series([None if value is None else float(value) for value in values], dtype=float)
-            else:
-                columns[name] = pd.Series([shown(value) for value in values], dtype=object)
-        frame = pd.DataFrame(columns)
+        frame = pd.DataFrame(self.rows, columns=list(self.units), dtype=object)
+        numbers |= {name for name in self.keys if set(map(type, frame[name])) <= {int, float}}
+        for name in frame:
+            kind = int if name == "exit_code" else float if name in numbers else None
+            frame[name] = frame[name].astype(kind) if kind else frame[name].map(shown)
         frame.attrs["units"] = self.units
         return frame
 
@@ -92,16 +86,8 @@ def result_columns():
 
 def shown(value):
     """As it stands in table.csv."""
-    if value is None:
-        return ""
-    if isinstance(value, str):
-        return value
+    if isinstance(value, (str, type(None))):
+        return value or ""
     if isinstance(value, list) and all(isinstance(entry, str) for entry in value):
         return "; ".join(value)
-    if isinstance(value, float):
-        return repr(value)
-    return text_of(value)
-
-
-def _is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    return repr(value) if isinstance(value, float) else text_of(value)

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 
 import knot_utm
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.yaml_text import text_of
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -35,7 +35,7 @@ def tensile_test():
 
 
 def _folders_of_tools():
-    """Of the places where this package is, in their order: a workspace of catkin has one beside the sources."""
+    """The folders beside the places where this package is, in their order: a workspace of catkin has one beside the sources."""
     for place in knot_utm.__path__:
         built = IN_SOURCES and os.path.realpath(place) == HERE
         yield os.path.realpath(os.path.join(SHARE, "build/devel/lib/knot_utm") if built else os.path.join(place, "../../../knot_utm"))
@@ -52,11 +52,11 @@ def program(name):
 
 @functools.cache
 def version():
-    return _said("--version").strip()
+    return _asked("--version").stdout.strip()
 
 
 def package_version():
-    """Of this package. An installation without ROS has no package.xml, so that its programs are asked."""
+    """The version of this package. An installation without ROS has no package.xml, so that its programs are asked."""
     try:
         with open(os.path.join(SHARE, "package.xml"), encoding="utf-8") as file:
             return re.search(r"<version>\s*([^\s<]+)", file.read())[1]
@@ -67,7 +67,7 @@ def package_version():
 @functools.cache
 def listing(name):
     """A table that tensile_test prints, as rows by column: results, limits, fields, method-keys, knots or phases."""
-    return list(csv.DictReader(_said("--list-" + name).splitlines()))
+    return list(csv.DictReader(_asked("--list-" + name).stdout.splitlines()))
 
 
 def result_keys():
@@ -95,7 +95,7 @@ def hint(word, known):
 
 def command(method, settings, out, *more):
     """The command line of one run; `settings`: {dotted key: value}."""
-    return [tensile_test(), method, *_set(settings), "--out", out, *more]
+    return [tensile_test(), *_words(method, settings), "--out", out, *more]
 
 
 def start(method, settings, out, *more):
@@ -107,25 +107,20 @@ def start(method, settings, out, *more):
 
 def refusal(method, settings, *more):
     """Why tensile_test would refuse to run that, in a line; None where it would not."""
-    done = _checked(method, settings, *more)
+    done = _asked("--check", *_words(method, settings), *more, folder=os.path.dirname(method))
     return said_by(done.stderr) if done.returncode == REFUSED else None
 
 
 def resolved(method, settings):
     """The text of the method with every value. Raises WrongInput where tensile_test would refuse to run it."""
-    done = _checked(method, settings)
-    if done.returncode == REFUSED:
-        raise WrongInput(said_by(done.stderr))
+    done = _asked("--check", *_words(method, settings), folder=os.path.dirname(method))
+    refuse_if(done.returncode == REFUSED, said_by(done.stderr))
     return done.stdout
 
 
-def _checked(method, settings, *more):
-    return _succeeded(_asked(method, settings, "--check", *more), f"--check of {method}", (0, REFUSED))
-
-
 def key_units(method, settings):
-    """{key: unit} of all numbers of a method, "-" where a number has none."""
-    done = _asked(method, settings, "--list-keys")
+    """{key: unit} of all numbers of a method, "-" where a number has none; none where tensile_test would refuse to run it."""
+    done = _asked("--list-keys", *_words(method, settings), folder=os.path.dirname(method))
     return {row["key"]: row["unit"] for row in csv.DictReader(done.stdout.splitlines())}
 
 
@@ -143,24 +138,15 @@ def is_of_a_full_disk(said):
     return any(text in said.lower() for text in DISK_IS_FULL)
 
 
-def _set(settings):
-    return [word for key, value in settings.items() for word in ("--set", f"{key}={text_of(value)}")]
+def _words(method, settings):
+    return [method, *(word for key, value in settings.items() for word in ("--set", f"{key}={text_of(value)}"))]
 
 
-def _asked(method, settings, *options):
-    """What tensile_test says of a method without running it."""
-    return subprocess.run([tensile_test(), method, *_set(settings), *options], check=False, text=True, errors="replace",
-                          cwd=os.path.dirname(method), stdin=subprocess.DEVNULL, capture_output=True)
-
-
-def _said(option):
-    done = subprocess.run([tensile_test(), option], check=False, text=True, errors="replace", stdin=subprocess.DEVNULL,
-                          capture_output=True)
-    return _succeeded(done, option, (0,)).stdout
-
-
-def _succeeded(done, asked, codes):
-    """What was asked of tensile_test. Raises RuntimeError with a line where it failed in another way than by these exit codes."""
-    if done.returncode not in codes:
-        raise RuntimeError(f"tensile_test failed at {asked}: {said_by(done.stderr) or f'exit code {done.returncode}'}")
+def _asked(option, *words, folder=None):
+    """What tensile_test says without a run; of a method, seen from its folder, it may say that it refuses it. Raises RuntimeError with a
+    line where it failed otherwise."""
+    done = subprocess.run([tensile_test(), option, *words], check=False, text=True, errors="replace", cwd=folder,
+                          stdin=subprocess.DEVNULL, capture_output=True)
+    if done.returncode not in ((0, REFUSED) if folder else (0,)):
+        raise RuntimeError(f"tensile_test failed at {option}: {said_by(done.stderr) or f'exit code {done.returncode}'}")
     return done

@@ -17,8 +17,8 @@ NEAREST = 15               # runs that tell of a point between them
 @functools.cache  # a map asks the same of thousands of points
 def share(count, n):
     """(share, low, high): count of n with Wilson's 95 % interval."""
-    told = stats.binomtest(count, n).proportion_ci(method="wilson")
-    return count / n, told.low, told.high
+    interval = stats.binomtest(count, n).proportion_ci(method="wilson")
+    return count / n, interval.low, interval.high
 
 
 def power(x, y):
@@ -54,7 +54,7 @@ Threshold = namedtuple("Threshold", "value low high")
 
 
 def threshold(x, happened):
-    """Of something that happens below a value of x only, or above it only. A logistic over ln x by maximum likelihood, its
+    """The threshold of something that happens below a value of x only, or above it only. A logistic over ln x by maximum likelihood, its
     interval by the curvature of the likelihood. Where the cases part without overlap the interval is from the last x on the one
     side to the first on the other. None where it happened always or never."""
     x, happened = np.asarray(x, float), np.asarray(happened, bool)
@@ -89,11 +89,9 @@ def _logistic(u, happened):
 
 
 def levels(table, by, result):
-    """Of each combination of the columns `by`: n, mean, sd and standard_error of the readings that are there."""
+    """For each combination of the columns `by`: n, mean, sd and standard_error of the readings that are there."""
     groups = table.groupby(by, sort=False, dropna=False)[result]
-    out = groups.agg(n="count", mean="mean", sd="std").reset_index()
-    out["standard_error"] = out["sd"] / np.sqrt(out["n"])
-    return out
+    return groups.agg(n="count", mean="mean", sd="std", standard_error="sem").reset_index()
 
 
 def differences(table, keys, cases, result):
@@ -103,23 +101,17 @@ def differences(table, keys, cases, result):
     difference over the mean of the first."""
     rows = []
     others = [key for key in keys if key not in cases]
-    parts = table.groupby(list(cases) if len(cases) > 1 else cases[0], sort=False) if cases else [((), table)]
-    for case, part in parts:
-        runs = [run for _, run in part.groupby(others, sort=False)]
-        first = runs[0]
-        for run in runs[1:]:
+    for case, part in axes.combinations(table, cases):
+        (_, first), *runs = axes.combinations(part, others)
+        for _, run in runs:
             changed = [key for key in others if run[key].iloc[0] != first[key].iloc[0]]
             if len(changed) == 1:
-                named = dict(zip(cases, case if isinstance(case, tuple) else (case,)))
-                rows.append({**named, "key": changed[0], "value": run[changed[0]].iloc[0], **_difference(first, run, result)})
+                pairs = pd.DataFrame({"first": first[result].to_numpy(), "then": run[result].to_numpy()}).dropna()
+                change, then = pairs["then"] - pairs["first"], pairs["then"]
+                rows.append({**dict(zip(cases, case)), "key": changed[0], "value": run[changed[0]].iloc[0], "n": len(pairs),
+                             "mean": then.mean(), "sd": then.std(), "difference": change.mean(), "standard_error": change.sem(),
+                             "relative": change.mean() / pairs["first"].mean()})
     return pd.DataFrame(rows)
-
-
-def _difference(first, run, result):
-    pairs = pd.DataFrame({"first": first[result].to_numpy(), "then": run[result].to_numpy()}).dropna()
-    n, change = len(pairs), pairs["then"] - pairs["first"]
-    return {"n": n, "mean": pairs["then"].mean(), "sd": pairs["then"].std(), "difference": change.mean(),
-            "standard_error": change.std() / np.sqrt(n) if n else np.nan, "relative": change.mean() / pairs["first"].mean()}
 
 
 class Neighbours:
@@ -127,8 +119,8 @@ class Neighbours:
 
     def __init__(self, table, keys, outcomes):
         self.keys = keys
-        self.scales = [np.log if axes.spans_far(table[key]) else np.asarray for key in keys]
-        columns = [scale(table[key].to_numpy(float)) for scale, key in zip(self.scales, keys)]
+        self.scales = [axes.scales(table[key]) for key in keys]
+        columns = [ahead(table[key].to_numpy(float)) for (ahead, _), key in zip(self.scales, keys)]
         self.low = np.array([column.min() for column in columns])
         self.width = np.array([np.ptp(column) for column in columns])
         self.names = sorted(set(outcomes))
@@ -136,19 +128,13 @@ class Neighbours:
         self.tree = spatial.cKDTree((np.stack(columns, axis=1) - self.low) / self.width)
         self.count = min(NEAREST, len(table) - 1)
 
-    def shares(self, places):
-        """[the share of each name among the nearest runs] of places in the cube."""
-        _, found = self.tree.query(places, self.count)
-        return (self.outcomes[np.reshape(found, (len(places), self.count))][:, :, None] == np.arange(len(self.names))).mean(axis=1)
-
     def values(self, places):
         """The values of the keys at places in the cube."""
-        back = [np.exp if scale is np.log else np.asarray for scale in self.scales]
-        return np.stack([one(low + width * column) for one, low, width, column
-                         in zip(back, self.low, self.width, np.asarray(places).T)], axis=1)
+        return np.stack([back(low + width * column) for (_, back), low, width, column
+                         in zip(self.scales, self.low, self.width, np.asarray(places).T)], axis=1)
 
     def majority(self, places):
         """(name, share, low, high) of the most frequent outcome near each place, with Wilson's 95 % interval."""
-        shares = self.shares(places)
-        most = shares.argmax(axis=1)
-        return [(self.names[name], *share(round(row[name] * self.count), self.count)) for name, row in zip(most, shares)]
+        _, near = self.tree.query(places, self.count)
+        counts = (self.outcomes[np.reshape(near, (len(places), self.count, 1))] == np.arange(len(self.names))).sum(axis=1)
+        return [(self.names[name], *share(int(row[name]), self.count)) for name, row in zip(counts.argmax(axis=1), counts)]

@@ -31,23 +31,30 @@ for _side in (_Loader, _Dumper):
                                 list("-+.0123456789"))
 
 
-def load(path):
-    """What the file holds. Raises WrongInput, which names the file."""
+def read_text(path, errors="strict"):
+    """What a file holds. Raises WrongInput, which names it."""
     try:
-        with open(path, encoding="utf-8") as file:
-            return yaml.load(file, _Loader)
+        with open(path, encoding="utf-8", errors=errors) as file:
+            return file.read()
     except OSError as error:
         raise WrongInput(f"{path}: {error.strerror.lower()}") from error
     except UnicodeDecodeError as error:
-        raise WrongInput(f"{path}: {no_text(error)}") from error
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise WrongInput(f"{path}: line {line}: the byte 0x{error.object[error.start]:02x} is no text in UTF-8") from error
+
+
+def printable(text):
+    """Names of files are bytes, which need not be text: such bytes as YAML too writes them, and reads them back."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def load(path, errors="strict"):
+    """What a YAML file says. Raises WrongInput, which names it."""
+    text = printable(read_text(path, errors))
+    try:
+        return yaml.load(text, _Loader if errors == "strict" else yaml.SafeLoader)  # of names that are no text, C's reader has no idea
     except (yaml.YAMLError, WrongInput) as error:
         raise WrongInput(f"{path}: {' '.join(str(error).split())}") from error
-
-
-def no_text(error):
-    """What the UnicodeDecodeError of a whole file's reading says."""
-    line = error.object.count(b"\n", 0, error.start) + 1
-    return f"line {line}: the byte 0x{error.object[error.start]:02x} is no text in UTF-8"
 
 
 def text_of(value):
@@ -55,13 +62,24 @@ def text_of(value):
     try:
         text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
     except yaml.representer.RepresenterError as error:
-        raise WrongInput(f"{' '.join(repr(value).split())} ({type(value).__name__}) cannot be the value of a key: give numbers, words, lists and dicts of Python") from error
+        raise WrongInput(f"{' '.join(repr(value).split())} ({type(value).__name__}) cannot be the value of a key: give numbers, words, "
+                         "lists and dicts of Python") from error
     return text.removesuffix("\n").removesuffix("...").rstrip("\n")
 
 
 def described(settings):
     """{key: value} in words."""
     return ", ".join(f"{key}={text_of(value)}" for key, value in settings.items())
+
+
+def require(is_so, name, value, allowed):
+    """Raises WrongInput, which names the value and what is allowed, where it is not so."""
+    if not is_so:
+        raise WrongInput(f"{name} is {text_of(value)}, but must be {allowed}")
+
+
+def is_whole(value, low, high):
+    return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
 
 
 def is_number(value):
@@ -72,3 +90,15 @@ def is_number(value):
 def value_of(text):
     """What a text in YAML says. Raises yaml.YAMLError or WrongInput."""
     return yaml.load(text, _Loader)
+
+
+def value_at(node, path):
+    """The value of a dotted key of a method; a step of a program is found by its name or its number. None where there is none."""
+    name, _, rest = path.partition(".")
+    if isinstance(node, list):
+        found = next((step[name] for step in node if isinstance(step, dict) and name in step), None)
+        if found is None and name.isdigit() and int(name) < len(node):
+            found = node[int(name)]
+    else:
+        found = node.get(name) if isinstance(node, dict) else None
+    return value_at(found, rest) if rest and found is not None else found

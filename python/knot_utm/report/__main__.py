@@ -19,8 +19,7 @@ PAGES = {"result.yaml": "run_page.report_on_run", "comparison.yaml": "comparison
 
 def main():
     gc.disable()  # what a page is made of is needed until it is written, and a search for garbage finds none
-    parser = OneLineParser(prog="report", description="Writes report.html and report.pdf into the folder of "
-                                     "a test, of a batch of specimens, of a comparison, or of a fit.")
+    parser = OneLineParser(prog="report", description=__doc__.partition("\n")[0])
     parser.add_argument("folder", help="that tensile_test, a recorder, compare --report or scripts/fit wrote")
     parser.add_argument("--command", help="that the page names as the one that made it")
     parser.add_argument("--version", help="of knot_utm, that made it", default="")

@@ -3,20 +3,20 @@ statistics of all readings, as the software of a testing machine prints them."""
 import itertools
 import os
 import re
-from collections import Counter, namedtuple
+from collections import Counter
 
 import numpy as np
 from markupsafe import Markup
 
+from knot_utm.errors import refuse_if
 from knot_utm.report.certificate import certificate, Check, specification_checks
-from knot_utm.report.commands import CannotReport
-from knot_utm.report.curves import draw, load_axes, mean_curve, reach, small_loads
+from knot_utm.report.curves import load_axes, mean_curve, reach, small_loads
 from knot_utm.report.marks import largest_load
 from knot_utm.report.method_facts import knot_and_materials, label_of, method_facts, particulars, place_of, program, sentence, unit_of
-from knot_utm.report.page import Box, checks_table, facts, figure, files_of, head_of, Headline, no_value, render, Row, Table, verdict_box
+from knot_utm.report.page import Box, certificate_section, facts, figure, files_of, head_of, Headline, no_value, render, Row, Table, verdict_box
 from knot_utm.report.quantities import (all_in_units, error_shown, GROUPS, in_units, is_number, is_rounding, percent, quantity_of, shown,
                                         units_of)
-from knot_utm.report.run import numbers, read_table, read_yaml, Run, texts_of
+from knot_utm.report.run import read_table, read_yaml, Run, texts_of
 from knot_utm.report.run_page import given_box, NOTHING, short_label
 from knot_utm.report.style import BLUE, GREY, INK, ORANGE
 
@@ -26,76 +26,40 @@ MAIN = ("knotability", "plateau_force", "jump_force", "force_ratio", "lock_exten
         "break_extension", "knot_efficiency", "elongation_total", "elongation_at_break", "energy_to_break")
 HEADLINES = 5
 FINEST = 1e-5  # of a mean: no spread is so small that more digits are shown
-IN_ALL = 60000  # points of all curves together
-FEWEST = 60     # points of one curve
-
-# What the page shows of the folder of one specimen. `pull`: extension [m] and load [N], up to the break.
-Tested = namedtuple("Tested", "number pull largest warnings checks asked version given")
-
 
 # What stands in a row of specimens.csv before the readings, and behind what was drawn.
 OUTCOME = ("rejected", "ended_by", "motion_pattern")
 
 
-# A row of specimens.csv. `drawn`, `readings`: by key, in SI; a reading that the test does not have is None.
-Specimen = namedtuple("Specimen", "number rejected ended_by motion_pattern drawn readings")
-
-
-def read_specimens(folder):
-    """In order."""
-    file = os.path.join(folder, "specimens.csv")
-    columns, _ = read_table(file)
-    for name in ("specimen", *OUTCOME):
-        if name not in columns:
-            raise CannotReport(f"{file}: no column {name}")
-    if not columns["specimen"]:
-        raise CannotReport(f"{file}: no specimens")
-    names = list(columns)
-    drawn, readings = names[1:names.index(OUTCOME[0])], names[names.index(OUTCOME[-1]) + 1:]
-    values = {name: numbers(file, name, columns[name]).tolist() for name in ("specimen", *drawn, *readings)}
-
-    def row(keys, i):
-        return {key: values[key][i] if is_number(values[key][i]) else None for key in keys}
-
-    return [Specimen(int(number), columns["rejected"][i] == "true", columns["ended_by"][i], columns["motion_pattern"][i], row(drawn, i), row(readings, i))
-            for i, number in enumerate(values["specimen"])]
-
-
 class Batch:
+    """`numbers` of the specimens, which are `rejected`, and their `table`: columns of specimens.csv, of which some are `sampled`."""
+
     def __init__(self, folder):
         self.folder = folder
-        method, file = (os.path.join(folder, name) for name in ("method.yaml", "statistics.yaml"))
+        method, specimens = (os.path.join(folder, name) for name in ("method.yaml", "specimens.csv"))
         self.method, self.report = read_yaml(method), texts_of(method, "report")
         self.units = units_of(self.report)
-        self.specimens = read_specimens(folder)
-        self.facts = read_yaml(file)
-        for key in ("specimens", "rejected", "motion_pattern"):
-            if key not in self.facts:
-                raise CannotReport(f"{file}: no key {key}")
+        self.table = read_table(specimens, ("specimen",), OUTCOME)
+        self.numbers, self.rejected = self.table["specimen"].astype(int).tolist(), self.table["rejected"] == "true"
+        refuse_if(not self.numbers, f"{specimens}: no specimens")
+        self.sampled = list(self.table)[1:list(self.table).index(OUTCOME[0])]
+        self.facts = read_yaml(os.path.join(folder, "statistics.yaml"), "specimens", "rejected", "motion_pattern")
         self.reasons = {one["specimen"]: in_units(one["reason"], self.units) for one in self.facts["rejected"]}
-        self.counted = [specimen for specimen in self.specimens if not specimen.rejected]
-        self.tested = [self.test(one.number) for one in self.counted]
-        found = [one.largest for one in self.tested if one.largest]
+        self.runs = {number: Run(os.path.join(folder, f"specimen_{number:03d}"))
+                     for number, rejected in zip(self.numbers, self.rejected) if not rejected}
+        self.pulls = [(pull["extension"], pull["load"]) for pull in (run.curve.pull() for run in self.runs.values())]
         # Of a specimen whose load rose to the end, where there is one: then the largest loads are no peaks.
-        self.largest = min(found, key=lambda largest: largest.is_peak, default=None)
+        self.largest = min(filter(None, map(largest_load, self.runs.values())), key=lambda largest: largest.is_peak, default=None)
         self.means = {key: (self.statistics(key) or {}).get("mean") for key in self.facts}  # as a single test could have them
 
-    def test(self, number):
-        run = Run(os.path.join(self.folder, f"specimen_{number:03d}"))
-        pull = run.pull()
-        return Tested(number, (pull["extension"], pull["load"]), largest_load(run), all_in_units(run.result.get("warnings") or [], run.units),
-                      certificate(run.result, run.has_knot(), run.is_soft()), specification_checks(run.method, run.result, run.units),
-                      run.result.get("version"), given_box(run))
+    def checks(self, of):
+        """[(number, [Check])] of the specimens that have some. `of`: the checks of a run."""
+        return [(number, checks) for number, run in self.runs.items() if (checks := of(run))]
 
     def statistics(self, key):
         """mean, sd, cv, low, high, minimum, maximum and n, of which some are None; None: no specimen has the reading."""
         found = self.facts.get(key)
         return found if isinstance(found, dict) and found.get("n") else None
-
-    def common_mean(self, key):
-        """None: not every specimen that counts has the reading."""
-        found = self.statistics(key)
-        return found["mean"] if found and found["n"] == len(self.counted) else None
 
     def main_keys(self):
         return [key for key in MAIN if self.statistics(key)][:HEADLINES]
@@ -104,11 +68,12 @@ class Batch:
 def report_on_batch(folder, command, version):
     batch = Batch(folder)
     length, units, rejected = batch.units.length, batch.units, batch.reasons
-    mean = mean_curve([one.pull for one in batch.tested])
-    checks, asked = [[(one.number, getattr(one, of)) for one in batch.tested if getattr(one, of)] for of in ("checks", "asked")]
-    asked_verdict = asked and verdict_box(verdict_of_all(asked, "%s meet the specification."))
+    mean = mean_curve(batch.pulls)
+    checks = batch.checks(lambda run: certificate(run.result, run.has_knot(), run.is_soft()))
+    asked = batch.checks(lambda run: specification_checks(run.method, run.result, run.units))
+    asked_box = asked and verdict_box(*verdict_of_all(asked, "%s meet the specification."))
     curve = []
-    if any(len(one.pull[0]) for one in batch.tested):
+    if any(len(s) for s, _ in batch.pulls):
         common = mean and [shown(s, length.scale) for s in (mean.extension[0], mean.extension[-1])]
         curve = [figure(curves(batch, mean), "Load over extension of all specimens, with their mean and its band",
                         "Each thin line is the pull of a specimen, up to its break: the balanced load, without noise and resolution of the "
@@ -116,16 +81,16 @@ def report_on_batch(folder, command, version):
                             "The mean is that of the loads at the same extension. It is drawn over the extensions that all specimens have, "
                             f"{common[0]} to {common[1]} {length.name}, which the dotted lines bound. The band is as wide as single "
                             "specimens scatter, the dashed lines bound the mean of all such specimens with 95 % confidence, neither beyond "
-                            "what a specimen shows." if common else "Of one specimen there is no band." if len(batch.counted) == 1 else
+                            "what a specimen shows." if common else "Of one specimen there is no band." if len(batch.runs) == 1 else
                             "No extension is common to all specimens, so that no mean is drawn."))]
-    elif batch.counted:
+    elif batch.runs:
         curve = ["The tests ended before the specimens were pulled, so that there are no curves."]
     tables, unmeasured = all_readings(batch)
-    certificates = [
-        *([asked_verdict, checks_table("Specification", "Kept by", checks_of_all(asked))] if asked else []),
-        verdict_box(verdict_of_all(checks, "%s keep all limits.")), checks_table("Trust in the computation", "Kept by", checks_of_all(checks)),
-        "The limits are those of the certificate of a single test. Each row says how many of the specimens that have its value keep it."]
-    specimens = batch.method.get("specimens") or {}
+    certificates = certificate_section(
+        "Kept by", asked_box, checks_of_all(asked), verdict_box(*verdict_of_all(checks, "%s keep all limits.")), checks_of_all(checks),
+        "The limits are those of the certificate of a single test. Each row says how many of the specimens that have its value keep it.")
+    specimens, files = batch.method.get("specimens") or {}, files_of(folder)
+    folders = " to ".join(f"specimen_{number:03d}/" for number in dict.fromkeys([batch.numbers[0], batch.numbers[-1]]))
     return render(
         folder, command, version, "Batch of specimens, simulated", knot_and_materials(batch.method, batch.folder), [
             ("Rejected specimens", rejected and [
@@ -136,38 +101,38 @@ def report_on_batch(folder, command, version):
             ("Specimens", [*specimens_tables(batch), "Forces are the balanced load." + (
                 " The load of a specimen was still rising when its test was stopped, so that its largest load is no peak."
                 if batch.largest and not batch.largest.is_peak else "") + ("" if units.are_default else " All files are in SI units."),
-                "" if batch.specimens[0].drawn else "Nothing was drawn: the specimens differ in the noise of the load cell only."]),
+                "" if batch.sampled else "Nothing was drawn: the specimens differ in the noise of the load cell only."]),
             ("All readings", tables and [
                 *tables, "± 95 % is half of the interval that holds the mean of all such specimens with 95 % confidence, and n the number of "
-                "specimens that have the reading. SD is the standard deviation of single specimens, over n – 1, and CV its share of the mean; what is the same for all "
-                "of them, but for rounding, is constant. Scatter says nothing about the numerical error that all specimens share: it stands "
-                "in the report of each one.", no_value("No specimen has a", unmeasured)]),
-            ("Quality certificate", certificates if batch.counted else []),
+                "specimens that have the reading. SD is the standard deviation of single specimens, over n – 1, and CV its share of the mean; "
+                "what is the same for all of them, but for rounding, is constant. Scatter says nothing about the numerical error that all "
+                "specimens share: it stands in the report of each one.", no_value("No specimen has a", unmeasured)]),
+            *([certificates] if batch.runs else []),
             ("What was tested, and how", [[*method_facts(batch.method, units, batch.folder), ("Specimens", [
-                ("Count", str(len(batch.specimens))), ("Seed of the drawing", str(specimens.get("seed", ""))), *scatter(batch)], "")],
+                ("Count", str(len(batch.numbers))), ("Seed of the drawing", str(specimens.get("seed", ""))), *scatter(batch)], "")],
                 facts(program(batch.method, units))])],
         under_title(batch), [*head_of(batch.report), *particulars(
             batch.report, batch.method, batch.means.get("gauge_length"), units,
-            f"{len(batch.specimens)} tested, {len(batch.counted)} count, {len(rejected)} discarded")],
+            f"{len(batch.numbers)} tested, {len(batch.runs)} count, {len(rejected)} discarded")],
         batch.report.get("notes", ""), headlines(batch), [
-            next((one.given for one in batch.tested if one.given), None), asked_verdict,
+            next(filter(None, map(given_box, batch.runs.values())), None), asked_box,
             Box("fail", ["No specimen counts: " + (f"all {len(rejected)} are" if len(rejected) > 1 else "the only one is") +
-                         " rejected, so that there are no readings."]) if not batch.counted else
+                         " rejected, so that there are no readings."]) if not batch.runs else
             Box("warnings", [Markup("<b>Warnings</b>"), *lines]) if (lines := warnings(batch)) else
             Box("quiet", ["No specimen that counts gave a warning."])],
-        with_specimens(files_of(folder), batch))
+        [*files[:-2], (folders, "of each specimen all that a single test writes"), *files[-2:]])
 
 
 def under_title(batch):
     def counts(name):
-        found = Counter(getattr(one, name) for one in batch.counted)
+        found = Counter(batch.table[name][~batch.rejected].tolist())
         return ", ".join(f"{word} {number}" for word, number in sorted(found.items(), key=lambda item: (-item[1], item[0])))
 
-    count, rejected = len(batch.specimens), len(batch.reasons)
-    said = [f"knot_utm {batch.tested[0].version}"] if batch.tested else []
+    count, rejected = len(batch.numbers), len(batch.reasons)
+    said = [f"knot_utm {next(iter(batch.runs.values())).result.get('version')}"] if batch.runs else []
     said.append(f"{count} specimen{'s' if count > 1 else ''}" + (
         f", of which {count - rejected} count and {rejected} {'are' if rejected > 1 else 'is'} rejected" if rejected else ""))
-    if batch.counted:
+    if batch.runs:
         said += [f"motion pattern {counts('motion_pattern')}", f"ended by {counts('ended_by')}"]
     return " · ".join(said)
 
@@ -182,40 +147,36 @@ def named(numbers):
 # ---- tables ----
 
 
-class Column:
-    """A quantity of every specimen. Its values have as many digits as leave two of their spread."""
-
-    def __init__(self, label, unit, values_of, mean, spread):
-        self.label, self.unit, self.values_of = label, unit, values_of
-        self.error = max(spread, FINEST * abs(mean)) if spread else None
-
-    def text(self, value):
-        return shown(value, self.unit.scale, self.error) if is_number(value) else "none"
+def digits_of(mean, spread, unit):
+    """The text of a value, with as many digits as leave two of the spread."""
+    error = max(spread, FINEST * abs(mean)) if spread else None
+    return lambda value: shown(value, unit.scale, error) if is_number(value) else "none"
 
 
 def specimens_tables(batch):
     """What was drawn for each specimen, and its main readings and those that the specification asks for, in as many tables as are
     needed."""
-    columns = []
-    for key in batch.specimens[0].drawn:
-        values = [one.drawn[key] for one in batch.specimens]
-        columns.append(Column(sentence(name_of(key)), unit_of(key, batch.units), lambda one, key=key: one.drawn[key], max(values),
-                              float(np.std(values, ddof=1)) if len(values) > 1 else 0.0))
-    keys = batch.main_keys()
-    for key in keys + [key for key in batch.method.get("specification") or {} if key not in keys and batch.statistics(key)]:
-        found = batch.statistics(key)
-        columns.append(Column(short_label(batch.means, key, batch.largest), batch.units.of(quantity_of(key).kind),
-                              lambda one, key=key: None if one.rejected else one.readings[key], found["mean"], found["sd"]))
-    tables = -(-len(columns) // WIDEST)
-    each = -(-len(columns) // max(tables, 1))
-    return [Table(("Specimen", *(f"{column.label} {f'[{column.unit.name}]' if column.unit.name else ''}" for column in some)),
-                  [Row(f"{one.number}{', rejected' if one.rejected else ''}", (),
-                       [column.text(column.values_of(one)) for column in some]) for one in batch.specimens])
-            for some in (columns[i:i + each] for i in range(0, len(columns), max(each, 1)))]
+    columns = []  # (label, unit, texts)
+    for key in batch.sampled:
+        values, unit = batch.table[key].tolist(), unit_of(key, batch.units)
+        text = digits_of(max(values), float(np.std(values, ddof=1)) if len(values) > 1 else 0.0, unit)
+        columns.append((sentence(name_of(key)), unit, [*map(text, values)]))
+    asked = [key for key in batch.method.get("specification") or {} if batch.statistics(key)]
+    for key in dict.fromkeys(batch.main_keys() + asked):
+        found, unit = batch.statistics(key), batch.units.of(quantity_of(key).kind)
+        text = digits_of(found["mean"], found["sd"], unit)
+        columns.append((short_label(batch.means, key, batch.largest), unit,
+                        [text(None if rejected else value) for value, rejected in zip(batch.table[key], batch.rejected)]))
+    names = [f"{number}{', rejected' if rejected else ''}" for number, rejected in zip(batch.numbers, batch.rejected)]
+    tables = max(1, -(-len(columns) // WIDEST))
+    each = max(1, -(-len(columns) // tables))
+    return [Table(("Specimen", *(f"{label} {f'[{unit.name}]' if unit.name else ''}" for label, unit, _ in some)),
+                  [Row(name, (), texts) for name, *texts in zip(names, *(texts for _, _, texts in some))])
+            for some in (columns[i:i + each] for i in range(0, len(columns), each))]
 
 
 def name_of(key):
-    """Of a dotted key of the method: a speed is that of a step."""
+    """What a dotted key of the method is called: a speed is that of a step."""
     *where, _ = place_of(key).split(".")
     return f"{label_of(key)}, {where[-1]}" if where[0] == "program" else label_of(key)
 
@@ -231,32 +192,27 @@ def all_readings(batch):
     """Tables of the statistics of every reading that a specimen has, and the keys that none has."""
     labels = {key: short_label(batch.means, key, batch.largest) for key in ("locked_stiffness", "peak_force")}
     titles = {"beside": "Numerical errors and true forces", "certificate": "Checks", "head": "Further"}
-    counts, tables, told = ("specimens", "rejected"), [], {"specimens", "rejected", "motion_pattern"}
+    tables, shown_keys = [], {"specimens", "rejected", "motion_pattern"}
     groups = {title: [key for key in group if key in batch.facts] for title, group in GROUPS.items()}
-    groups["head"] = [key for key in batch.facts if key not in counts and not any(key in group for group in groups.values())]
+    groups["head"] = [key for key in batch.facts if key not in ("specimens", "rejected") and not any(key in group for group in groups.values())]
     for title, keys in groups.items():
         rows = [statistics_row(batch, key, labels.get(key) or quantity_of(key).label) for key in keys
                 if batch.statistics(key) and NOTHING.get(key) != batch.means[key]]
-        told.update(row.keys[0] for row in rows)
+        shown_keys.update(row.keys[0] for row in rows)
         if rows:
             tables.append(Table((titles.get(title, title), "Mean", "± 95 %", "SD", "CV", "Least", "Largest", "n", "Unit"), rows))
-    return tables, [key for key in batch.facts if key not in told]
+    return tables, [key for key in batch.facts if key not in shown_keys]
 
 
 def statistics_row(batch, key, label):
-    found, unit = batch.statistics(key), batch.units.of(quantity_of(key).kind)
-    column, n, sd = Column(label, unit, None, found["mean"], found["sd"]), found["n"], found["sd"]
-
-    def mean_of(one):
-        return (batch.statistics(one) or {}).get("mean")
-
-    ends = [column.text(found[end]) if is_number(found.get(end)) else "" for end in ("minimum", "maximum")]
+    found, unit, mean_of = batch.statistics(key), batch.units.of(quantity_of(key).kind), batch.means.get
+    text, n, sd = digits_of(found["mean"], found["sd"], unit), found["n"], found["sd"]
+    ends = [text(found[end]) if is_number(found.get(end)) else "" for end in ("minimum", "maximum")]
     # Neither the mean nor the spread is more than rounding.
     if is_rounding(key, mean_of) and (sd is None or is_rounding(key, lambda one: sd if one == key else mean_of(one))):
         return Row(label, [key], ["0", "", "constant" if n > 1 else "", "", *ends, str(n), unit.name])
     spread = error_shown(sd, unit.scale) if sd is not None or n < 2 else "constant"
-    return Row(label, [key], [column.text(found["mean"]), error_shown(half_of(found), unit.scale), spread, percent(found["cv"]), *ends, str(n),
-                              unit.name])
+    return Row(label, [key], [text(found["mean"]), error_shown(half_of(found), unit.scale), spread, percent(found["cv"]), *ends, str(n), unit.name])
 
 
 def half_of(statistics):
@@ -269,15 +225,13 @@ def checks_of_all(checks):
     found = {}
     for number_of_specimen, some in checks:
         for check in some:
-            found.setdefault(check.words, []).append((number_of_specimen, check))
-    return [over_all(words, some) for words, some in found.items()]
-
-
-def over_all(words, found):
-    first, missed = found[0][1], [one for one, check in found if not check.kept]
-    if 0 < len(missed) < len(found):
-        words += f"; not so {named(missed)}"
-    return Check(words, first.key, f"{len(found) - len(missed)} of {len(found)} specimens", first.limit, not missed)
+            found.setdefault((check.words, check.key), []).append((number_of_specimen, check))
+    rows = []
+    for (words, key), some in found.items():
+        missed = [number_of_specimen for number_of_specimen, check in some if not check.kept]
+        words += f"; not so {named(missed)}" if 0 < len(missed) < len(some) else ""
+        rows.append(Check(words, key, f"{len(some) - len(missed)} of {len(some)} specimens", some[0][1].limit, not missed))
+    return rows
 
 
 def verdict_of_all(checks, sentence_of):
@@ -300,9 +254,9 @@ def headlines(batch):
 def warnings(batch):
     """Each warning once, with the specimens that gave it. Those that differ in their numbers only are one."""
     found = {}
-    for one in batch.tested:
-        for line in one.warnings:
-            found.setdefault(re.sub(r"[-–]?\d[\d.]*(?:e[-+]?\d+)?", "#", line), []).append((one.number, line))
+    for number, run in batch.runs.items():
+        for line in all_in_units(run.result.get("warnings") or [], run.units):
+            found.setdefault(re.sub(r"[-–]?\d[\d.]*(?:e[-+]?\d+)?", "#", line), []).append((number, line))
     lines = []
     for said in found.values():
         first, line = said[0]
@@ -311,23 +265,17 @@ def warnings(batch):
     return lines
 
 
-def with_specimens(files, batch):
-    """Before the page itself."""
-    first, last = batch.specimens[0].number, batch.specimens[-1].number
-    folders = f"specimen_{first:03d}/ to specimen_{last:03d}/" if last > first else f"specimen_{first:03d}/"
-    return [*files[:-2], (folders, "of each specimen all that a single test writes"), *files[-2:]]
-
-
 def curves(batch, mean):
     """`mean`: a MeanCurve, or None. The loads once more where they are small beside the peak."""
-    pulls = [one.pull for one in batch.tested if len(one.pull[0])]
+    pulls = [pull for pull in batch.pulls if len(pull[0])]
     force, length, loads = batch.units.force.scale, batch.units.length.scale, np.concatenate([load for _, load in pulls])
-    drawn, axes = load_axes(batch.units, small_loads(batch.common_mean, loads))
+    # Where not every specimen that counts has a reading it says nothing of all of them.
+    means = {key: mean for key, mean in batch.means.items() if mean is not None and batch.statistics(key)["n"] == len(batch.runs)}
+    drawn, axes = load_axes(batch.units, small_loads(means.get, loads))
     for one in axes:
         label = "the specimen" if len(pulls) == 1 else f"{len(pulls)} specimens"
         for s, load in pulls:  # so faint that many do not hide the band
-            draw(one, length * s, force * load, max(FEWEST, IN_ALL // len(pulls)), color=BLUE, lw=0.8,
-                 alpha=min(0.6, max(0.1, 6.0 / len(pulls))), label=label)
+            one.plot(length * s, force * load, color=BLUE, lw=0.8, alpha=min(0.6, max(0.1, 6.0 / len(pulls))), label=label)
             label = None
         if mean is not None:
             s = length * mean.extension

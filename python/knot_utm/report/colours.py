@@ -19,18 +19,15 @@ EXTREME = 99.5  # percentile of the values that the colours reach to
 
 
 def node_values(shape):
-    """Those that are known of a shape, by name."""
+    """The values that are known of a shape, by name."""
     parts = ropes(shape)
-    tension = None if shape.tension is None else np.concatenate(
-        [between_edges(shape.tension[rope.start:rope.stop - 1]) for rope in parts])
+    tension = None
+    if shape.tension is not None:  # at a node it is the mean of both edges
+        edges = [shape.tension[rope.start:rope.stop - 1] for rope in parts]
+        tension = np.concatenate([0.5 * (np.append(one[:1], one) + np.append(one, one[-1:])) for one in edges])
     found = {"tension": tension, "curvature": np.concatenate([curvature(shape.points[rope]) for rope in parts]), "twist": shape.twist,
              "contact_force": shape.contact_force}
     return {name: values for name, values in found.items() if values is not None}
-
-
-def between_edges(values):
-    """Of edges to nodes: the mean of both neighbours."""
-    return np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
 
 
 def curvature(points):

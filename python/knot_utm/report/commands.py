@@ -1,7 +1,6 @@
 """What the commands of reports have in common: how they begin, read their words, and end."""
 import argparse
 import contextlib
-import gc
 import importlib
 import os
 import stat
@@ -9,30 +8,31 @@ import sys
 import tempfile
 
 from knot_utm import tool
-from knot_utm.errors import WrongInput
-
-# Debian's name of what a module is in.
-PACKAGES = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml": "python3-yaml", "scipy": "python3-scipy",
-            "jinja2": "python3-jinja2", "weasyprint": "weasyprint"}
-
-
-class CannotReport(Exception):
-    pass
+from knot_utm.errors import Interrupted, WrongInput
 
 
 @contextlib.contextmanager
-def in_one_line(program):
-    """Ends the program with exit code 1 and one line, whatever goes wrong."""
+def in_one_line(program, goes_on=False):
+    """Ends the program with a line, whatever goes wrong: with exit code 2 for bad input, else with 1. `goes_on`: whether the same
+    command goes on where the work was cut off."""
+    again = "; the same command goes on" if goes_on else ""
     try:
         yield
-    except ModuleNotFoundError as missing:
-        package = PACKAGES.get((missing.name or "").split(".")[0])
-        sys.exit(f"{program}: {missing}" + (f": install Debian's package {package}" if package else ""))
+    except WrongInput as wrong:
+        refuse(program, wrong)
     except KeyboardInterrupt:
-        sys.exit(f"{program}: interrupted")
+        refuse(program, "it was interrupted", 1)
+    except Interrupted as error:
+        refuse(program, f"{error}{again}", 1)
+    except ModuleNotFoundError as missing:
+        name = (missing.name or "").split(".")[0].lower()
+        refuse(program, f"{missing}: install Debian's package {name if name == 'weasyprint' else 'python3-' + name}", 1)
+    except OSError as error:
+        why = f"{error.filename}: {error.strerror.lower()}" if error.filename else str(error)
+        refuse(program, why + again * tool.is_of_a_full_disk(why), 1)
     except Exception as error:
         said = " ".join(str(error).split())
-        sys.exit(f"{program}: " + (said if isinstance(error, (CannotReport, WrongInput)) else f"{type(error).__name__}: {said}"))
+        refuse(program, said if isinstance(error, RuntimeError) else f"{type(error).__name__}: {said}", 1)
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -41,25 +41,37 @@ class OneLineParser(argparse.ArgumentParser):
     def error(self, message):
         if not self.add_help:
             message += f" ({self.prog} --help)" if tool.IN_SOURCES else f" ({' '.join(self.format_usage().split())})"
-        refuse(os.path.basename(self.prog), message)
+        refuse(self.prog, message)
+
+    def require_room(self, option, file, inputs, overwrite):
+        """Refuses a file that must not be written. `inputs`: files and folders that are read."""
+        files = [file for one in inputs for file in (os.scandir(one) if os.path.isdir(one) else [one])]
+        if why := why_not(file, files, overwrite):
+            self.error(f"{option}: {why}")
 
 
-def refuse(program, message):
-    """Bad input."""
-    print(f"{program}:", str(message).encode("utf-8", "backslashreplace").decode("utf-8"), file=sys.stderr)
-    sys.exit(2)
+def refuse(program, message, code=2):
+    """Says in a line why the program ends, and ends it; unless given for bad input."""
+    print(f"{os.path.basename(program)}:", str(message).encode("utf-8", "backslashreplace").decode("utf-8"), file=sys.stderr)
+    sys.exit(code)
 
 
-def files_of(folder):
-    """All files that stand in a folder: a run is read from several."""
-    return [os.path.join(folder, name) for name in os.listdir(folder)] if os.path.isdir(folder) else []
-
-
-def why_no_test(folder):
-    """A sentence on why a folder holds no test; None where it holds one."""
+def test_in(folder):
+    """The folder of a test, as a type of argparse."""
     if not os.path.isdir(folder):
-        return f"{folder}: no such folder"
-    return None if os.path.exists(os.path.join(folder, "method.yaml")) else f"{folder}: no test is there (method.yaml)"
+        raise argparse.ArgumentTypeError(f"{folder}: no such folder")
+    if not os.path.exists(os.path.join(folder, "method.yaml")):
+        raise argparse.ArgumentTypeError(f"{folder}: no test is there (method.yaml)")
+    return folder
+
+
+def file_ending(end):
+    """The name of a file that is to be written, as a type of argparse."""
+    def checked(name):
+        if not name.endswith(end):
+            raise argparse.ArgumentTypeError(f"{name}: the name of the file must end with {end}")
+        return name
+    return checked
 
 
 def why_not(file, inputs, overwrite):
@@ -82,11 +94,7 @@ def why_not(file, inputs, overwrite):
 def start(program):
     """One of them, by the name of its module. What that needs may not be installed, which is told in a line, too."""
     with in_one_line(program):
-        gc.disable()
-        module = importlib.import_module(f"knot_utm.report.{program}")
-        gc.freeze()  # all that is imported stays, and no search for garbage looks at it
-        gc.enable()
-        module.main()
+        importlib.import_module(f"knot_utm.report.{program}").main()
 
 
 if __name__ == "__main__":  # scripts/PROGRAM WORD...

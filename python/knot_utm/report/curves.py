@@ -11,30 +11,9 @@ from knot_utm.report.quantities import with_unit
 from knot_utm.report.run import FORMING
 from knot_utm.report.style import BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, stacked, VIOLET
 
-MOST = 6000  # points of a curve that are drawn
 FEW = 250    # readings of the cell that are drawn as points
 STEPS = 1000
 DASHED, DOTTED = (0, (4, 3)), (0, (1, 2))
-
-
-def few_points(*columns, most=MOST):
-    """Rows to be drawn: all of them, or the first, the smallest and the largest of each column in every stretch."""
-    rows = np.arange(len(columns[0]))
-    if len(rows) <= most:
-        return rows
-    kept = {rows[0], rows[-1]}
-    for stretch in np.array_split(rows, most // (2 * len(columns) + 1)):
-        kept.add(stretch[0])
-        for column in columns:
-            part = np.where(np.isfinite(column[stretch]), column[stretch], 0.0)
-            kept.update((stretch[np.argmin(part)], stretch[np.argmax(part)]))
-    return np.array(sorted(kept))
-
-
-def draw(axes, x, y, most=MOST, **style):
-    """A curve by as many of its points as can be seen."""
-    rows = few_points(x, y, most=most)
-    return axes.plot(x[rows], y[rows], **style)[0]
 
 
 def small_loads(value, load):
@@ -83,12 +62,10 @@ def course(run):
     names = [name for name in dict.fromkeys(curve.phase.tolist()) if name in PHASES]
     figure.legend(handles=[Patch(color=PHASES[name], label=name) for name in names], loc="upper center", handlelength=1.0,
                   ncol=len(names), columnspacing=1.0, handletextpad=0.4, borderpad=0.2)
-    tested, broke = ~np.isin(curve.phase, FORMING), run.time_of_break()
-    if broke is not None:
-        tested &= time <= broke
+    tested = ~np.isin(curve.phase, FORMING)
     second = axes.twinx()
     for one, name, unit, colour in ((axes, "load", force, BLUE), (second, "extension", length, ORANGE)):
-        draw(one, time, unit.scale * np.where(tested, curve[name], np.nan), color=colour, lw=1.2)
+        one.plot(time, unit.scale * np.where(tested, curve[name], np.nan), color=colour, lw=1.2)
         one.set_ylabel(f"{name} {'F' if name == 'load' else 's'} [{unit.name}]", color=colour)
         one.grid(False)
     second.spines["right"].set_visible(True)
@@ -99,8 +76,8 @@ def course(run):
 
 def force_extension(run, marks):
     """Load over extension; again where the load is small beside its peak; knot distance where there are two knots."""
-    tested, events, scale = run.tested(), events_of(run), run.units.length.scale
-    small, knots = small_loads(run.value, tested["load"]), tested.has_knot_distance()
+    tested, events, scale = run.curve.tested(), events_of(run), run.units.length.scale
+    small, knots = small_loads(run.value, tested["load"]), np.isfinite(tested["knot_distance"]).any()
     figure, axes = load_axes(run.units, small, [1.4] if knots else [], 0.25 + 0.15 * len(events))
     loads = axes[:2 if small else 1]
     for one in loads:
@@ -112,60 +89,54 @@ def force_extension(run, marks):
     put_marks(axes[0], run, [(mark, run.units.force.scale * mark.load) for mark in marks])
     if knots:
         draw_knot_distance(axes[-1], run, marks)
-    end = scale * float(tested["extension"].max())
-    for one in axes:
-        shade_motion(one, run, end)
-        for _, place, _, colour, style in events:
-            one.axvline(place, color=colour, lw=0.9, ls=style)
-    name_motion(axes[0], run, events, end)
-    shown = [tested["extension"]]
+    draw_motion(axes, run, events, scale * float(tested["extension"].max()))
+    shown = tested["extension"]
     if tested.has_compliant_frame():
-        pull = run.pull()
-        shown = [pull["extension"] if len(pull) else tested["extension"], tested["crosshead_extension"]]
-    reach(axes[-1], scale * np.concatenate(shown))
+        pull = run.curve.pull()
+        shown = np.concatenate([pull["extension"] if len(pull) else shown, tested["crosshead_extension"]])
+    reach(axes[-1], scale * shown)
     figure.align_ylabels(axes)
     return figure
 
 
 def draw_loads(axes, run):
-    tested, force, length = run.tested(), run.units.force, run.units.length
-    floor, pull = run.load_cell_floor(), run.pull()
+    tested, force, length = run.curve.tested(), run.units.force, run.units.length
+    floor, pull = run.load_cell_floor(), run.curve.pull()
     if floor:  # below it the cell's error is as large as that of the floor
         axes.axhspan(force.scale * (-floor if tested["load"].min() < 0.0 else 0.0), force.scale * floor, facecolor="none", edgecolor=GREY,
                      alpha=0.45, hatch="////", lw=0.0, label=f"cell's floor, {with_unit(floor, force)}")
     band = error_band(run, pull)
     if band:
-        rows = few_points(*band)
-        axes.fill_between(length.scale * pull["extension"][rows], *(force.scale * end[rows] for end in band), color=BLUE, alpha=0.22,
-                          lw=0, label="numerical error")
+        axes.fill_between(length.scale * pull["extension"], *(force.scale * end for end in band), color=BLUE, alpha=0.22, lw=0,
+                          label="numerical error")
     named = set()
     for name, a, b in phases_of(tested):
-        draw(axes, length.scale * tested["extension"][a:b + 1], force.scale * tested["load"][a:b + 1], lw=1.4,
-             color={"hold": VIOLET, "return": GREEN}.get(name, BLUE), label=None if name in named else name)
+        axes.plot(length.scale * tested["extension"][a:b + 1], force.scale * tested["load"][a:b + 1], lw=1.4,
+                  color={"hold": VIOLET, "return": GREEN}.get(name, BLUE), label=None if name in named else name)
         named.add(name)
-    cell = run.tested(run.readings)
+    cell = run.readings.tested()
     if len(cell) <= FEW:
         axes.plot(length.scale * cell["extension"], force.scale * cell["load"], "o", ms=2.6, mfc="white", mec=BLUE, mew=0.7,
                   label="as the cell reads it")
     if tested.has_compliant_frame():
-        draw(axes, length.scale * tested["crosshead_extension"], force.scale * tested["load"], color=GREY, lw=0.9, ls=(0, (5, 2)),
-             label="over the crosshead's extension")
+        axes.plot(length.scale * tested["crosshead_extension"], force.scale * tested["load"], color=GREY, lw=0.9, ls=(0, (5, 2)),
+                  label="over the crosshead's extension")
 
 
 def draw_plateau(axes, run):
     plateau, lock = run.value("plateau_force"), run.value("lock_extension_by_load")
     if plateau is None:
         return
-    end = run.units.length.scale * (lock if lock is not None else run.pull()["extension"][-1])
+    end = run.units.length.scale * (lock if lock is not None else run.curve.pull()["extension"][-1])
     axes.plot([0.3 * end, 0.8 * end], 2 * [run.units.force.scale * plateau], color=ORANGE, lw=1.6, zorder=4)
     axes.text(0.55 * end, 0.85, "plateau " + with_unit(plateau, run.units.force, run.value("plateau_force_error")), ha="center",
               fontsize=SMALL, color=ORANGE, transform=axes.get_xaxis_transform())
 
 
 def draw_knot_distance(axes, run, marks):
-    tested, length, lock = run.tested(), run.units.length, run.value("lock_extension")
+    tested, length, lock = run.curve.tested(), run.units.length, run.value("lock_extension")
     s, e = length.scale * tested["extension"], length.scale * tested["knot_distance"]
-    draw(axes, s, e, color=VIOLET, lw=1.4)
+    axes.plot(s, e, color=VIOLET, lw=1.4)
     if lock is not None or (run.result.get("motion_pattern") == "sliding" and run.value("jump_force") is None):
         first, end = np.flatnonzero(np.isfinite(e))[0], length.scale * lock if lock is not None else s[-1]
         rigid = 2 if run.method["machine"]["grips"] == "rollers" else 1
@@ -173,7 +144,7 @@ def draw_knot_distance(axes, run, marks):
                   label=f"de/ds = –{rigid}: rigid sliding")
         axes.legend(loc="lower left", borderpad=0.2)
     axes.set_ylabel(f"knot distance e [{length.name}]")
-    put_marks(axes, run, [(mark, float(np.interp(mark.time, tested["time"], e))) for mark in marks if np.isfinite(mark.load)])
+    put_marks(axes, run, [(mark, float(np.interp(mark.time, tested["time"], e))) for mark in marks])
 
 
 def put_marks(axes, run, places):
@@ -185,40 +156,38 @@ def put_marks(axes, run, places):
 
 
 def events_of(run):
-    """[(key, place in the unit of the page, words, colour, style)] in order of their places."""
+    """[(place in the unit of the page, words, colour, style)] in order of their places."""
     length, value = run.units.length, run.value
-    words = (("first_contact_extension", VIOLET, DOTTED, lambda _: "the knots touch"),
-             ("jump_extension", RED, DASHED, lambda _: "a knot jumped open at " + with_unit(value("jump_force"), run.units.force)),
-             ("lock_extension", INK, DASHED, lambda lock: "lock " + with_unit(lock, length, value("lock_extension_error"))),
-             ("break_extension", RED, "-", lambda broke: "break " + with_unit(broke, length)))
-    found = [(key, length.scale * value(key), told(value(key)), *style) for key, *style, told in words if value(key) is not None]
-    return sorted(found, key=lambda event: event[1])
+    events = (("first_contact_extension", "the knots touch", VIOLET, DOTTED),
+              ("jump_extension", "a knot jumped open at " + with_unit(value("jump_force"), run.units.force), RED, DASHED),
+              ("lock_extension", "lock " + with_unit(value("lock_extension"), length, value("lock_extension_error")), INK, DASHED),
+              ("break_extension", "break " + with_unit(value("break_extension"), length), RED, "-"))
+    return sorted((length.scale * value(key), *event) for key, *event in events if value(key) is not None)
 
 
-def shade_motion(axes, run, end):
-    """Up to the lock the knots slide, behind it the rod stretches."""
+def draw_motion(axes, run, events, end):
+    """What moves where: up to the lock the knots slide, behind it the rod stretches. Each event is named on a line of its own above the
+    axes."""
     lock, error, scale = run.value("lock_extension"), run.value("lock_extension_error"), run.units.length.scale
+    pattern, parts = run.result.get("motion_pattern"), []
     if lock is not None:
-        axes.axvspan(0.0, scale * lock, color=PHASES["mount"], alpha=0.45, lw=0, zorder=0)
-        axes.axvspan(scale * lock, end, color=PHASES["tie"], alpha=0.5, lw=0, zorder=0)
-        if error:
-            axes.axvspan(scale * (lock - error), scale * (lock + error), color=GREY, alpha=0.2, lw=0, zorder=0)
-
-
-def name_motion(axes, run, events, end):
-    """Each event on a line of its own above the axes; within them what moves where."""
-    above, lock, pattern = axes.get_xaxis_transform(), run.value("lock_extension"), run.result.get("motion_pattern")
-    for line, (_, place, words, colour, _) in enumerate(events):
-        axes.annotate(words, (place, 1.0), xytext=(0, 3 + 10.8 * line), xycoords=above, textcoords="offset points", color=colour,
-                      ha="right" if place > 0.8 * end else "left" if place < 0.1 * end else "center", fontsize=SMALL)
-    parts = [(0.5 * end, f"motion pattern: {pattern}", GREEN)] if pattern not in (None, "none") else []
-    if lock is not None:
-        lock *= run.units.length.scale
-        parts = [(0.5 * lock, "the knots slide", GREEN)]
-        if end - lock > 0.2 * end:
-            parts.append((0.5 * (lock + end), "the rod stretches", GOLD))
-    for place, words, colour in parts:
-        axes.text(place, 0.955, words, ha="center", color=colour, transform=above)
+        parts = [(0.0, scale * lock, "the knots slide", GREEN, "mount", 0.45), (scale * lock, end, "the rod stretches", GOLD, "tie", 0.5)]
+    elif pattern not in (None, "none"):
+        parts = [(0.0, end, f"motion pattern: {pattern}", GREEN, None, 0.0)]
+    for one in axes:
+        for begin, finish, _, _, phase, strength in parts:
+            one.axvspan(begin, finish, color=PHASES.get(phase), alpha=strength, lw=0, zorder=0)
+        if lock is not None and error:
+            one.axvspan(scale * (lock - error), scale * (lock + error), color=GREY, alpha=0.2, lw=0, zorder=0)
+        for place, _, colour, style in events:
+            one.axvline(place, color=colour, lw=0.9, ls=style)
+    above = axes[0].get_xaxis_transform()
+    for line, (place, words, colour, _) in enumerate(events):
+        axes[0].annotate(words, (place, 1.0), xytext=(0, 3 + 10.8 * line), xycoords=above, textcoords="offset points", color=colour,
+                         ha="right" if place > 0.8 * end else "left" if place < 0.1 * end else "center", fontsize=SMALL)
+    for begin, finish, words, colour, *_ in parts:
+        if begin == 0.0 or finish - begin > 0.2 * end:
+            axes[0].text(0.5 * (begin + finish), 0.955, words, ha="center", color=colour, transform=above)
 
 
 # ---- bands ----

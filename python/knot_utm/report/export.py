@@ -11,11 +11,12 @@ import xml.etree.ElementTree as xml
 
 import numpy as np
 
+from knot_utm.errors import refuse_if
 from knot_utm.report.colours import colour_scales, LABELS, node_values
-from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
+from knot_utm.report.commands import file_ending, in_one_line, OneLineParser, test_in
 from knot_utm.report.rod_pictures import UNKNOWN
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import lengths, pieces, series_of
+from knot_utm.report.shapes import lengths, nearest, ropes, shapes_of
 from knot_utm.report.tube import rod_mesh
 
 MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
@@ -27,10 +28,10 @@ Z_UP = [-np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)]
 
 def asked():
     parser = OneLineParser(prog="export", description=__doc__.partition("\n")[0])
-    parser.add_argument("folder", metavar="DIR", help="the folder of a test")
+    parser.add_argument("folder", metavar="DIR", type=test_in, help="the folder of a test")
     to = parser.add_mutually_exclusive_group(required=True)
     to.add_argument("--vtk", metavar="OUT", help="a new folder for rod.pvd and a .vtp file for each shape")
-    to.add_argument("--gltf", metavar="OUT", help="a .glb file")
+    to.add_argument("--gltf", metavar="OUT", type=file_ending(".glb"), help="a .glb file")
     parser.add_argument("--color", choices=LABELS, help="what the colours of the .glb show [tension]")
     parser.add_argument("--time", type=float, metavar="SECONDS",
                         help="of the test, for the .glb; the shape nearest to it is taken [the last one]")
@@ -38,35 +39,23 @@ def asked():
     found = parser.parse_args()
     if found.vtk is not None and (found.color or found.time is not None):
         parser.error("--color and --time belong to --gltf: the files of --vtk hold all values at all times")
-    if why := why_no_test(found.folder):
-        parser.error(why)
-    if found.gltf is not None and not found.gltf.endswith(".glb"):
-        parser.error(f"--gltf {found.gltf}: the name of the file must end with .glb")
-    if found.gltf is not None and (why := why_not(found.gltf, files_of(found.folder), found.overwrite)):
-        parser.error(f"--gltf: {why}")
-    if found.vtk is not None and os.path.exists(found.vtk) and not (os.path.isdir(found.vtk) and not os.listdir(found.vtk)):
+    if found.gltf is not None:
+        parser.require_room("--gltf", found.gltf, [found.folder], found.overwrite)
+    elif os.path.exists(found.vtk) and not (os.path.isdir(found.vtk) and not os.listdir(found.vtk)):
         parser.error(f"--vtk {found.vtk}: is there already; give a new folder")
     return found
 
 
 def main():
     arguments = asked()
-    try:
-        print(export(arguments))
-    except OSError as error:
-        raise CannotReport(f"{error.filename}: cannot be written: {error.strerror}") from error
-
-
-def export(arguments):
-    """What was written, in one line."""
     run = Run(arguments.folder)
-    series, note = series_of(run)
+    shapes, note = shapes_of(run)
     if note:
         print("export:", note.replace(" is shown", " is written"), file=sys.stderr)
-    shapes = [series.shape(i) for i in range(len(series))]
     if arguments.vtk is not None:
-        return over_time(arguments.vtk, run, shapes)
-    return at_one_time(arguments, run, shapes, shapes[-1] if arguments.time is None else series.at(arguments.time))
+        print(over_time(arguments.vtk, run, shapes))
+    else:
+        print(at_one_time(arguments, run, shapes, shapes[-1] if arguments.time is None else nearest(shapes, arguments.time)))
 
 
 def over_time(folder, run, shapes):
@@ -80,7 +69,7 @@ def over_time(folder, run, shapes):
     for file, shape in zip(files, shapes):
         unknown = np.full(len(shape.points), np.nan)
         of_nodes = {**dict.fromkeys(names, unknown), **node_values(shape), "arclength": along if len(along) == len(unknown) else unknown}
-        mesh = mesh_of(run, shape, shapes[0])
+        mesh = rod_mesh(shape.points, ropes(shape), run.radii(shape))
         write_vtp(os.path.join(folder, file), mesh, {name: values[mesh.along.astype(int)] for name, values in of_nodes.items()})
     pvd = os.path.join(folder, "rod.pvd")
     write_pvd(pvd, [shape.time for shape in shapes], files)
@@ -90,11 +79,11 @@ def over_time(folder, run, shapes):
 def at_one_time(arguments, run, shapes, shape):
     radius, values = run.method["material"]["radius"], node_values(shape)
     scales = {name: scale for name, scale in colour_scales(shapes, radius, run.units).items() if name in values}
-    if arguments.color and arguments.color not in scales:
-        raise CannotReport(f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
-                           f"{', '.join(name for name in values if name in scales)}")
+    refuse_if(arguments.color and arguments.color not in scales,
+              f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
+              f"{', '.join(name for name in values if name in scales)}")
     scale = scales.get(arguments.color or "tension")
-    mesh = mesh_of(run, shape, shapes[0])
+    mesh = rod_mesh(shape.points, ropes(shape), run.radii(shape))
     colours = scale.of(values[scale.name][mesh.along.astype(int)]) if scale else np.tile(UNKNOWN, (len(mesh.points), 1))
     with open(arguments.gltf, "wb") as out:
         out.write(glb(mesh, colours, "rod"))
@@ -102,14 +91,9 @@ def at_one_time(arguments, run, shapes, shape):
     return f"{arguments.gltf}: the rod at {shape.time:g} s, {in_colours}"
 
 
-def mesh_of(run, shape, whole):
-    parts = pieces(shape, whole)
-    return rod_mesh(shape.points, parts, run.radii(shape, parts))
-
-
 def glb(mesh, colours, name):
     """The bytes of a file of a mesh [m]. `colours`: red, green, blue of each point, 0 to 1, as a screen shows them."""
-    columns = {"POSITION": mesh.points.astype("<f4"), "NORMAL": mesh.normals.astype("<f4"), "COLOR_0": with_alpha(linear(colours))}
+    columns = {"POSITION": mesh.points.astype("<f4"), "NORMAL": mesh.normals.astype("<f4"), "COLOR_0": linear(colours)}
     arrays = [*columns.values(), mesh.triangles().astype("<u4").reshape(-1)]
     binary, views = b"", []
     for array in arrays:
@@ -137,12 +121,9 @@ def accessor(view, array):
 
 
 def linear(colours):
-    """From sRGB, as glTF has them."""
-    return np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
-
-
-def with_alpha(colours):
-    return np.column_stack([np.rint(255.0 * colours), np.full(len(colours), 255.0)]).astype(np.uint8)
+    """From sRGB, as glTF has them, and opaque."""
+    light = np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
+    return np.rint(255.0 * np.column_stack([light, np.ones(len(light))])).astype(np.uint8)
 
 
 def padded(content, by):

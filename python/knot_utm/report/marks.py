@@ -1,5 +1,6 @@
 """The points of a test that its curve and its pictures have in common: a, b, c …, and where the load was largest."""
 from collections import namedtuple
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -7,61 +8,48 @@ from knot_utm.report.quantities import shown
 from knot_utm.report.run import PULLING
 
 
-class Mark:
-    """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]; NaN: none is
-    known, behind a break."""
+# What is marked besides the start, the largest load and the end: by the key that has its extension.
+REACHED = {"jump_extension": "a knot jumped open", "lock_extension": "lock", "break_extension": "break"}
 
-    def __init__(self, names, time, extension, load):
-        self.names, self.time, self.extension, self.load = names, time, extension, load
-        self.letter = ""
+
+@dataclass
+class Mark:
+    """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]."""
+
+    names: list
+    time: float
+    extension: float
+    load: float
+    letter: str = "a"
 
     def title(self):
         return ", ".join(self.names)
 
 
-def time_of_break(marks):
-    """[s]; None: the rod is whole."""
-    return next((mark.time for mark in marks if "break" in mark.names), None)
-
-
-def marks_of(run):
-    """Start of the pull, a knot's jump, lock, largest load, break and end, in order of time; none where nothing was tested."""
-    tested = run.tested()
-    if not len(tested):
-        return []
-    pull = run.pull()
-    begin = pull if len(pull) else tested
-    found = [("start of the pull" if len(pull) else "start", begin, 0)]
-    found += reached(pull, "a knot jumped open", run.value("jump_extension"))
-    found += reached(pull, "lock", run.value("lock_extension"))
-    largest = largest_load(run)
-    if largest:
-        found.append((largest.name, largest.rows, largest.row))
-    found += reached(pull, "break", run.value("break_extension"))
-    all_marks = [Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found]
-    all_marks.append(end_of(run.curve.tested()))
-    if run.time_of_break() is not None:
-        all_marks[-1].load = np.nan
-    return together(all_marks, 0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
+def mark_at(rows, i, *names, letter="a"):
+    return Mark(list(names), *(float(rows[column][i]) for column in ("time", "extension", "load")), letter)
 
 
 def end_of(curve):
     """The mark at the end, and the only one of a test that ended before anything was pulled."""
-    mark = Mark(["end of the test"], curve["time"][-1], curve["extension"][-1], curve["load"][-1])
-    mark.letter = "a"
-    return mark
+    return mark_at(curve, -1, "end of the test")
 
 
-def reached(pull, name, extension):
-    """The row of the pull that is nearest to an extension; none where there is none."""
-    if extension is None or not len(pull):
+def marks_of(run):
+    """Start of the pull, a knot's jump, lock, largest load, break and end, in order of time; none where nothing was tested."""
+    tested, pull, largest = run.curve.tested(), run.curve.pull(), largest_load(run)
+    if not len(tested):
         return []
-    return [(name, pull, int(np.argmin(np.abs(pull["extension"] - extension))))]
+    marks = [mark_at(pull, 0, "start of the pull") if len(pull) else mark_at(tested, 0, "start")]
+    marks += [mark_at(largest.rows, largest.row, largest.name)] if largest else []
+    marks += [mark_at(pull, int(np.argmin(np.abs(pull["extension"] - run.value(key)))), name)
+              for key, name in REACHED.items() if len(pull) and run.value(key) is not None]
+    marks.append(end_of(tested))
+    return together(marks, 0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
 
 
 def together(marks, soon, near):
-    """Marks within `soon` [s] and `near` [N] of the one before become one with it, at the later time; a break lies
-    between others. Then they get their letters."""
+    """Marks within `soon` [s] and `near` [N] of the one before become one with it, at the later time. Then they get their letters."""
     merged = []
     for mark in sorted(marks, key=lambda mark: mark.time):
         if merged and mark.time - merged[-1].time <= soon and abs(mark.load - merged[-1].load) <= near:
@@ -87,14 +75,13 @@ LargestLoad = namedtuple("LargestLoad", "rows row name where is_peak")
 
 def largest_load(run):
     """None: nothing was pulled."""
-    value, pulled, read = run.value("peak_force"), pulled_of(run.tested()), pulled_of(run.tested(run.readings))
-    if value is None or not len(pulled):
+    pulled, read = (curve.where(np.isin(curve.phase, PULLING)) for curve in (run.curve, run.readings))
+    if run.value("peak_force") is None or not len(pulled):
         return None
     broke, rows = run.value("break_extension"), read if len(read) else pulled
     row = int(np.argmax(rows["load"]))
-    if broke is not None and (value > rows["load"][row] or in_length(run, rows["extension"][row]) == in_length(run, broke)):
-        row = int(np.argmin(np.abs(pulled["extension"] - broke)))  # where it parted the load is read, too
-        return LargestLoad(pulled, row, "peak", f"where the rod parted, at {in_length(run, broke)}", True)
+    if broke is not None and in_length(run, rows["extension"][row]) == in_length(run, broke):
+        return LargestLoad(rows, row, "peak", f"where the rod parted, at {in_length(run, broke)}", True)
     place, end = float(rows["extension"][row]), float(pulled["extension"].max())
     if row < len(rows) - 1 and end - place > NEAR * float(np.ptp(pulled["extension"])):
         return LargestLoad(rows, row, "peak", f"at an extension of {in_length(run, place)}", True)
@@ -103,19 +90,11 @@ def largest_load(run):
         return LargestLoad(rows, row, "peak", where + "before the rod parted", True)
     if set(pulled.phase) == {"cycle"}:
         return LargestLoad(rows, row, "largest load", where + "at the upper turning point of the cycles", False)
-    where += f"{'where' if in_length(run, place) == in_length(run, end) else 'before'} {end_of_pull(run, pulled)}"
+    where += "where " if in_length(run, place) == in_length(run, end) else "before "
+    # Why the load went no higher.
+    where += ("the pull ended" if run.curve["time"][-1] > pulled["time"][-1] else
+              NOT_STOPPED.get(run.result.get("ended_by"), "the test was stopped"))
     return LargestLoad(rows, row, "largest load", where, False)
-
-
-def pulled_of(curve):
-    return curve.where(np.isin(curve.phase, PULLING))
-
-
-def end_of_pull(run, pulled):
-    """Why the load went no higher."""
-    if run.tested()["time"][-1] > pulled["time"][-1]:
-        return "the pull ended"
-    return NOT_STOPPED.get(run.result.get("ended_by"), "the test was stopped")
 
 
 def in_length(run, metres):

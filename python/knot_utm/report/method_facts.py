@@ -17,6 +17,7 @@ KINDS = {**quantities.KINDS, "m/s": "speed", "N/s": "force_rate", "of the radius
          "of capacity": "of its capacity", "of k_b/h2": "k_b/h²"}
 # Labels where the rod lies around a post.
 ON_POST = {"machine.roller_friction": "Friction coefficient of the rod on the post"}
+MATERIALS = {"Material": "material", "Material of the other ropes": "other_material"}
 NOT_FACTS = ("name", "notes", "tying_preload", "seed", "load_cell")
 
 
@@ -26,7 +27,7 @@ def place_of(key):
 
 
 def label_of(key):
-    """Of a dotted key. One that is not known here is shown as it stands."""
+    """The label of a dotted key. One that is not known here is shown as it stands."""
     return LABELS.get(place_of(key), key.split(".")[-1].replace("_", " "))
 
 
@@ -49,13 +50,9 @@ def text_of(key, value, units):
     if isinstance(value, dict):
         return ", ".join(f"{label_of(f'{key}.{name}')} {text_of(f'{key}.{name}', part, units)}"
                          for name, part in value.items())
-    if isinstance(value, list):
-        return vector(value, unit) if all(map(is_number, value)) else ", ".join(map(str, value))
-    return str(value)
-
-
-def vector(values, unit):
-    return f"[{', '.join(number(value * unit.scale) for value in values)}] {unit.name}".strip()
+    if isinstance(value, list) and all(map(is_number, value)):
+        return f"[{', '.join(number(one * unit.scale) for one in value)}] {unit.name}".strip()
+    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
 
 
 class Facts:
@@ -68,11 +65,9 @@ class Facts:
     def of(self, place, section, keys=None):
         """[(label, text)] of the keys that are there and have a value. `place`: the section's dotted key."""
         not_facts = (*NOT_FACTS, "friction_coefficient", "friction_couple") if self.around_post else NOT_FACTS  # the post's own counts
-        names = [name for name in (keys or section) if section.get(name) is not None and name not in not_facts]
-        return [(self.label(f"{place}.{name}"), self.text(f"{place}.{name}", section[name])) for name in names]
-
-    def label(self, key):
-        return ON_POST[key] if self.around_post and key in ON_POST else sentence(label_of(key))
+        labels = ON_POST if self.around_post else {}
+        return [(labels.get(key := f"{place}.{name}") or sentence(label_of(key)), self.text(key, section[name]))
+                for name in keys or section if section.get(name) is not None and name not in not_facts]
 
     def text(self, key, value):
         """Says of a number whether anybody chose it."""
@@ -111,7 +106,7 @@ def lies_around_post(method):
 
 
 def post_diameter(method):
-    """Of the post around which the specimen lies [m]; None: there is none."""
+    """The diameter of the post around which the specimen lies [m]; None: there is none."""
     return method["specimen"]["post_diameter"] if lies_around_post(method) else None
 
 
@@ -120,12 +115,11 @@ def method_facts(method, units, folder=""):
     specimen, machine, facts = method["specimen"], method["machine"], Facts(method, units)
     cell = machine.get("load_cell") if isinstance(machine.get("load_cell"), dict) else {}
     # A knot that a file describes has the keys that are there.
-    found = [("Specimen", [("Knot", knot_of(method, folder)), *facts.of("specimen", specimen, KEYS_OF_KNOTS.get(
-        specimen["knot"], [key for key in specimen if key != "knot"]))], "")]
-    for title, of in (("Material", "material"), ("Material of the other ropes", "other_material")):
-        if material := method.get(of):
-            found.append((title, [("Name", str(material.get("name", "own"))), *facts.of(of, material)], material.get("notes") or ""))
-    return [*found,
+    keys = KEYS_OF_KNOTS.get(specimen["knot"], [key for key in specimen if key != "knot"])
+    materials = [(title, of, method[of]) for title, of in MATERIALS.items() if method.get(of)]
+    return [("Specimen", [("Knot", knot_of(method, folder)), *facts.of("specimen", specimen, keys)], ""),
+            *((title, [("Name", str(material.get("name", "own"))), *facts.of(of, material)], material.get("notes") or "")
+              for title, of, material in materials),
             ("Machine", [*facts.of("machine", machine), *([("Load cell", str(cell["name"]))] if "name" in cell else []),
                          *facts.of("machine.load_cell", cell)], cell.get("notes") or ""),
             ("Physics", facts.of("physics", method.get("physics", {})), ""),
@@ -135,30 +129,24 @@ def method_facts(method, units, folder=""):
 def program(method, units):
     """[(step, what it asks for)]"""
     facts = Facts(method, units)
-    return [(f"{number + 1}. {name}", step_text(f"program.{number}.{name}", keys or {}, facts))
-            for number, step in enumerate(method.get("program", [])) for name, keys in step.items()]
 
-
-def step_text(step, keys, facts):
-    parts = []
-    for name, value in keys.items():
-        key = f"{step}.{name}"
+    def words(key, value):
+        name = key.rpartition(".")[2]
         if name == "until" and isinstance(value, dict):
-            ends = ["break" if end == "break" else f"{label_of(f'{key}.{end}')} {facts.text(f'{key}.{end}', part)}"
-                    for end, part in value.items() if part is not False]
-            parts.append("until " + " or ".join(ends))
-        else:
-            parts.append(f"{label_of(key)} {facts.text(key, value)}")
-    return ", ".join(parts)
+            return "until " + " or ".join(words(f"{key}.{end}", part) for end, part in value.items() if part is not False)
+        return "break" if name == "break" else f"{label_of(key)} {facts.text(key, value)}"
+
+    return [(f"{number + 1}. {name}", ", ".join(words(f"program.{number}.{name}.{key}", value) for key, value in (keys or {}).items()))
+            for number, step in enumerate(method.get("program", [])) for name, keys in step.items()]
 
 
 def particulars(report, method, gauge_length, units, specimens=""):
     """[(label, text)] of what a laboratory says of a test by a standard; empty where `report` names none."""
     if not report.get("standard"):
         return []
-    steps = [keys or {} for step in method.get("program", []) for name, keys in step.items() if name in PULLING]
-    # Of the last step that pulls; none where the load decides it.
-    speed = steps[-1].get("speed") if steps and not is_number(steps[-1].get("load_rate")) else None
-    return [(label, text) for label, text in (
-        ("Gauge length", with_unit(gauge_length, units.length) if is_number(gauge_length) else ""),
-        ("Speed of the crosshead", with_unit(speed, units.rate) if is_number(speed) else ""), ("Specimens", specimens)) if text]
+    # The last step that pulls has no speed where the load decides it.
+    *_, last = {}, *(keys or {} for step in method.get("program", []) for name, keys in step.items() if name in PULLING)
+    speed = None if is_number(last.get("load_rate")) else last.get("speed")
+    measures = (("Gauge length", gauge_length, units.length), ("Speed of the crosshead", speed, units.rate))
+    return [*((label, with_unit(value, unit)) for label, value, unit in measures if is_number(value)),
+            *([("Specimens", specimens)] if specimens else [])]

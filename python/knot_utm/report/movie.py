@@ -8,13 +8,14 @@ import sys
 
 import numpy as np
 
+from knot_utm.errors import refuse_if
 from knot_utm.report.colours import colour_scales, LABELS
-from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_no_test, why_not
-from knot_utm.report.curves import draw, small_loads
+from knot_utm.report.commands import file_ending, in_one_line, OneLineParser, test_in
+from knot_utm.report.curves import small_loads
 from knot_utm.report.method_facts import knot_and_materials
-from knot_utm.report.rod_pictures import draw_rollers, tubes_of, view
+from knot_utm.report.rod_pictures import by_scale, draw_rod, view
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import nearest, series_of
+from knot_utm.report.shapes import nearest, shapes_of
 from knot_utm.report.style import BLUE, FAINT, new_figure, ORANGE, USUAL
 
 SIZE = (1920, 1080)
@@ -24,8 +25,8 @@ VIEWS = 12  # shapes of a test that the frame of its pictures is made for
 
 def asked():
     parser = OneLineParser(prog="movie", description=__doc__)
-    parser.add_argument("runs", nargs="+", metavar="RUN", help="the folder of a test; at most two")
-    parser.add_argument("--out", default="movie.mp4", help="the file [movie.mp4]")
+    parser.add_argument("runs", nargs="+", metavar="RUN", type=test_in, help="the folder of a test; at most two")
+    parser.add_argument("--out", default="movie.mp4", type=file_ending(".mp4"), help="the file [movie.mp4]")
     parser.add_argument("--seconds", type=float, default=12.0, help="that the movie takes [12]")
     parser.add_argument("--rate", type=int, default=25, help="pictures a second [25]")
     parser.add_argument("--color", choices=LABELS, default="tension", help="what the colours show [tension]")
@@ -33,13 +34,7 @@ def asked():
     found = parser.parse_args()
     if len(found.runs) > 2:
         parser.error(f"{found.runs[2]}: two runs have room side by side")
-    for folder in found.runs:
-        if why := why_no_test(folder):
-            parser.error(why)
-    if not found.out.endswith(".mp4"):
-        parser.error(f"--out {found.out}: the name of the file must end with .mp4")
-    if why := why_not(found.out, [file for folder in found.runs for file in files_of(folder)], found.overwrite):
-        parser.error(f"--out: {why}")
+    parser.require_room("--out", found.out, found.runs, found.overwrite)
     if not 1 <= found.rate <= 120:
         parser.error(f"--rate {found.rate}: from 1 to 120 are allowed")
     if not 1.0 <= found.seconds * found.rate <= 1e5:
@@ -50,7 +45,7 @@ def asked():
 def main():
     arguments = asked()
     if shutil.which("ffmpeg") is None:
-        raise CannotReport("there is no ffmpeg: install Debian's package ffmpeg")
+        raise RuntimeError("there is no ffmpeg: install Debian's package ffmpeg")
     stage = Stage(arguments.runs, arguments.color, SIZE)
     times = stage.times(round(arguments.seconds * arguments.rate))
     part = arguments.out + ".part"
@@ -81,7 +76,7 @@ def encode(stage, times, rate, file):
         pass  # what the encoder says tells more
     _, said = encoder.communicate()
     if encoder.returncode != 0:
-        raise CannotReport(f"{file}: ffmpeg: {said.decode(errors='replace')}")
+        raise RuntimeError(f"{file}: ffmpeg: {said.decode(errors='replace')}")
 
 
 class Stage:
@@ -92,9 +87,8 @@ class Stage:
         self.tests = [OneTest(folder) for folder in folders]
         first = self.tests[0].run
         scales = colour_scales([shape for test in self.tests for shape in test.shapes], first.method["material"]["radius"], first.units)
-        if name not in scales:
-            raise CannotReport(f"{folders[0]}: --color {name}: it is not known, or nowhere different from zero; known are: "
-                               f"{', '.join(scales)}")
+        refuse_if(name not in scales, f"{folders[0]}: --color {name}: it is not known, or nowhere different from zero; known are: "
+                  f"{', '.join(scales)}")
         self.scale = scales[name]
         self.extensions, self.loads = ((min(0.0, *(one.min() for one in of_tests)), max(1e-9, *(one.max() for one in of_tests)))
                                        for of_tests in ([test.extension for test in self.tests], [test.load for test in self.tests]))
@@ -104,7 +98,8 @@ class Stage:
 
     def times(self, count):
         """Evenly spaced since the start of the pull [s]."""
-        return np.linspace(min(test.first() for test in self.tests), max(test.last() for test in self.tests), count)
+        begin, end = ([test.shapes[i].time - test.begin for test in self.tests] for i in (0, -1))
+        return np.linspace(min(begin), max(end), count)
 
     def picture(self, time):
         """Bytes, four a pixel."""
@@ -119,10 +114,7 @@ class Stage:
     def draw(self, figure, left, wide, test, time):
         shape = test.at(time)
         rod = figure.add_axes([left + 0.01, 0.47, wide - 0.02, 0.42])
-        tubes_of(test.run, shape, test.shapes[0], self.scale).draw(rod)
-        draw_rollers(rod, test.run, shape)
-        rod.set(xlim=test.box[:2], ylim=test.box[2:], aspect="equal")
-        rod.axis("off")
+        draw_rod(rod, test.run, shape, by_scale(self.scale, shape), test.box)
         figure.text(left + 0.5 * wide, 0.945, test.title, ha="center", fontsize=USUAL + 7, weight="bold")
         figure.text(left + 0.5 * wide, 0.905, test.run.words_at(shape.time), ha="center", fontsize=USUAL + 4)
         # Where the peak hides the plateau small loads are shown again, above.
@@ -134,10 +126,10 @@ class Stage:
         axes.set_xlabel(f"extension [{test.run.units.length.name}]", fontsize=USUAL + 3)
 
     def draw_curve(self, axes, test, shape, loads, name):
-        draw(axes, test.extension, test.load, color=FAINT, lw=2.0)
+        axes.plot(test.extension, test.load, color=FAINT, lw=2.0)
         if shape.time >= test.begin:
             extension, load = test.until(shape.time)
-            draw(axes, extension, load, color=BLUE, lw=2.4)
+            axes.plot(extension, load, color=BLUE, lw=2.4)
             axes.plot(extension[-1], load[-1], "o", ms=9, color=ORANGE, clip_on=not loads[0] <= load[-1] <= loads[1], zorder=5)
         axes.set(xlim=self.extensions, ylim=(loads[0], loads[1] + 0.05 * (loads[1] - loads[0])))
         axes.set_ylabel(f"{name} [{test.run.units.force.name}]", fontsize=USUAL + 3)
@@ -146,13 +138,10 @@ class Stage:
 class OneTest:
     def __init__(self, folder):
         self.run = run = Run(folder)
-        series, note = series_of(run)
-        self.tested = run.tested()
-        if note or len(series) < 2:
-            raise CannotReport(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
-        if not len(self.tested):
-            raise CannotReport(f"{folder}: the test ended before the specimen was pulled")
-        self.seconds, self.shapes = series.times, [series.shape(i) for i in range(len(series))]
+        self.shapes, note = shapes_of(run)
+        self.tested = run.curve.tested()
+        refuse_if(note or len(self.shapes) < 2, f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
+        refuse_if(not len(self.tested), f"{folder}: the test ended before the specimen was pulled")
         self.begin = float(self.tested["time"][0])
         self.extension = run.units.length.scale * self.tested["extension"]
         self.load = run.units.force.scale * self.tested["load"]
@@ -161,15 +150,9 @@ class OneTest:
         views = np.array([view(run, self.shapes[i], run.thickest()) for i in some])
         self.box = (views[:, 0].min(), views[:, 1].max(), views[:, 2].min(), views[:, 3].max())
 
-    def first(self):
-        return self.seconds[0] - self.begin
-
-    def last(self):
-        return self.seconds[-1] - self.begin
-
     def at(self, time):
-        """The shape that was computed nearest to it; of a time before a break one from before that."""
-        return self.shapes[nearest(self.seconds, time + self.begin, self.run.time_of_break())]
+        """The shape that was computed nearest to it."""
+        return nearest(self.shapes, time + self.begin)
 
     def until(self, time):
         """Extension and load up to a time [s], in the units of the page."""

@@ -7,9 +7,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from knot_utm.arguments import write_whole
-from knot_utm.report.commands import CannotReport
-from knot_utm.report.run import printable
 from knot_utm.report.style import embedded
+from knot_utm.yaml_text import printable
 
 FILES = {
     "curve.csv": "load, extension and knot distance at every reading of the load cell",
@@ -66,9 +65,14 @@ def no_value(who_has_none, keys):
     return Markup("{} value of {}.").format(who_has_none, Markup(", ").join(Markup("<code>{}</code>").format(key) for key in keys)) if keys else ""
 
 
-def verdict_box(words_and_whether):
-    words, good = words_and_whether
+def verdict_box(words, good):
     return Box("pass" if good else "fail", [words])
+
+
+def certificate_section(kept_by, asked_box, asked, checks_box, checks, remark):
+    """What the user asked for, where it is something, and how far the result may be trusted. `kept_by`: the head of what is checked."""
+    of_user = [asked_box, checks_table("Specification", kept_by, asked)] if asked else []
+    return "Quality certificate", [*of_user, checks_box, checks_table("Trust in the computation", kept_by, checks), remark]
 
 
 HEAD = {"specimen_id": "Specimen", "standard": "Standard", "conditioning": "Conditioning", "terminations": "Terminations"}
@@ -99,11 +103,7 @@ def render(folder, command, version, kind, title, sections, under="", head=(), n
 def write(folder, html):
     """Both files, each whole, once both could be made."""
     for name, content in (("report.pdf", as_pdf(html)), ("report.html", html.encode("utf-8"))):
-        file = os.path.join(folder, name)
-        try:
-            write_whole(file, content)
-        except OSError as why:
-            raise CannotReport(f"{file}: cannot be written: {why.strerror}") from why
+        write_whole(os.path.join(folder, name), content)
 
 
 def as_pdf(html):

@@ -19,13 +19,14 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from knot_utm import tool
-from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, refuse, why_not
+from knot_utm.errors import refuse_if
+from knot_utm.report.commands import in_one_line, OneLineParser
 from knot_utm.report.curves import course, force_extension
-from knot_utm.report.marks import Mark
+from knot_utm.report.marks import mark_at
 from knot_utm.report.method_facts import materials_of
-from knot_utm.report.rod_pictures import draw_rollers, Tubes
+from knot_utm.report.rod_pictures import draw_rod
 from knot_utm.report.run import read_yaml, Run
-from knot_utm.report.shapes import final_shape, pieces, ropes, series_of
+from knot_utm.report.shapes import final_shape
 from knot_utm.report.style import BLUE, image_of, new_figure, ORANGE, WIDTH
 from knot_utm.report.tube import to_picture
 
@@ -55,43 +56,17 @@ def main():
     asked = parser.parse_args()
     of_runs = not asked.knots and not asked.rviz
     for word in () if of_runs else asked.words:
-        if asked.knots or not re.match(r"(?!record:|out:)\w+:=", word):
-            refuse("picture", f"--{'knots' if asked.knots else 'rviz'} takes no {word} (scripts/picture --help)")
-    if why := why_not(asked.out, [file for folder in asked.words for file in files_of(folder)] if of_runs else [], asked.overwrite):
-        refuse("picture", f"--out: {why}")
+        refuse_if(asked.knots or not re.match(r"(?!record:|out:)\w+:=", word),
+                  f"--{'knots' if asked.knots else 'rviz'} takes no {word} (scripts/picture --help)")
+    parser.require_room("--out", asked.out, asked.words if of_runs else (), asked.overwrite)
     command = shlex.join(["scripts/picture", *(word for word in sys.argv[1:] if word != "--overwrite")])
     if of_runs:
-        return draw(runs_of(asked.words), asked.out, command)
+        return draw([Run(folder) for folder in asked.words], asked.out, command)
     with tempfile.TemporaryDirectory() as folder:
         shot = os.path.join(folder, "shot.png")
         facts = shot_of_knots(folder, shot) if asked.knots else shot_of_rviz(folder, shot, asked.words)
         with Image.open(shot) as picture:
             save(picture.convert("RGB"), asked.out, {**facts, "command": command})
-
-
-def runs_of(folders):
-    if not folders:
-        refuse("picture", "name a folder of a run (scripts/picture --help)")
-    try:
-        runs = [Run(folder) for folder in folders]
-    except CannotReport as error:
-        refuse("picture", str(error))
-    for run in runs:
-        if not len(run.pull()):
-            refuse("picture", f"{run.folder}: a run in which nothing was pulled")
-    return runs
-
-
-def draw_shape(axes, run, shape):
-    """Its ropes, and a rod that has parted in its pieces."""
-    broke, series = run.time_of_break() is not None, series_of(run)[0]
-    parts = pieces(shape, series.shape(0)) if broke else ropes(shape)
-    Tubes(shape.points, parts, run.radii(shape, parts), lambda node: np.where(
-        (node < 0.5 * (len(shape.points) - 1))[:, None], FIRST_HALF, SECOND_HALF)).draw(axes)
-    if run.method["specimen"]["knot"] == "fisherman":
-        draw_rollers(axes, run, shape)
-    axes.set_aspect("equal")
-    axes.axis("off")
 
 
 def rods(runs, letters):
@@ -103,23 +78,19 @@ def rods(runs, letters):
     (left, low), (right, high) = drawn.min(axis=0) - 2e3 * runs[-1].thickest(), drawn.max(axis=0) + 2e3 * runs[-1].thickest()
     for number, (letter, run, shape) in enumerate(zip(letters, runs, shapes), 1):
         axes = figure.add_subplot(len(runs), 1, number)
-        draw_shape(axes, run, shape)
-        axes.set_title(f"{letter}   s = {1e3 * run.pull()['extension'][-1]:.1f} mm", loc="left")
-        axes.set(xlim=(left, right), ylim=(low, high))
+        draw_rod(axes, run, shape, lambda node, half=0.5 * (len(shape.points) - 1): np.where(
+            (node < half)[:, None], FIRST_HALF, SECOND_HALF), (left, right, low, high))
+        axes.set_title(f"{letter}   s = {1e3 * run.curve.pull()['extension'][-1]:.1f} mm", loc="left")
     return figure
 
 
 def draw(runs, file, command):
-    last, ends = runs[-1], []
-    for letter, run in zip(string.ascii_lowercase, runs):
-        pull = run.pull()
-        ends.append(Mark([], *(float(pull[name][-1]) for name in ("time", "extension", "load"))))
-        ends[-1].letter = letter
+    refuse_if(not runs, "name a folder of a run (scripts/picture --help)")
+    for run in runs:
+        refuse_if(not len(run.curve.pull()), f"{run.folder}: a run in which nothing was pulled")
+    last, ends = runs[-1], [mark_at(run.curve.pull(), -1, letter=letter) for letter, run in zip(string.ascii_lowercase, runs)]
     images = [image_of(figure) for figure in (rods(runs, [end.letter for end in ends]), course(last), force_extension(last, ends))]
-    picture = Image.new("RGB", (images[0].width, sum(image.height for image in images)), "white")
-    for number, image in enumerate(images):
-        picture.paste(image, (0, sum(image.height for image in images[:number])))
-    save(picture, file, facts_of_run(last.folder, command))
+    save(Image.fromarray(np.vstack(images)), file, facts_of_run(last.folder, command))
 
 
 def save(picture, file, facts):
@@ -163,7 +134,7 @@ def shot_of_rviz(folder, shot, words):
         display = start("Xvfb", "-displayfd", "1", "-screen", "0", "1280x900x24", "+extension", "GLX", "-nolisten", "tcp",
                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.readline().strip()
         if not display:
-            raise CannotReport("Xvfb did not start")
+            raise RuntimeError("Xvfb did not start")
         with socket.create_server(("127.0.0.1", 0)) as free:
             port = str(free.getsockname()[1])
         os.environ.update(DISPLAY=f":{display}", LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1", XDG_RUNTIME_DIR=folder, ROS_LOG_DIR=folder,
@@ -173,7 +144,7 @@ def shot_of_rviz(folder, shot, words):
         for reached in (begins, lambda: os.path.exists(os.path.join(run, "result.yaml"))):
             while not reached():
                 if launch.poll() is not None:
-                    raise CannotReport("the test has no result")
+                    raise RuntimeError("the test has no result")
                 time.sleep(1)
         time.sleep(5)  # rviz draws what came last
         subprocess.run(["import", "-window", "root", shot], check=True)

@@ -35,7 +35,7 @@ class Units:
 
 
 def units_of(report):
-    """Those that `report` of a method asks for."""
+    """The units that `report` of a method asks for."""
     asked = report.get("units") or {}
     return Units(asked.get("force", "N"), asked.get("length", "mm"))
 
@@ -44,21 +44,15 @@ def units_of(report):
 KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "m/s": "speed", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": "",
          "of the gauge length": "percent", "of the strength without a knot": "percent"}
 # Groups that are no table of results: what they hold has another place on the page.
-HEAD, BESIDE, CERTIFICATE = "head", "beside", "certificate"
+HEAD, CERTIFICATE = "head", "certificate"
 
 
-def keys_of_results():
-    """Quantities by group and key, and the titles of the tables in their order."""
-    groups, tables = {}, {}
-    for row in tool.listing("results"):
-        quantity = Quantity(row["meaning"], KINDS.get(row["unit"], row["unit"]))
-        groups.setdefault(row["group"], {})[row["key"]] = quantity
-        tables[int(row["table"])] = row["group"]
-    return groups, [tables[place] for place in sorted(tables) if place > 0]
-
-
-GROUPS, TABLES = keys_of_results()
-KNOWN = {key: quantity for group in GROUPS.values() for key, quantity in group.items()}
+KNOWN, GROUPS = {}, {}  # quantities by key; keys by group
+for row in tool.listing("results"):
+    KNOWN[row["key"]] = Quantity(row["meaning"], KINDS.get(row["unit"], row["unit"]))
+    GROUPS.setdefault(row["group"], []).append(row["key"])
+# The titles of the tables in their order.
+TABLES = [title for place, title in sorted({(int(row["table"]), row["group"]) for row in tool.listing("results")}) if place > 0]
 
 
 def quantity_of(key):
@@ -109,7 +103,8 @@ def number(value, error=None):
         text = without_zeros(text, value) if error is None else text
         return text.replace("-", "–" if float(text) else "")  # never "–0.00"
     mantissa, exponent = f"{value:.3e}".split("e")
-    return f"{without_zeros(mantissa, value / 10.0 ** int(exponent))} · 10{superscript(int(exponent))}".replace("-", "–")
+    raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{without_zeros(mantissa, value / 10.0 ** int(exponent))} · 10{raised}".replace("-", "–")
 
 
 def decimals_of(value, digits):
@@ -118,12 +113,8 @@ def decimals_of(value, digits):
 
 
 def without_zeros(text, value):
-    """Of what was given, such as 250 mm, the zeros at its end say nothing; of a reading of 103.04 mm that of 103.0 does."""
+    """Zeros at the end say nothing of what was given, such as 250 mm; in 103.0, a reading of 103.04 mm, they do."""
     return text.rstrip("0").rstrip(".") if "." in text and math.isclose(float(text), value, rel_tol=1e-9) else text
-
-
-def superscript(exponent):
-    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def error_shown(error, scale):

@@ -1,13 +1,13 @@
 """The rod at the marked points: a tube coloured by its tension."""
 import numpy as np
-from matplotlib.collections import PathCollection, PolyCollection
+from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Circle
 
 from knot_utm.report.colours import colour_scales, node_values
 from knot_utm.report.method_facts import drawing_of, post_diameter
 from knot_utm.report.quantities import with_unit
-from knot_utm.report.shapes import lengths, pieces
+from knot_utm.report.shapes import lengths, ropes
 from knot_utm.report.style import HUB, INK, new_figure, ROLLER, SMALL, USUAL, WIDTH
 from knot_utm.report.tube import seen, to_picture
 
@@ -32,11 +32,9 @@ def pictures(run, marks, shapes):
                                bottom=0.0, top=1.0, hspace=0.0)
     for row, (mark, shape, box, height) in enumerate(zip(marks, shapes, boxes, heights)):
         axes = figure.add_subplot(grid[row])
-        tubes_of(run, shape, shapes[0], scale).draw(axes)
-        draw_rollers(axes, run, shape)
         middle, half = (0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]) + 0.5 * NAME * width / WIDTH), (0.5 * width, 0.5 * width * height / WIDTH)
-        axes.set(xlim=(middle[0] - half[0], middle[0] + half[0]), ylim=(middle[1] - half[1], middle[1] + half[1]))
-        axes.axis("off")
+        draw_rod(axes, run, shape, by_scale(scale, shape),
+                 (middle[0] - half[0], middle[0] + half[0], middle[1] - half[1], middle[1] + half[1]))
         label(axes, mark, shape, run)
     if scale:
         axes = figure.add_subplot(grid[len(boxes)])
@@ -45,35 +43,31 @@ def pictures(run, marks, shapes):
     return figure
 
 
-def tubes_of(run, shape, whole, scale):
+def by_scale(scale, shape):
+    """Colours at places along the rod, as numbers of nodes, where the values of a shape are known."""
     values = node_values(shape).get(scale.name) if scale else None
-
-    def colours(node):
-        if values is None:
-            return np.tile(UNKNOWN, (len(node), 1))
-        return scale.of(np.interp(node, np.arange(len(values)), values))
-
-    parts = pieces(shape, whole)
-    return Tubes(shape.points, parts, run.radii(shape, parts), colours)
+    if values is None:
+        return lambda node: np.tile(UNKNOWN, (len(node), 1))
+    return lambda node: scale.of(np.interp(node, np.arange(len(values)), values))
 
 
-class Tubes:
-    """Around parts of the rod, for as many pictures as there are. `colours_at`: of places along it, as numbers of nodes."""
-
-    def __init__(self, points, parts, radii, colours_at):
-        tubes = [seen(points[part], radius, lambda along, part=part: colours_at(part.start + along * (part.stop - 1 - part.start)))
-                 for part, radius in zip(parts, radii)]
-        outlines, depth, colours = (np.concatenate(of_all) for of_all in zip(*tubes))
-        # What is farther from the eye is paler.
-        away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * max(radii))
-        order = np.argsort(depth, kind="stable")
-        self.outlines = PolyCollection(1e3 * outlines[order]).get_paths()
-        self.colours = (colours + 0.35 * away[:, None] * (0.93 - colours))[order]
-
-    def draw(self, axes):
-        """The limits of the axes are for others to set."""
-        axes.add_collection(PathCollection(self.outlines, facecolors=self.colours, edgecolors=self.colours, linewidths=0.25,
-                                           zorder=2), autolim=False)
+def draw_rod(axes, run, shape, colours_at, box):
+    """Tubes around the ropes, with what holds them. `colours_at`: of places along them, as numbers of nodes; `box`: left, right, bottom,
+    top [mm]."""
+    radii = run.radii(shape)
+    tubes = [seen(shape.points[rope], radius, lambda along, rope=rope: colours_at(rope.start + along * (rope.stop - 1 - rope.start)))
+             for rope, radius in zip(ropes(shape), radii)]
+    outlines, depth, colours = (np.concatenate(of_all) for of_all in zip(*tubes))
+    # What is farther from the eye is paler.
+    away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * max(radii))
+    order = np.argsort(depth, kind="stable")
+    colours = (colours + 0.35 * away[:, None] * (0.93 - colours))[order]
+    axes.add_collection(PolyCollection(1e3 * outlines[order], facecolors=colours, edgecolors=colours, linewidths=0.25, zorder=2), autolim=False)
+    for z, x, radius in rollers(run, shape):
+        axes.add_patch(Circle((z, x), radius, facecolor=ROLLER, edgecolor=HUB, lw=0.8, zorder=1))
+        axes.add_patch(Circle((z, x), 0.15 * radius, facecolor=HUB, edgecolor="none", zorder=1))
+    axes.set(xlim=box[:2], ylim=box[2:], aspect="equal")
+    axes.axis("off")
 
 
 def rollers(run, shape):
@@ -91,7 +85,7 @@ def rollers(run, shape):
 
 
 def posts_of(drawing, grip, place, radius):
-    """Those of a grip that are seen from their end, and the sections of rings whose holes are seen from the side. The first one is
+    """The posts of a grip that are seen from their end, and the sections of rings whose holes are seen from the side. The first one is
     the grip, at a place along the load axis; radius of the rod."""
     posts = [post for post in drawing.get("posts") or [] if post.get("grip", "lower") == grip]
     found = []
@@ -106,12 +100,6 @@ def posts_of(drawing, grip, place, radius):
         found += [(float(place + radius * (post["through"][2] - posts[0]["through"][2] + up)),
                    float(radius * (post["through"][0] + across)), radius * post["radius"]) for up, across in shifts]
     return found
-
-
-def draw_rollers(axes, run, shape):
-    for z, x, radius in rollers(run, shape):
-        axes.add_patch(Circle((z, x), radius, facecolor=ROLLER, edgecolor=HUB, lw=0.8, zorder=1))
-        axes.add_patch(Circle((z, x), 0.15 * radius, facecolor=HUB, edgecolor="none", zorder=1))
 
 
 def view(run, shape, radius):
@@ -143,7 +131,7 @@ def touching(shape, radius):
 
 
 def label(axes, mark, shape, run):
-    tested = run.tested()  # a zeroing lets the extension jump; before it a shape is where the test begins
+    tested = run.curve.tested()  # a zeroing lets the extension jump; before it a shape is where the test begins
     curve = tested if len(tested) else run.curve
     at = float(np.interp(shape.time, curve["time"], curve["extension"]))
     place = {"xy": (0.0, 1.0), "xycoords": "axes fraction", "textcoords": "offset points", "va": "baseline", "color": INK}

@@ -7,9 +7,9 @@ import numpy as np
 import yaml
 
 from knot_utm import tool
-from knot_utm.report.commands import CannotReport
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.report.quantities import is_number, units_of, with_unit
-from knot_utm.yaml_text import no_text
+from knot_utm.yaml_text import load, read_text
 
 
 def phases(trait):
@@ -52,9 +52,6 @@ class Curve:
     def has_compliant_frame(self):
         return "crosshead_extension" in self.columns
 
-    def has_knot_distance(self):
-        return bool(np.isfinite(self["knot_distance"]).any())
-
 
 class Run:
     def __init__(self, folder):
@@ -62,8 +59,10 @@ class Run:
         self.method = read_yaml(os.path.join(folder, "method.yaml"))
         self.report = texts_of(os.path.join(folder, "method.yaml"), "report")
         self.units = units_of(self.report)
-        self.result = read_yaml(os.path.join(folder, "result.yaml"))
-        self.reasons = reasons_in(os.path.join(folder, "result.yaml"))
+        result = os.path.join(folder, "result.yaml")
+        self.result = read_yaml(result)
+        # Why values are null, as the program says it behind them.
+        self.reasons = dict(re.findall(r"^(\w+): null  # (.*)$", read_text(result), re.MULTILINE))
         self.readings = read_curve(os.path.join(folder, "curve.csv"))
         self.curve = read_curve(os.path.join(folder, "curve_full.csv"))
 
@@ -72,10 +71,10 @@ class Run:
         value = self.result.get(key)
         return value if is_number(value) else None
 
-    def radii(self, shape, parts):
-        """Of the ropes that parts of a shape belong to [m]."""
-        first, other = self.method["material"]["radius"], self.method.get("other_material")
-        return [other["radius"] if other and part.start > shape.cuts[0] else first for part in parts]
+    def radii(self, shape):
+        """The radii of the ropes of a shape [m]."""
+        first, other = self.method["material"], self.method.get("other_material")
+        return [(other if other and number else first)["radius"] for number in range(len(shape.cuts) + 1)]
 
     def thickest(self):
         """Radius of the thickest rope [m]."""
@@ -88,46 +87,14 @@ class Run:
     def has_knot(self):
         return self.reasons.get("knot_efficiency") != "there is no knot"
 
-    def given_strength(self):
-        """The breaking force of the material with its unit, where the rod parted at it; else None. What is read at such a
-        break follows from it."""
-        other = self.method.get("other_material", {})
-        force = min(filter(is_number, (self.method["material"].get("breaking_force"), other.get("breaking_force"))), default=None)
-        parted = self.value("break_extension") is not None and "at a tension of" in (self.result.get("reason") or "")
-        return with_unit(force, self.units.force) if parted and is_number(force) else None
-
     def not_predicted(self):
         """Keys whose value would only repeat what was given."""
         return [key for key, why in self.reasons.items() if why.startswith("not predicted")]
 
-    def pull(self):
-        """The pull, up to the break."""
-        pull, broke = self.curve.pull(), self.value("break_extension")
-        return pull if broke is None else pull.where(pull["extension"] <= broke)
-
-    def time_of_break(self):
-        """[s]; None: the rod is whole. Of the rows at the extension of the break it is the one behind which the load
-        falls."""
-        broke = self.value("break_extension")
-        if broke is None or not len(self.curve):
-            return None
-        load, away = self.curve["load"], np.abs(self.curve["extension"] - broke)
-        rows = np.flatnonzero(away <= np.nanmin(away) + 1e-9)
-        falls = load[rows] - load[np.minimum(rows + 1, len(load) - 1)]
-        return float(self.curve["time"][rows[np.argmax(falls)]])
-
-    def tested(self, curve=None):
-        """The rows of the test proper, up to the break: behind it no force is known. `curve`: the one of all time steps,
-        or `readings`."""
-        tested, broke = (self.curve if curve is None else curve).tested(), self.time_of_break()
-        return tested if broke is None else tested.where(tested["time"] <= broke)
-
     def words_at(self, time):
-        """What happens at a time; no place before the test proper and behind a break."""
+        """What happens at a time; no place before the test proper."""
         phase = self.curve.phase[min(int(np.searchsorted(self.curve["time"], time)), len(self.curve) - 1)]
-        tested, broke, said = self.tested(), self.time_of_break(), f"{phase}, {time:.2f} s"
-        if broke is not None and time > (tested["time"][-1] if len(tested) else broke):
-            return said + ": the rod has parted"
+        tested, said = self.curve.tested(), f"{phase}, {time:.2f} s"
         if not len(tested) or time < tested["time"][0]:
             return said
         place = [with_unit(float(np.interp(time, tested["time"], tested[name])), unit)
@@ -145,70 +112,41 @@ class Run:
         return cell["floor"] * cell["capacity"] or None if known else None
 
 
-def read_text(file, errors="strict"):
-    try:
-        with open(file, encoding="utf-8", errors=errors, newline="") as text:
-            return text.read()
-    except UnicodeDecodeError as why:
-        raise CannotReport(f"{file}: {no_text(why)}") from why
-    except OSError as why:
-        raise CannotReport(f"{file}: cannot be read: {why.strerror or why}") from why
-
-
-def printable(text):
-    """Names of files are bytes, which need not be text: such bytes as YAML too writes them, and reads them back."""
-    return text.encode("utf-8", "backslashreplace").decode("utf-8")
-
-
-def read_yaml(file, errors="strict"):
-    try:
-        content = yaml.safe_load(printable(read_text(file, errors)))
-    except yaml.YAMLError as why:
-        raise CannotReport(f"{file}: not YAML: {' '.join(str(why).split())}") from why
-    if not isinstance(content, dict):
-        raise CannotReport(f"{file}: a map is needed")
+def read_yaml(file, *wanted, errors="strict"):
+    """A map with the keys that are wanted."""
+    content = load(file, errors)
+    refuse_if(not isinstance(content, dict), f"{file}: a map is needed")
+    require_keys(file, content, wanted)
     return content
-
-
-def reasons_in(file):
-    """Why values of a file are null, by key, as the program says it behind them."""
-    return dict(re.findall(r"^(\w+): null  # (.*)$", read_text(file), re.MULTILINE))
 
 
 def texts_of(file, key):
     """A map of a YAML file with every value as it is written: a specimen's name may be 0012, a date is what it says."""
-    found = yaml.load(printable(read_text(file)), Loader=yaml.BaseLoader).get(key)
+    found = yaml.load(read_text(file), Loader=yaml.BaseLoader).get(key)
     return found if isinstance(found, dict) else {}
 
 
-def read_columns(file):
-    """Columns by name, as text."""
-    return read_table(file)[0]
-
-
-def read_table(file):
-    """Columns and their units by name, as text; row 1 has names, row 2 units."""
+def read_table(file, wanted, words=()):
+    """{column: numbers}, and texts of those columns that hold `words`; row 1 has names, row 2 units. Raises WrongInput where a
+    `wanted` column is missing, or one holds no numbers."""
     rows = list(csv.reader(read_text(file).splitlines()))
-    if len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows):
-        raise CannotReport(f"{file}: not a table with a row of names and a row of units")
-    columns = list(zip(*rows[2:])) if len(rows) > 2 else [()] * len(rows[0])
-    return dict(zip(rows[0], columns)), dict(zip(rows[0], rows[1]))
-
-
-def numbers(file, name, column):
+    refuse_if(len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows), f"{file}: not a table with a row of names and a row of units")
+    columns = dict(zip(rows[0], zip(*rows[2:]) if len(rows) > 2 else [()] * len(rows[0])))
+    require_keys(file, columns, (*wanted, *words), "column")
     try:
-        return np.array(column, dtype=float)
+        return {name: np.array(column, dtype=str if name in words else float) for name, column in columns.items()}
     except ValueError as why:
-        raise CannotReport(f"{file}: {name}: {why}") from why
+        raise WrongInput(f"{file}: {why}") from why
+
+
+def require_keys(file, content, keys, kind="key"):
+    for key in keys:
+        refuse_if(key not in content, f"{file}: no {kind} {key}")
 
 
 def read_curve(file):
-    columns = read_columns(file)
-    for name in ("time", "extension", "load", "knot_distance", "end_to_end", "phase"):
-        if name not in columns:
-            raise CannotReport(f"{file}: no column {name}")
-    phase = np.array(columns.pop("phase"), dtype=str)
-    curve = Curve({name: numbers(file, name, column) for name, column in columns.items()}, phase)
+    columns = read_table(file, ("time", "extension", "load", "knot_distance", "end_to_end"), ("phase",))
+    curve = Curve(columns, columns.pop("phase"))
     if "crosshead_travel" in columns:  # the frame is compliant
         travel = curve["crosshead_travel"]
         curve.columns["crosshead_extension"] = np.where(np.isfinite(travel), travel, curve["extension"])

@@ -3,14 +3,14 @@ from markupsafe import Markup
 
 from knot_utm.report.certificate import certificate, specification_checks, specification_verdict, stiffness_name, verdict
 from knot_utm.report.curves import course, error_band, force_extension
-from knot_utm.report.marks import end_of, largest_load, marks_of, time_of_break
+from knot_utm.report.marks import end_of, largest_load, marks_of
 from knot_utm.report.method_facts import knot_and_materials, method_facts, particulars, program
-from knot_utm.report.page import Box, checks_table, facts, figure, head_of, Headline, no_value, render, Row, Table, verdict_box
-from knot_utm.report.quantities import (all_in_units, CERTIFICATE, error_shown, GROUPS, HEAD, in_units, is_rounding, quantity_of,
+from knot_utm.report.page import Box, certificate_section, facts, figure, head_of, Headline, no_value, render, Row, Table, verdict_box
+from knot_utm.report.quantities import (all_in_units, CERTIFICATE, error_shown, GROUPS, HEAD, in_units, is_number, is_rounding, quantity_of,
                                         shown, TABLES, with_unit)
 from knot_utm.report.rod_pictures import pictures
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import final_shape, series_of, shapes_at
+from knot_utm.report.shapes import nearest, shapes_of
 from knot_utm.report.turnable import turnable
 
 HEADLINES = ("knotability", "force_ratio", "plateau_force", "lock_extension", "locked_stiffness", "peak_force", "break_extension",
@@ -26,8 +26,9 @@ def report_on_run(folder, command, version):
     reason = in_units(result.get("reason") or "", run.units)
     asked = specification_checks(run.method, result, run.units)
     asked_verdict = specification_verdict(result, asked)
+    asked_box = asked_verdict and verdict_box(*asked_verdict)
     checks, warnings = certificate(result, run.has_knot(), run.is_soft()), all_in_units(result.get("warnings") or [], run.units)
-    boxes = [given_box(run), asked_verdict and verdict_box(asked_verdict),
+    boxes = [given_box(run), asked_box,
              gave_up and Box("fail", [Markup("<b>The physics gave up before the test ended, so that the results are those of its "
                                              "beginning.</b> {}").format(reason)]),
              Box("warnings", [Markup("<b>Warnings</b>"), *warnings]) if warnings else None if gave_up else
@@ -44,10 +45,8 @@ def report_on_run(folder, command, version):
                          "the program), if there is one. True forces are absolute. The numerical error is estimated; it is given only "
                          "where a convergence study covers the case. It does not tell how well the model of the rod describes a real one."
                          + ("" if run.units.are_default else " All files are in SI units."), no_value("This test has no", unmeasured)]),
-            ("Quality certificate", [
-                *([asked_verdict and verdict_box(asked_verdict), checks_table("Specification", "Value", asked)] if asked else []),
-                verdict_box(verdict(checks)), checks_table("Trust in the computation", "Value", checks),
-                "The limits are those at which the program itself warns."]),
+            certificate_section("Value", asked_box, asked, verdict_box(*verdict(checks)), checks,
+                                "The limits are those at which the program itself warns."),
             ("What was tested, and how", [method_facts(run.method, run.units, run.folder), over_time,
                                           facts(program(run.method, run.units))])],
         Markup("knot_utm {} · ended by <b>{}</b>{} · motion pattern <b>{}</b>").format(
@@ -57,8 +56,12 @@ def report_on_run(folder, command, version):
 
 
 def given_box(run):
-    given = run.given_strength()
-    return given and Box("quiet", [f"The rod parted at the breaking force that was given, {given}" + (
+    """Where the rod parted at the breaking force of its material: what is read at such a break follows from it."""
+    forces = [run.method[of].get("breaking_force") for of in ("material", "other_material") if of in run.method]
+    if run.value("break_extension") is None or "at a tension of" not in (run.result.get("reason") or "") or not any(map(is_number, forces)):
+        return None
+    given = with_unit(min(filter(is_number, forces)), run.units.force)
+    return Box("quiet", [f"The rod parted at the breaking force that was given, {given}" + (
         ": the strength of the knot is not predicted." if "knot_efficiency" in run.not_predicted() else
         ", which the peak force repeats.")])
 
@@ -77,13 +80,13 @@ def figures_of(run, marks, largest):
                            "Load and extension over the whole test; the colours show the phases of the program. Until the balance the load "
                            "is not yet zeroed. While the knots are tied the load cell reads nothing.")
         shown_at = marks or [end_of(run.curve)]
-        series, note = series_of(run)
-        shapes = shapes_at(series, [mark.time for mark in shown_at], time_of_break(shown_at), final_shape(run))
+        shapes, note = shapes_of(run)
+        at_marks = shapes if len(shapes) == 1 else [nearest(shapes, mark.time) for mark in shown_at]
         rod = [note and Box("warnings", [note]),
-               figure(pictures(run, shown_at[-len(shapes):], shapes), "The rod at the marked points, coloured by its tension",
+               figure(pictures(run, shown_at[-len(at_marks):], at_marks), "The rod at the marked points, coloured by its tension",
                       "The load axis runs from left to right. Parts of the rod that are farther away are paler. Each picture shows the rod at "
-                      "the recorded instant nearest to its mark; a mark before the break is shown before the break.", "JPEG")]
-        curve.append(turnable(run, series, marks))
+                      "the recorded instant nearest to its mark.", "JPEG")]
+        curve.append(turnable(run, shapes, marks))
     return curve, rod, over_time
 
 
@@ -91,7 +94,7 @@ def caption(run, marks, largest):
     band, peak = words_of_band(run), with_unit(run.value("peak_force"), run.units.force)
     sentences = [
         largest and not largest.is_peak and f"The curve has no peak: its largest load, {peak}, was read {largest.where}.",
-        run.time_of_break() is not None and "It ends where the rod parted: no load is known behind that.",
+        run.value("break_extension") is not None and "It ends where the rod parted.",
         f"The band shows the estimated numerical error, from the {'errors' if ' and ' in band else 'error'} of the {band} in the table below."
         if band else "No band of numerical error is drawn: it is made of the errors of the plateau, the lock and the stiffness, which are "
         "not known here.",
@@ -104,7 +107,7 @@ def caption(run, marks, largest):
 
 def words_of_band(run):
     """The readings whose errors it is made of; None: there is no band."""
-    if error_band(run, run.pull()) is None:
+    if error_band(run, run.curve.pull()) is None:
         return None
     names = {"plateau_force": "plateau force", "lock_extension": "lock extension", "locked_stiffness": stiffness_name(run.result)}
     *first, last = [name for key, name in names.items() if run.value(key + "_error") is not None]

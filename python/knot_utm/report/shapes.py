@@ -4,103 +4,57 @@ from collections import namedtuple
 
 import numpy as np
 
-from knot_utm.report.commands import CannotReport
-from knot_utm.report.run import numbers, read_columns, read_text
+from knot_utm.errors import refuse_if, WrongInput
+from knot_utm.report.run import read_table, require_keys
+from knot_utm.yaml_text import read_text
 
 # `time` of the test [s]; `points`: the nodes [m]. `tension`: of each edge [N]; `twist`: of each node [rad/m]; `contact_force`: that
 # presses on each node, per length [N/m]. None: not known. `cuts`: edges between one rope and the next, which are no rope.
 Shape = namedtuple("Shape", "time points tension twist contact_force cuts", defaults=[None] * 3 + [()])
 
 
-class Series:
-    """Shapes in order of their `times` [s]; `shape(i)` gives one."""
-
-    def __init__(self, times, shape):
-        self.times, self.shape = np.asarray(times, dtype=float), shape
-
-    def __len__(self):
-        return len(self.times)
-
-    def at(self, time, broke=None):
-        """The shape nearest to a time; of a time before the rod `broke` one from before that."""
-        return self.shape(nearest(self.times, time, broke))
-
-
-def pieces(shape, whole):
-    """Slices of the nodes between its cuts, and where it has parted; a lone node cannot be drawn. `whole`: a shape before that.
-    An edge that has grown twice as much as the usual one is no longer there: a rod does not stretch so unevenly."""
-    if len(shape.points) != len(whole.points):
-        return ropes(shape)
-    growth = lengths(shape) / lengths(whole)
-    parted = np.flatnonzero(growth > 2.0 * np.median(np.delete(growth, shape.cuts)))
-    return [piece for piece in between(shape, {*parted.tolist(), *shape.cuts}) if piece.stop - piece.start >= 2]
-
-
 def ropes(shape):
     """Slices of the nodes of its ropes."""
-    return between(shape, shape.cuts)
-
-
-def between(shape, edges):
-    ends = [0, *(edge + 1 for edge in sorted(edges)), len(shape.points)]
+    ends = [0, *(edge + 1 for edge in shape.cuts), len(shape.points)]
     return [slice(a, b) for a, b in zip(ends[:-1], ends[1:])]
 
 
-def cuts_of(numbers):
+def cuts_of(columns):
     """Edges between nodes of which the ropes have other numbers."""
-    return tuple(np.flatnonzero(np.diff(numbers)).tolist())
+    return tuple(np.flatnonzero(np.diff(columns["rope"])).tolist()) if "rope" in columns else ()
 
 
 def lengths(shape):
     return np.linalg.norm(np.diff(shape.points, axis=0), axis=1)
 
 
-def series_of(run):
-    """All shapes that the folder of a run has, and what is to be said of them: a line, or nothing."""
+def shapes_of(run):
+    """All that the folder of a run has, in order, and what is to be said of them: a line, or nothing."""
     file = os.path.join(run.folder, "shapes.csv")
     if os.path.exists(file):
-        return series_of_csv(file), ""
-    return only_the_final(run), "There is no shapes.csv, so only the final shape is shown, without tensions."
+        *shapes, last = shapes_in(file)
+        return shapes if shapes and last.tension is None else [*shapes, last], ""  # of a rod that has just parted no tension is known
+    return [final_shape(run)], "There is no shapes.csv, so only the final shape is shown, without tensions."
 
 
-def shapes_at(series, times, broke=None, final=None):
-    """The shape nearest to each time, in the order of `times`, or the only one that there is. Of a time before the rod
-    `broke` a shape that is from before that, of a later one the `final` shape where none is from behind it."""
-    if len(series) == 1:
-        return [series.shape(0)]
-    found = [series.at(time, broke) for time in times]
-    return [final if broke is not None and final and shape.time <= broke < time else shape for shape, time in zip(found, times)]
-
-
-def only_the_final(run):
-    shape = final_shape(run)
-    return Series([shape.time], lambda _: shape)
-
-
-def series_of_csv(file):
+def shapes_in(file):
     names, _, *rows = read_text(file).splitlines() + 2 * [""]
     try:  # which may be long, and holds nothing but numbers
-        columns = dict(zip(names.split(","), np.loadtxt(filter(None, rows), delimiter=",", comments=None, ndmin=2).T))
-    except ValueError:  # slower, this names the column that is not of numbers
-        columns = {name: numbers(file, name, column) for name, column in read_columns(file).items()}
-    for name in ("time", "node", "x", "y", "z", "tension", "twist", "contact_force"):
-        if name not in columns:
-            raise CannotReport(f"{file}: no column {name}")
-    begins = np.flatnonzero(columns["node"] == 0)
-    if not len(begins):
-        raise CannotReport(f"{file}: it holds no shape")
-    ends = [*begins[1:], len(columns["node"])]
-
-    def shape(i):
-        rows = slice(begins[i], ends[i])
-        points = np.column_stack([columns[name][rows] for name in ("x", "y", "z")])
-        cuts = cuts_of(columns["rope"][rows]) if "rope" in columns else ()
-        tension, twist = columns["tension"][rows][:-1].copy(), columns["twist"][rows]
+        table = dict(zip(names.split(","), np.loadtxt(filter(None, rows), delimiter=",", comments=None, ndmin=2).T))
+    except ValueError as why:
+        raise WrongInput(f"{file}: {why}") from why
+    require_keys(file, table, ("time", "node", "x", "y", "z", "tension", "twist", "contact_force"), "column")
+    begins = np.flatnonzero(table["node"] == 0)
+    refuse_if(not len(begins), f"{file}: it holds no shape")
+    found = []
+    for begin, end in zip(begins, [*begins[1:], len(table["node"])]):
+        columns = {name: column[begin:end] for name, column in table.items()}
+        cuts, tension = cuts_of(columns), columns["tension"][:-1].copy()
         tension[list(cuts)] = 0.0
-        found = Shape(float(columns["time"][begins[i]]), points, known(tension), None, known(columns["contact_force"][rows]), cuts)
-        return found._replace(twist=known(np.concatenate([filled(twist[rope]) for rope in ropes(found)])))
-
-    return Series(columns["time"][begins], shape)
+        points = np.column_stack([columns[name] for name in ("x", "y", "z")])
+        shape = Shape(float(columns["time"][0]), points, known(tension), contact_force=known(columns["contact_force"]), cuts=cuts)
+        found.append(shape._replace(twist=known(np.concatenate([filled(columns["twist"][rope]) for rope in ropes(shape)]))))
+    return found
 
 
 def filled(twist):
@@ -114,12 +68,10 @@ def known(values):
 
 def final_shape(run):
     file = os.path.join(run.folder, "final_shape.csv")
-    columns = read_columns(file)
-    points = np.column_stack([numbers(file, name, columns.get(name, ())) for name in ("x", "y", "z")])
-    cuts = cuts_of(numbers(file, "rope", columns["rope"])) if "rope" in columns else ()
-    return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, None, cuts=cuts)
+    columns = read_table(file, ("x", "y", "z"))
+    points = np.column_stack([columns[name] for name in ("x", "y", "z")])
+    return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, cuts=cuts_of(columns))
 
 
-def nearest(seconds, time, broke):
-    i = int(np.argmin(np.abs(seconds - time)))
-    return i - 1 if broke is not None and i > 0 and time <= broke < seconds[i] else i
+def nearest(shapes, time):
+    return min(shapes, key=lambda shape: abs(shape.time - time))

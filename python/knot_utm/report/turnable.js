@@ -35,7 +35,7 @@
     return geometry;
   }
 
-  // A piece of the rod: a smooth line through its nodes, a tube around it, and a disc at either end.
+  // A rope: a smooth line through its nodes, a tube around it, and a disc at either end.
   function piece(shape, first, end, radius) {
     const nodes = [];
     for (let i = first; i < end; ++i) nodes.push(node(shape, i));
@@ -105,7 +105,7 @@
     now = shape;
     rod.children.forEach(part_of_rod => part_of_rod.geometry.dispose());
     rod.remove(...rod.children);
-    data.pieces[shape].forEach(([first, end, radius]) =>
+    data.ropes.forEach(([first, end, radius]) =>
       piece(shape, first, end, radius).forEach(geometry => rod.add(new THREE.Mesh(geometry, paint_of_rod))));
     wheels.forEach((wheel, i) => wheel.position.set(data.rollers[shape][i][1], 0, data.rollers[shape][i][0]));
     slider.value = shape;

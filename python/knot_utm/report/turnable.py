@@ -8,30 +8,27 @@ import numpy as np
 from knot_utm.report.colours import colour_scales, node_values
 from knot_utm.report.page import Turnable
 from knot_utm.report.rod_pictures import rollers, UNKNOWN
-from knot_utm.report.run import read_text
-from knot_utm.report.shapes import pieces, ropes
+from knot_utm.report.shapes import ropes
+from knot_utm.yaml_text import read_text
 
 LIBRARY = "/usr/share/javascript/three"  # Debian: libjs-three
 SCRIPTS = [os.path.join(LIBRARY, "three.min.js"), os.path.join(LIBRARY, "examples/js/controls/OrbitControls.js"),
            os.path.join(os.path.dirname(os.path.abspath(__file__)), "turnable.js")]
-MOST = 120     # shapes; a bag has as many as the load cell has readings
 KNOWN = 255    # colours; the next number is that of what is not known
 FINEST = 65535  # places along an axis are whole numbers up to this
 
 
-def turnable(run, series, marks):
+def turnable(run, shapes, marks):
     """None where the library is not installed."""
     if not all(os.path.exists(file) for file in SCRIPTS):
         return None
     # No "<" that could end the element that holds it.
-    return Turnable(json.dumps(content(run, series, marks), separators=(",", ":")).replace("<", "\\u003c"),
+    return Turnable(json.dumps(content(run, shapes, marks), separators=(",", ":")).replace("<", "\\u003c"),
                     [read_text(file) for file in SCRIPTS])
 
 
-def content(run, series, marks):
+def content(run, shapes, marks):
     """Lengths are in mm."""
-    chosen = np.unique(np.linspace(0, len(series) - 1, min(MOST, len(series))).astype(int))
-    shapes = [series.shape(int(i)) for i in chosen]
     points = 1e3 * np.array([shape.points for shape in shapes])
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     step = np.maximum(high - low, 1e-6) / FINEST
@@ -41,7 +38,8 @@ def content(run, series, marks):
     return {"radius": 1e3 * run.method["material"]["radius"], "nodes": points.shape[1],
             "times": [shape.time for shape in shapes], "first": first_shown(shapes, marks),
             "low": low.tolist(), "step": step.tolist(), "points": encoded(np.rint((points - low) / step), "<u2"),
-            "pieces": [pieces_of(run, shape, shapes[0]) for shape in shapes], "unknown": list(UNKNOWN),
+            "ropes": [[rope.start, rope.stop, 1e3 * radius] for rope, radius in zip(ropes(shapes[0]), run.radii(shapes[0]))],
+            "unknown": list(UNKNOWN),
             "quantities": [coloured(scale, values, points.shape[1]) for scale in scales],
             "rollers": [[[z, x] for z, x, _ in one] for one in wheels], "roller_radii": [radius for _, _, radius in wheels[0]],
             "words": [run.words_at(shape.time) for shape in shapes]}
@@ -52,16 +50,9 @@ def encoded(values, kind):
 
 
 def first_shown(shapes, marks):
-    """The shape that the page begins with: at the lock, where there is one, else at the end of the test, but whole."""
+    """The shape that the page begins with: at the lock, where there is one, else at the end of the test."""
     mark = next((mark for mark in marks if "lock" in mark.names), marks[-1] if marks else None)
-    whole = [i for i, shape in enumerate(shapes) if len(pieces(shape, shapes[0])) == len(ropes(shape))]
-    return min(whole, key=lambda i: abs(shapes[i].time - mark.time)) if mark else whole[-1]
-
-
-def pieces_of(run, shape, whole):
-    """[[first node, node behind the last, radius]]."""
-    found = pieces(shape, whole)
-    return [[one.start, one.stop, 1e3 * radius] for one, radius in zip(found, run.radii(shape, found))]
+    return min(range(len(shapes)), key=lambda i: abs(shapes[i].time - mark.time)) if mark else len(shapes) - 1
 
 
 def coloured(scale, values, nodes):

@@ -15,7 +15,7 @@ import numpy as np
 import yaml
 from scipy import integrate, optimize
 
-from knot_utm import material
+from knot_utm import WrongInput, material
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
 EXAMPLE = os.path.join(ROOT, "examples/measure_a_rope.yaml")
@@ -405,7 +405,7 @@ class Material(unittest.TestCase):
                 (has("creeping", speeds=speeds[::-1]), "a larger mass must creep faster"),
                 (has("creeping", masses=[[2.8, 0.01], [5.4, 0.01]]), "every mass must be more than capstan.heavy"),
                 (has("creeping", speeds=[[1e-12, 1e-13], [1e-6, 1e-7]]), "creeping: rate_speed comes out as")):
-            with self.subTest(named), self.assertRaises(material.Wrong) as wrong:
+            with self.subTest(named), self.assertRaises(WrongInput) as wrong:
                 material.usable(*self.understood(measured))
             self.assertIn(named, str(wrong.exception))
         done = self.run_script(has("mandrel", radius=[0.05, 1e-4]))

@@ -204,7 +204,7 @@ class ShippedStudies(unittest.TestCase):
 
     def test_positions_are_those_at_the_papers_instants(self):
         study = load_study(os.path.join(ROOT, "config/studies/motion_patterns.yaml"))
-        found = plots.numbers_of(self.table(study), study, "knot_distance", None, MadeUpRuns())
+        found = plots.numbers_of_curves(self.table(study), study.keys, study.cases, MadeUpRuns())
         self.assertEqual(list(found["time"][:4]), [0.0, 5.0, 10.0, 15.0])
         np.testing.assert_allclose(found["mean"][:4], [0.15, 0.145, 0.14, 0.135])
 

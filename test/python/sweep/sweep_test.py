@@ -19,7 +19,7 @@ import numpy as np
 import pandas as pd
 
 from knot_utm import command_line
-from knot_utm.address import Addresses
+from knot_utm.address import addresses
 from knot_utm.yaml_text import load
 
 OF_THE_MACHINE = {"wall_time", "real_time_factor", "peak_memory"}
@@ -296,7 +296,7 @@ class Content(Sweeps):
         names = set()
         for radius in (0.003, 0.002):
             write(self.path("materials/mine.yaml"), f"radius: {radius}\n")
-            names.add(Addresses(self.path("method.yaml")).of({}))
+            names.update(addresses(self.path("method.yaml"), [{}]))
         self.assertEqual(len(names), 2)
 
 
