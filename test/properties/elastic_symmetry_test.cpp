@@ -28,7 +28,7 @@ struct Rod {
     StepSettings settings;
     settings.spin_inertia = false;
     FrameTerms frames(rod, settings);
-    frames.begin(step);
+    frames.begin(step, false);
     frames.add_forces(step, state.position, sum);
     Eigen::Matrix4Xd out(4, rod.nodes());
     for (Eigen::Index i = 0; i < rod.nodes(); ++i)
