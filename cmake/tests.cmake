@@ -67,7 +67,7 @@ knot_utm_tests(property_tests quick ${property_sources})
 unset(test_properties)
 target_link_libraries(property_tests PRIVATE knot_utm_core rapidcheck)
 
-# Physics that takes long.
+# Physics that takes long, on the core as it is installed.
 file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
 knot_utm_tests(validation_tests slow ${validation_sources})
 target_link_libraries(validation_tests PRIVATE knot_utm_core)
