@@ -18,7 +18,7 @@ from sweeps import CONFIG, LENGTHS, REAL, STRAIGHT, Sweeps, content, rows, write
 import numpy as np
 import pandas as pd
 
-from knot_utm import command_line
+from knot_utm import command_line, table
 from knot_utm.address import addresses
 from knot_utm.yaml_text import load
 
@@ -66,6 +66,18 @@ class TheTable(Sweeps):
         with pd.HDFStore(file, "r") as store:
             units = json.loads(store.get_storer("runs").attrs.units)
         self.assertEqual(list(units.items()), list(zip(*rows(self.table("out"))[:2])))
+
+    def test_in_hdf5_is_no_larger_than_csv_for_one_long_message(self):
+        made = table.Table({"specimen.length": "m"})
+        for number in range(2000):
+            made.add({"specimen.length": 0.1 * number}, f"run{number}", 1, "x" * 1500 if number == 7 else "", {"peak_force": 0.3 * number})
+        stored = made.hdf()
+        self.assertLess(len(stored), len(made.csv()))
+        with open(self.path("long.h5"), "wb") as file:
+            file.write(stored)
+        pd.testing.assert_frame_equal(pd.read_hdf(self.path("long.h5")), made.frame())
+        with pd.HDFStore(self.path("long.h5"), "r") as store:
+            self.assertEqual(store.get_node("runs/table").colnames[1:], list(made.units), "for others' readers")
 
     def test_has_a_row_for_runs_that_fail_and_says_why(self):
         write(self.study, f"""
