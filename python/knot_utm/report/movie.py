@@ -19,6 +19,9 @@ from knot_utm.report.shapes import nearest, shapes_of
 from knot_utm.report.style import BLUE, FAINT, new_figure, ORANGE, USUAL
 
 SIZE = (1920, 1080)
+# The colours of high-definition video: without conversion and marks players take one matrix for another, and reds and blues are off.
+BT709 = ("-vf", "scale=out_color_matrix=bt709:out_range=tv", "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709",
+         "-color_trc", "bt709")
 DPI = 120
 VIEWS = 12  # shapes of a test that the frame of its pictures is made for
 
@@ -62,7 +65,7 @@ def encode(stage, times, rate, file):
     """All pictures in order, each as soon as a core has drawn it."""
     encoder = subprocess.Popen(
         ["ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba", "-s", f"{SIZE[0]}x{SIZE[1]}",
-         "-r", str(rate), "-i", "-", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart",
+         "-r", str(rate), "-i", "-", *BT709, "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart",
          "-fflags", "+bitexact", "-f", "mp4", file], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
     try:
         with multiprocessing.get_context("fork").Pool() as pool:

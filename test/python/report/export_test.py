@@ -172,8 +172,9 @@ class Pictures(unittest.TestCase):
             ["ffprobe", "-v", "error", "-show_streams", "-of", "json", file], capture_output=True, check=True).stdout)["streams"][0]
         self.assertEqual((facts["codec_name"], facts["width"], facts["height"], facts["nb_frames"], facts["r_frame_rate"]),
                          ("h264", WIDE, HIGH, "3", "3/1"))
-        done = subprocess.run(["ffmpeg", "-loglevel", "error", "-i", file, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
-                              capture_output=True, check=True)
+        self.assertEqual({facts[f"color_{of}"] for of in ("space", "primaries", "transfer")}, {"bt709"})
+        done = subprocess.run(["ffmpeg", "-loglevel", "error", "-i", file, "-vf", "scale=in_color_matrix=bt709", "-f", "rawvideo", "-pix_fmt",
+                               "rgb24", "-"], capture_output=True, check=True)
         shown = np.frombuffer(done.stdout, np.uint8).reshape(-1, HIGH, WIDE, 3).astype(int)
         red, green, blue = np.moveaxis(shown[1, :HIGH // 2], 2, 0)
         of_rod = (red > blue + 40) & (red > green)  # its colours under tension
