@@ -126,7 +126,7 @@ template <class Bench, class Observer, class Interrupted>
 void run_test(Bench& bench, ProgramRunner& program, Observer observe, Interrupted interrupted) {
   Command command = program.last();
   while (!program.ended() && !interrupted()) {
-    const Sample sample = bench.respond(command);
+    const auto sample = bench.respond(command);
     observe(command, sample);
     command = program.next(sample);
   }
