@@ -53,6 +53,7 @@ struct SectionTurns {
 /// Where the contact resists rolling (RollingResistance), the couple C acts on the section of a, and -C on that of b,
 /// so that m - C takes the place of m on a, and m + C on b. On a roller, whose own turn about its axis is psi, -C.axis
 /// is a torque on it; its rotation is phi_b = psi axis.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is that of the equations
 struct SurfacePoint {
   Vec3 along_a = Vec3::Zero();      ///< a' [m]; b' is ContactPoint::db
   Vec3 turn_a = Vec3::Zero();       ///< V of a [m]; that of b is ContactPoint::turn
