@@ -11,9 +11,18 @@
 # or draw capsules.
 #
 # usage: findings/vtk_tube_at_corners.sh
-# It needs Debian's python3-vtk9 9.1.0, installs nothing, and ends with 1 where VTK does otherwise.
+# It loads Debian packages, and what they need and this machine lacks, into a temporary folder, installs nothing, and ends with 1 where VTK
+# does otherwise.
 set -euo pipefail
-/usr/bin/python3 - <<'PYTHON'
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+version=9.1.0+really9.1.0+dfsg2-5+deb12u1
+mapfile -t needed < <(apt-get -s --no-install-recommends install "python3-vtk9=$version" "libvtk9.1=$version" | sed -n 's/^Inst \([^ ]*\) (\([^ ]*\).*/\1=\2/p')
+apt-get -qq download "python3-vtk9=$version" "libvtk9.1=$version" "${needed[@]}" 2>/dev/null
+for package in *.deb; do dpkg -x "$package" tree; done
+libraries=$(find "$PWD/tree" -name '*.so*' -printf '%h\n' | sort -u | paste -sd :)
+LD_LIBRARY_PATH=$libraries PYTHONPATH=tree/usr/lib/python3/dist-packages /usr/bin/python3 - <<'PYTHON'
 import math
 import numpy
 import vtk
