@@ -35,8 +35,8 @@ if(catkin_FOUND)
   add_message_files(DIRECTORY msg FILES
                     ColorBar.msg Crosshead.msg KnotRecord.msg KnotShape.msg KnotState.msg RecorderStatus.msg SpecimenInfo.msg
                     TestStatus.msg)
-  add_service_files(DIRECTORY srv FILES StartTest.srv)
-  add_action_files(DIRECTORY action FILES RunTest.action)
+  add_service_files(DIRECTORY srv FILES Reset.srv StartTest.srv)
+  add_action_files(DIRECTORY action FILES Move.action RunTest.action)
   # The messages are in the Python package that python/ holds. In devel space its __init__.py stands for both; installed, there
   # is that of python/ only. catkin_python_setup() would do the same, but it installs to where CMAKE_INSTALL_PREFIX was when
   # configured, whatever `cmake --install --prefix` says.

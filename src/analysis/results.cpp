@@ -53,7 +53,6 @@ Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std:
 void read_pull(const Pull& pull, Results& results) {
   if (!results.break_extension) results.steady_force = steady_force(pull);
   if (!results.never_in_tension) {
-    results.peak_extension = peak_extension(pull);
     results.energy_to_peak = energy_to_peak(pull);
   }
   if (results.break_extension) results.energy_to_break = energy(pull);
@@ -140,13 +139,19 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
   const auto tensile = [&](double force) {
     return force > kTensile * largest ? std::optional<double>(force) : std::nullopt;
   };
-  if (!pull.empty()) results.true_peak_force = tensile(peak_force(true_pull));
+  if (!pull.empty()) {
+    results.true_peak_force = tensile(peak_force(true_pull));
+    results.peak_extension = peak_extension(pull);
+  }
   if (at_break) {  // An empty optional compares below any number: this also sets a peak that was never read.
-    results.curve.peak_force = std::max(results.curve.peak_force, tensile(at_break->load));
+    if (tensile(at_break->load) > results.curve.peak_force) {
+      results.curve.peak_force = tensile(at_break->load);
+      results.peak_extension = at_break->extension;
+    }
     results.true_peak_force = std::max(results.true_peak_force, tensile(at_break->force_upper));
   }
   results.never_in_tension = !pull.empty() && !results.true_peak_force;
-  if (results.never_in_tension) results.curve.peak_force.reset();
+  if (results.never_in_tension) results.curve.peak_force = results.peak_extension = std::nullopt;
   if (!results.curve.plateau_force) return;
   const double end = results.curve.slides_to;
   results.true_plateau_force = plateau(true_pull, end)->force;

@@ -50,6 +50,12 @@ bool Frame::passed_balance(double moved, double grip, double displacement, doubl
   return std::copysign(1.0, moved) * too_much > kMuch * std::abs(force) + least;
 }
 
+double Frame::still_to_come(double grip, double displacement, double force, double length) const {
+  if (rigid()) return 0.0;
+  const double specimen = std::min(specimen_, strands_ / length);
+  return (stiffness_ * (displacement - grip) - force) * specimen / (stiffness_ + specimen);
+}
+
 void Frame::follow(double moved, double gained, double length) {
   constexpr double kForgets = 0.5;
   if (moved == 0.0) return;

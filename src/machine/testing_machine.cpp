@@ -40,6 +40,12 @@ constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth
 constexpr double kNearBreak = 1e-3;    // least step towards a break that is near [longest step]
 constexpr double kLeastPassed = 1e-2;  // force by which the grip may pass the balance of forces [k_b/h^2]
 
+// A load at which the crosshead stops may be passed by this share of it, but by no less than what follows, and never in
+// steps so short that nothing could be done about it.
+constexpr double kStopPassed = 1e-3;
+constexpr double kLeastStopPassed = 1e-4;  // [k_b/h^2]
+constexpr double kNearStop = 1e-5;         // [longest step]
+
 /// `grip`: displacement of the upper grip [m].
 BreakPlace place_of_break(const TimeStep& stepper, const Grips& grips, double grip, int edge) {
   const Points& position = stepper.state().position;
@@ -68,6 +74,7 @@ struct TestingMachine::Impl {
   std::optional<KnotReadings> knot_readings;  // if the knot's file asks for some
   Boundary boundary;
 
+  double longest_step = 0.0;  // [s]
   double time = 0.0;
   double displacement = 0.0;  // of the crosshead [m]
   double grip = 0.0;          // displacement of the upper grip; the same on a rigid frame [m]
@@ -77,6 +84,11 @@ struct TestingMachine::Impl {
     double drag = 0.0;                // of the rod's motion [N s/m^2]
     double borne_before = 0.0;        // force on the upper grip at its beginning, on a compliant frame [N]
   } tried;                            // the time step that is being made
+  struct {
+    double sense = 1.0, load = Sample::kNone;  // of the motion, 1 is outwards; balanced load [N]
+    double last = 0.0;                         // balanced load at rest after the last accepted step [N]
+    std::optional<double> place;               // displacement at which the crosshead stands since [m]
+  } stop;                                      // of the crosshead within a command (Command::stop_load)
   double extension_zero = 0.0, raw_extension_zero = 0.0;
   int parted_edge = -1;  // -1: none
   BreakPlace break_place = BreakPlace::kNone;
@@ -118,7 +130,7 @@ struct TestingMachine::Impl {
     double bending_time = specimen_scales(scaled).own_time;
     if (scaled.other) bending_time = std::min(bending_time, specimen_scales(*scaled.other).own_time);
     StepControl::Options options;
-    options.longest = options.first = tolerances(physics, specimen, scaled).longest_step;
+    options.longest = options.first = longest_step = tolerances(physics, specimen, scaled).longest_step;
     // A sketched shape springs apart at once, so that the first step has to be short.
     if (!knot_of(specimen).about().straight) options.first = std::min(bending_time, options.longest);
     options.motion = kAimedMotion * thinnest(scaled);
@@ -132,7 +144,7 @@ struct TestingMachine::Impl {
       watch.emplace(tying ? tying->standing_nodes() : std::vector<int>(), scaled.core_radius(), centreline.points,
                     centreline.windings());
     if (can_part(scaled)) breaks.emplace(scaled, *stepper, kNearBreak * options.longest);
-    if (breaks || !frame.rigid()) stepper->refuse_by([this](const Points& end, double dt) { return refuse(end, dt); });
+    stepper->refuse_by([this](const Points& end, double dt) { return refuse(end, dt); });
     extension_zero = grips.end_to_end(grip);
   }
 
@@ -172,8 +184,9 @@ struct TestingMachine::Impl {
   const Boundary& boundary_at(const Command& command, double from, double to, const Start& start) {
     const double whole = command.time - start.time;
     const double fraction = whole > 0.0 ? std::min(1.0, (to - start.time) / whole) : 1.0;
-    const double travel = mounts() ? displacement + tying->mounting_velocity(command.speed) * (to - from)
-                                   : start.displacement + fraction * (command.displacement - start.displacement);
+    const double travel = mounts()     ? displacement + tying->mounting_velocity(command.speed) * (to - from)
+                          : stop.place ? *stop.place
+                                       : start.displacement + fraction * (command.displacement - start.displacement);
     tried.travel = travel;
     // This depends on the last accepted state only: a step that is tried again begins with the same force.
     if (!frame.rigid()) tried.borne_before = grips.force_upper(*stepper);
@@ -233,11 +246,35 @@ struct TestingMachine::Impl {
   std::string refuse(const Points& end, double dt) const {
     if (breaks)
       if (std::string why = breaks->refuse(*stepper, end, dt); !why.empty()) return why;
-    const double least = kLeastPassed * scaled.bending_stiffness / (scaled.radius * scaled.radius);
-    const bool passed =
-        frame.passed_balance(tried.grip - grip, tried.grip, tried.travel, grips.tried_force_upper(*stepper),
-                             held_length(time, time + dt), dt, tried.drag, least);
+    const double force = grips.tried_force_upper(*stepper), length = held_length(time, time + dt);
+    const double at_rest = force + frame.still_to_come(tried.grip, tried.travel, force, length);
+    if (may_stop() && beyond_stop(cell.balanced(at_rest)) > stop_tolerance() && dt > kNearStop * longest_step)
+      return "the load passed that at which the crosshead stops";
+    const bool passed = frame.passed_balance(tried.grip - grip, tried.grip, tried.travel, force, length, dt, tried.drag,
+                                             kLeastPassed * unit_force());
     return passed ? "the grip passed the balance of the forces of specimen and frame" : "";
+  }
+
+  double unit_force() const { return scaled.bending_stiffness / (scaled.radius * scaled.radius); }  // k_b/h^2 [N]
+
+  bool may_stop() const { return !stop.place && !mounts() && std::isfinite(stop.load); }
+  double beyond_stop(double load) const { return stop.sense * (load - stop.load); }
+  double stop_tolerance() const { return std::max(kStopPassed * std::abs(stop.load), kLeastStopPassed * unit_force()); }
+
+  /// Balanced load, with what is still to come of the frame once the crosshead stands [N].
+  double load_at_rest(double at_time) const {
+    const double force = grips.force_upper(*stepper);
+    return cell.balanced(force + frame.still_to_come(grip, displacement, force, held_length(at_time, at_time)));
+  }
+
+  /// After an accepted step: stops the crosshead at its load. If it is not there yet, the next step ends no later than
+  /// it would be at the present rate.
+  void judge_stop(double at_time, double dt) {
+    if (!may_stop()) return;
+    const double load = load_at_rest(at_time);
+    const double rate = stop.sense * (load - std::exchange(stop.last, load)) / dt, left = -beyond_stop(load);
+    if (left <= 0.0) stop.place = displacement;
+    if (left > 0.0 && rate > 0.0) control.at_most((left + 0.5 * stop_tolerance()) / rate);
   }
 
   /// After an accepted step: judges whether the rod parts. If not, the next step ends no later than it would part at
@@ -354,9 +391,9 @@ struct TestingMachine::Impl {
         *stepper, time, end,
         [&](double from, double to) -> const Boundary& { return boundary_at(command, from, to, start); },
         [&](double to, double dt, const StepSummary&) {
-          displacement = mounts()            ? tried.travel
-                         : to < command.time ? start.displacement + speed * (to - start.time)
-                                             : command.displacement;
+          displacement = mounts() || stop.place ? tried.travel
+                         : to < command.time    ? start.displacement + speed * (to - start.time)
+                                                : command.displacement;
           turn =
               to < command.time ? start.turn + (to - start.time) / whole * (command.turn - start.turn) : command.turn;
           const double moved = tried.grip - grip;
@@ -371,6 +408,7 @@ struct TestingMachine::Impl {
           extension_zero += grips.end_to_end(grip) - apart;  // rod that slips through the upper grip is no extension
           judge_break(dt);
           substeps.push_back(read(command, to));
+          judge_stop(to, dt);
         });
   }
 
@@ -396,13 +434,15 @@ struct TestingMachine::Impl {
       extension_zero = grips.end_to_end(grip);
       raw_extension_zero = displacement;
     }
+    stop = {command.velocity < 0.0 ? -1.0 : 1.0, command.stop_load, load_at_rest(time), {}};
+    if (may_stop() && beyond_stop(stop.last) >= 0.0) stop.place = displacement;
     const std::string gave_up = advance(command, {time, displacement, turn}, command.time);
     if (!parted() && !gave_up.empty()) {
       status = BenchStatus::kFailed;
       message = gave_up;
     }
     if (!parted() && status != BenchStatus::kFailed) {
-      if (!mounts()) displacement = command.displacement;
+      if (!mounts() && !stop.place) displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
       if (tying) tying->leave(phase, place());
       judge_phase();
@@ -437,9 +477,7 @@ const RodState& TestingMachine::state() const { return impl_->stepper->state(); 
 Vec3 TestingMachine::lower_grip() const { return impl_->grips.lower(); }
 Vec3 TestingMachine::upper_grip() const { return impl_->grips.upper(impl_->grip); }
 double TestingMachine::time() const { return impl_->time; }
-double TestingMachine::longest_step() const {
-  return tolerances(impl_->physics, impl_->specimen, impl_->scaled).longest_step;
-}
+double TestingMachine::longest_step() const { return impl_->longest_step; }
 Eigen::VectorXd TestingMachine::tension() const {
   if (impl_->parted()) return Eigen::VectorXd::Constant(rod().edges(), Sample::kNone);
   return impl_->stepper->tension();

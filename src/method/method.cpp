@@ -29,6 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using fields::as_given;
 using fields::Fields;
+using fields::kind_of;
 using fields::one_line;
 using fields::Reader;
 
@@ -315,7 +316,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
   try {
     const ConfigLibrary library(folder);
     if (!root.IsMap())
-      throw InvalidInput("the file", as_given(root), "a map with the keys specimen, material, machine and program");
+      throw InvalidInput("the file", kind_of(root), "a map with the keys specimen, material, machine and program");
     apply_overrides(root, overrides, option, library);
 
     std::vector<std::string> noted_first, noted;

@@ -82,6 +82,12 @@ inline std::string as_given(const YAML::Node& node) {
   return text ? "\"" + shown(node.Scalar()) + "\"" : one_line(node);
 }
 
+/// What a whole file holds. A message does not repeat the content of one that is no method.
+inline std::string kind_of(const YAML::Node& node) {
+  if (!node.IsDefined() || node.IsNull()) return "empty";
+  return node.IsSequence() ? "a list" : node.IsMap() ? "a map" : "a text";
+}
+
 /// A bound of a range in its usual form: 100000 and 1e8, not 1e+05 and 1e+08.
 inline std::string plain_number(double value) {
   std::ostringstream out;
@@ -126,7 +132,8 @@ class Reader : public Fields {
   Reader(const YAML::Node& map, std::string file, std::string path, std::string of = "a method")
       : map_(map), file_(std::move(file)), path_(std::move(path)), of_(std::move(of)) {
     if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap())
-      throw InvalidInput(file_, path_.empty() ? "the file" : path_, as_given(map_), "a map of keys and values");
+      throw InvalidInput(file_, path_.empty() ? "the file" : path_, path_.empty() ? kind_of(map_) : as_given(map_),
+                         "a map of keys and values");
   }
 
   /// From now on numbers in newtons may be given in these terms.

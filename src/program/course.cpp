@@ -21,12 +21,7 @@ bool CrossheadCourse::over(double time) const {
   return static_cast<double>(last_.sequence - begin_) >= time * command_rate_ - 1e-6;
 }
 
-void CrossheadCourse::move(const Sample& now, double velocity) {
-  leg_.begin = last_.sequence;
-  // In a step that the machine ends by itself, it may also have moved the crosshead by itself.
-  leg_.displacement = ends_by_itself(last_.phase) ? now.displacement : last_.displacement;
-  leg_.velocity = velocity;
-}
+void CrossheadCourse::move(double velocity) { leg_ = {last_.sequence, last_.displacement, velocity}; }
 
 double CrossheadCourse::velocity_to_extension(double left, double fastest) const {
   const double most = fastest * period();
@@ -38,6 +33,7 @@ double CrossheadCourse::extension_tolerance(double fastest) const {
 }
 
 double CrossheadCourse::speed_to_load(const Sample& now, double load, double fastest, bool creeps) {
+  end_load_ = load;
   return load_control_.meeting(now, load, period(), fastest, creeps);
 }
 
@@ -48,6 +44,7 @@ double CrossheadCourse::velocity_at_load(const Sample& now, double fastest) {
 double CrossheadCourse::velocity_at_load_rate(const Sample& now, double rate, double fastest, double end) {
   if (leg_.velocity >= fastest) wanted_load_ = balanced_load(now);
   wanted_load_ += rate * period();
+  end_load_ = end;
   return load_control_.following(now, std::min(wanted_load_, end), period(), fastest);
 }
 
@@ -55,8 +52,9 @@ void CrossheadCourse::begin_step(const Sample& now) {
   begin_ = last_.sequence;
   begin_load_ = wanted_load_ = balanced_load(now);
   begin_turn_ = last_.turn;
+  end_load_ = kNoLoad;
   load_control_.begin();
-  move(now, 0.0);
+  move(0.0);
   turn(0.0);
 }
 
@@ -66,6 +64,10 @@ bool CrossheadCourse::take(const Sample& now) {
     gain_.value = std::clamp((now.extension - gain_.extension) / moved, kLeastGain, 1.0);
   gain_.extension = now.extension;
   gain_.displacement = now.displacement;
+  if (now.displacement != last_.displacement) {
+    last_.displacement = now.displacement;
+    move(leg_.velocity);
+  }
   balance_offset_ = now.balance_offset;
   wanted_load_ -= shift;
   begin_load_ -= shift;
@@ -78,6 +80,12 @@ void CrossheadCourse::write_motion(Command& command) const {
   command.displacement = leg_.displacement + leg_.velocity * seconds(command.sequence - leg_.begin);
   command.turn = turn_leg_.turn + turn_leg_.rate * seconds(command.sequence - turn_leg_.begin);
   command.balance = balance_next_;
+  command.stop_load = kNoLoad;
+  if (leg_.velocity == 0.0 || ends_by_itself(command.phase)) return;
+  // The most counts for the balanced load and for the true force. std::min passes over an end that is none.
+  const double sense = leg_.velocity < 0.0 ? -1.0 : 1.0;
+  const double most = most_load_ - std::max(0.0, sense * balance_offset_);
+  command.stop_load = sense * std::min(most, sense * end_load_);
 }
 
 void CrossheadCourse::accept(const Command& command) {

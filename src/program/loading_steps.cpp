@@ -34,7 +34,7 @@ void MountStep::check(const StepPlace& place) const {
       place.misplaced("can only stand before the first step that moves the crosshead");
 }
 
-void MountStep::steer(const Sample& now, CrossheadCourse& course) { course.move(now, speed); }
+void MountStep::steer(const Sample&, CrossheadCourse& course) { course.move(speed); }
 
 void PreloadStep::keys(fields::Fields& f, double) {
   f.required_number("load", load, {1e-6, 1e8, "N"});
@@ -44,9 +44,9 @@ void PreloadStep::keys(fields::Fields& f, double) {
 }
 
 void PreloadStep::steer(const Sample& now, CrossheadCourse& course) {
-  course.move(now, balancing_  ? 0.0
-                   : load_rate ? course.velocity_at_load_rate(now, *load_rate, speed, load)
-                               : course.speed_to_load(now, load, speed, true));
+  course.move(balancing_  ? 0.0
+              : load_rate ? course.velocity_at_load_rate(now, *load_rate, speed, load)
+                          : course.speed_to_load(now, load, speed, true));
 }
 
 EndedBy PreloadStep::ended(const Sample& now, CrossheadCourse& course) {
@@ -80,17 +80,17 @@ void PullStep::check(const StepPlace& place) const {
     throw InvalidInput::missing(place.key() + ".until", "one or more of extension, load, time and break");
 }
 
-void PullStep::begin(const Sample& now, CrossheadCourse& course) {
-  if (!load_rate) course.move(now, speed);
+void PullStep::begin(const Sample&, CrossheadCourse& course) {
+  if (!load_rate) course.move(speed);
 }
 
 void PullStep::steer(const Sample& now, CrossheadCourse& course) {
   if (load_rate) {
     const double end = until.load.value_or(fields::kInfinity);
-    course.move(now, course.velocity_at_load_rate(now, *load_rate, speed, end));
+    course.move(course.velocity_at_load_rate(now, *load_rate, speed, end));
   } else if (until.load) {
     const double velocity = course.speed_to_load(now, *until.load, speed, false);
-    if (velocity != course.velocity()) course.move(now, velocity);
+    if (velocity != course.velocity()) course.move(velocity);
   }
 }
 
@@ -124,7 +124,7 @@ void HoldStep::begin(const Sample&, CrossheadCourse& course) {
 }
 
 void HoldStep::steer(const Sample& now, CrossheadCourse& course) {
-  if (hold_load) course.move(now, course.velocity_at_load(now, speed));
+  if (hold_load) course.move(course.velocity_at_load(now, speed));
 }
 
 EndedBy HoldStep::ended(const Sample&, CrossheadCourse& course) {
@@ -159,9 +159,9 @@ void CycleStep::begin(const Sample&, CrossheadCourse&) {
 }
 
 void CycleStep::steer(const Sample& now, CrossheadCourse& course) {
-  if (extension) return course.move(now, course.velocity_to_extension(target() - now.extension, speed));
+  if (extension) return course.move(course.velocity_to_extension(target() - now.extension, speed));
   const double velocity = course.speed_to_load(now, target(), speed, true);
-  course.move(now, outwards_ ? velocity : -velocity);
+  course.move(outwards_ ? velocity : -velocity);
 }
 
 EndedBy CycleStep::ended(const Sample& now, CrossheadCourse& course) {
@@ -190,7 +190,7 @@ void ReturnStep::keys(fields::Fields& f, double) {
 
 void ReturnStep::steer(const Sample& now, CrossheadCourse& course) {
   const double inwards = std::min(0.0, course.velocity_to_extension(extension - now.extension, speed));
-  course.move(now, load ? std::max(inwards, -course.speed_to_load(now, *load, speed, true)) : inwards);
+  course.move(load ? std::max(inwards, -course.speed_to_load(now, *load, speed, true)) : inwards);
 }
 
 EndedBy ReturnStep::ended(const Sample& now, CrossheadCourse& course) {
@@ -221,7 +221,7 @@ void TwistStep::check(const StepPlace& place) const {
 void TwistStep::steer(const Sample& now, CrossheadCourse& course) {
   const double left = 2.0 * M_PI * turns - (now.turn - course.begin_turn()), most = 2.0 * M_PI * rate * course.period();
   course.turn(std::clamp(left, -most, most) / course.period());
-  if (hold_load) course.move(now, course.velocity_at_load(now, speed));
+  if (hold_load) course.move(course.velocity_at_load(now, speed));
 }
 
 EndedBy TwistStep::ended(const Sample& now, CrossheadCourse& course) {
@@ -236,8 +236,8 @@ void FollowStep::check(const StepPlace& place) const {
   if (record.empty()) throw InvalidInput::missing(place.key() + ".record", "a curve.csv, or the folder of a run");
 }
 
-void FollowStep::steer(const Sample& now, CrossheadCourse& course) {
-  course.move(now, (travel(course.time(1)) - travel(course.time())) / course.period());
+void FollowStep::steer(const Sample&, CrossheadCourse& course) {
+  course.move((travel(course.time(1)) - travel(course.time())) / course.period());
 }
 
 EndedBy FollowStep::ended(const Sample&, CrossheadCourse& course) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/record/sample.hpp"
 
@@ -32,6 +33,24 @@ namespace {
 
 constexpr int kUndoneAnswers = 3;  // in a row: one answer may mistake a strand that is thrown about for another knot
 
+ProgramStep step_of(const CrossheadMove& move, const Sample& now, double pull_speed) {
+  const std::optional<double> extension = move.extension != 0.0 ? std::optional(move.extension) : std::nullopt;
+  const std::optional<double> load = move.load != 0.0 ? std::optional(move.load) : std::nullopt;
+  const double speed = move.speed > 0.0 ? move.speed : pull_speed;
+  if (load ? *load > balanced_load(now) : extension && *extension > now.extension) {
+    PullStep out;
+    out.speed = speed;
+    out.until.extension = extension;
+    out.until.load = load;
+    return out;
+  }
+  ReturnStep in;
+  in.speed = speed;
+  in.extension = extension.value_or(std::min(0.0, now.extension));
+  in.load = extension || load ? load : 0.0;
+  return in;
+}
+
 /// The slack keeps a period that is meant to be equal from being halved by rounding.
 std::uint64_t commands_per_reading(double sampling_rate, double longest_period) {
   if (!(sampling_rate > 0.0) || !(longest_period > 0.0))
@@ -48,11 +67,14 @@ ProgramRunner::ProgramRunner(Program program, double sampling_rate, double longe
       course_(static_cast<double>(commands_per_reading_) * sampling_rate, limits.load, limits.travel),
       break_detector_(limits.breaks) {
   if (program_.empty()) throw std::invalid_argument("a test program needs a step");
+  const auto pull = std::find_if(program_.begin(), program_.end(), [](auto& step) { return pulls(step->phase()); });
+  pull_speed_ = pull == program_.end() ? PullStep().speed : (*pull)->speed;
   course_.accept(command(0));
 }
 
 Command ProgramRunner::next(const Sample& sample) {
   if (ended()) return command(last().sequence);
+  if (waits()) return last();
   if (sample.sequence != last().sequence)
     throw std::invalid_argument("the sample answers command " + std::to_string(sample.sequence) + ", not command " +
                                 std::to_string(last().sequence));
@@ -61,15 +83,12 @@ Command ProgramRunner::next(const Sample& sample) {
   if (end_by_alarm(sample)) return command(last().sequence);
 
   const bool first = last().sequence == 0;
-  const EndedBy by = first ? EndedBy::kNotYet : program_[step_]->ended(sample, course_);
-  if (by != EndedBy::kNotYet) {
-    if (step_ + 1 == program_.size()) {
-      // A program that only ties ends as programmed even if its knot is gone, but that is how the test ended.
-      end(is_undone(sample) ? EndedBy::kUntangled : by, "");
-      return command(last().sequence);
-    }
-    ++step_;
-  }
+  const bool gives_way = stands_ || (move_ && !prepares(last().phase));
+  const EndedBy by = first       ? EndedBy::kNotYet
+                     : gives_way ? EndedBy::kOperator
+                                 : program_[step_]->ended(sample, course_);
+  if (by != EndedBy::kNotYet && !begin_next_step(by, sample)) return command(last().sequence);
+  if (first && may_lead_from(0)) lead_from(0, sample);
   if (by != EndedBy::kNotYet || first) {
     course_.begin_step(sample);
     break_detector_.begin();
@@ -78,6 +97,42 @@ Command ProgramRunner::next(const Sample& sample) {
   program_[step_]->steer(sample, course_);
   course_.accept(command(last().sequence + 1));
   return last();
+}
+
+/// The next step, which may be a move of the operator; false: there is none.
+bool ProgramRunner::begin_next_step(EndedBy by, const Sample& sample) {
+  stands_ = waits_ = false;
+  if (may_lead_from(step_ + 1)) {
+    lead_from(step_ + 1, sample);
+  } else if (led_) {
+    waits_ = true;
+    led_by_ = by;
+    return false;
+  } else if (step_ + 1 == program_.size()) {
+    // A program that only ties ends as programmed even if its knot is gone, but that is how the test ended.
+    end(is_undone(sample) ? EndedBy::kUntangled : by, "");
+    return false;
+  }
+  ++step_;
+  return true;
+}
+
+/// Whether the operator's move replaces the steps from this one on, before which the specimen is prepared.
+bool ProgramRunner::may_lead_from(std::size_t step) const {
+  return move_ && (step == program_.size() || !prepares(program_[step]->phase()));
+}
+
+void ProgramRunner::lead_from(std::size_t step, const Sample& sample) {
+  program_.erase(program_.begin() + static_cast<std::ptrdiff_t>(step), program_.end());
+  program_.push_back(step_of(*move_, sample, pull_speed_));
+  move_.reset();
+  led_ = true;
+}
+
+bool ProgramRunner::stand() {
+  move_.reset();
+  stands_ = led_ && !waits_;
+  return stands_;
 }
 
 void ProgramRunner::fail(std::string why) {
@@ -117,7 +172,8 @@ bool ProgramRunner::end_by_alarm(const Sample& sample) {
     end(EndedBy::kBreak, parts_too_early() ? phase + ": " + sample.message + kTooEarly : sample.message);
   } else if (undone_answers_ == kUndoneAnswers && !only_ties()) {
     end(EndedBy::kUntangled, phase + ": the knot came undone");
-  } else if (std::abs(sample.load) > limits_.load || std::abs(sample.force_upper) > limits_.load) {
+  } else if (const double force = std::max(std::abs(sample.load), std::abs(sample.force_upper));
+             reached(force, limits_.load, 1.0, kLoadTolerance * limits_.load)) {
     end(EndedBy::kLoad, phase + ": the load is beyond its limit, the load cell's capacity or ends.load");
   } else if (std::abs(last().displacement) >= limits_.travel) {
     end(EndedBy::kTravel, phase + ": the crosshead is at the end of its travel");

@@ -40,7 +40,7 @@ void PerKnot::state(Archive& archive) {
 void Command::state(Archive& archive) {
   archive(sequence, time, displacement, velocity, turn, step);
   archive.choice("phase", phase, last_of(phase));
-  archive(speed, duration, balance, read_cell);
+  archive(speed, duration, stop_load, balance, read_cell);
 }
 
 void Sample::state(Archive& archive) {

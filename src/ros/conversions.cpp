@@ -46,6 +46,7 @@ void copy_command(const From& from, To& to) {
   to.step = from.step;
   to.speed = from.speed;
   to.duration = from.duration;
+  to.stop_load = from.stop_load;
   to.balance = from.balance != 0;
   to.read_cell = from.read_cell != 0;
 }

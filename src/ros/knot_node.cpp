@@ -4,6 +4,7 @@
 #include <knot_utm/ColorBar.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotRecord.h>
+#include <knot_utm/Reset.h>
 #include <knot_utm/SpecimenInfo.h>
 #include <knot_utm/TestStatus.h>
 #include <knot_utm/ViewConfig.h>
@@ -180,11 +181,7 @@ class KnotNode {
     shape_ = node_.advertise<KnotShape>(names::kKnotShape, 10);
     commands_ = subscribe_gated(node_, names::kCrosshead, names::kUtmNode, &KnotNode::on_command, this);
     status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, &KnotNode::on_status, this);
-    reset_ = offer(node_, names::kReset, [this](std::string& said) {
-      put_in(method_);
-      said = "a new specimen";
-      return true;
-    });
+    reset_ = node_.advertiseService(names::kReset, &KnotNode::on_reset, this);
 
     diagnostics_.setHardwareID(method_.material.name);
     diagnostics_.add("physics", this, &KnotNode::diagnose);
@@ -210,10 +207,19 @@ class KnotNode {
     refuse(message, out_of_order(message.sequence, next_));
   }
 
+  bool on_reset(Reset::Request& request, Reset::Response& response) {
+    response.success = static_cast<std::uint8_t>(!testing_ || request.force != 0);
+    response.message = response.success ? "a new specimen" : "a test is running, and would fail: force resets it";
+    if (response.success) put_in(method_);
+    return true;
+  }
+
   void on_status(const TestStatus::ConstPtr& status) {
+    testing_ = status->state == TestStatus::RUNNING || status->state == TestStatus::PAUSED;
     // The recorder wants the shape at the very end, which nobody could foresee.
     if (status->state != TestStatus::ENDED || status->run != run_ || next_ != status->sequence + 1) return;
     show_.show_latest();
+    readings_.end(read_);
     KnotRecord end;
     end.command = last_;
     put_shape(end);
@@ -265,6 +271,7 @@ class KnotNode {
     run_ = 0;
     next_ = 0;
     sample_ = Sample();
+    readings_ = {};
     motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine),
                                    hung_weight(method_.specimen, method_.material),
                                    marks_of(method_.specimen, method_.program));
@@ -294,6 +301,8 @@ class KnotNode {
 
     KnotRecord record = record_of(message, sample_);
     const double start = stamp_.toSec() - command.time;
+    read_ = [=](const Sample& reading) { load_cell_.publish(to_wrench(reading, test_stamp(start, reading.time))); };
+    readings_.add({command, sample_, machine_.substeps(), {}, {}, {}}, read_);
     record.steps.reserve(machine_.substeps().size());
     for (const Sample& step : machine_.substeps()) {
       record.steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
@@ -321,10 +330,6 @@ class KnotNode {
   void publish(const KnotRecord& record) {
     state_.publish(record.answer);
     if (record_.getNumSubscribers() > 0) record_.publish(record);
-    const bool read = record.command.read_cell != 0 || record.command.balance != 0;
-    if (read && load_cell_.getNumSubscribers() > 0) {
-      load_cell_.publish(to_wrench(from_message(record.answer), record.answer.header.stamp));
-    }
     if (!record.shape.points.empty() && shape_.getNumSubscribers() > 0) shape_.publish(record.shape);
   }
 
@@ -346,10 +351,13 @@ class KnotNode {
   Method method_;  ///< method of the present specimen
   TestingMachine machine_;
   SpecimenInfo info_;
-  std::uint32_t run_ = 0;        ///< number of the present test; 0: there is none
-  std::uint64_t next_ = 0;       ///< sequence number of the next command
-  Crosshead last_;               ///< the last command
-  Sample sample_;                ///< the last answer
+  std::uint32_t run_ = 0;   ///< number of the present test; 0: there is none
+  std::uint64_t next_ = 0;  ///< sequence number of the next command
+  bool testing_ = false;    ///< a test is running
+  Crosshead last_;          ///< the last command
+  Sample sample_;           ///< the last answer
+  CellReadings readings_;
+  CellReadings::Take read_;      ///< publishes a reading of this test
   MotionPatternTracker motion_;  ///< motion pattern of this specimen
   ros::Time stamp_;              ///< stamp of the last answer
   Sample diagnosed_;             ///< the answer at the last diagnosis

@@ -27,7 +27,7 @@ void RunBag::add(const Record& record) {
   const Command& command = record.command;
   const Sample& sample = record.answer;
   const ros::Time stamp = test_stamp(0.0, command.time);
-  if (const Sample* reading = cell_reading(record)) add_reading(*reading, stamp);
+  cell_readings_.add(record, [this](const Sample& reading) { add_reading(reading); });
   const Crosshead crosshead = to_message(command, kRun, stamp);
   bag_.write(names::kCrosshead, stamp, crosshead);
   bag_.write(names::kJointStates, stamp, to_joint_state(command, sample, stamp));
@@ -50,12 +50,16 @@ void RunBag::add(const Record& record) {
   }
 }
 
-/// `answered`: stamp of the command. A rod parts between two.
-void RunBag::add_reading(const Sample& reading, const ros::Time& answered) {
+void RunBag::close() {
+  cell_readings_.end([this](const Sample& reading) { add_reading(reading); });
+  bag_.close();
+}
+
+void RunBag::add_reading(const Sample& reading) {
   const bool parted = reading.status == BenchStatus::kBroken;
   if (parted && broken_) return;  // it answers every command with the same
   broken_ = parted;
-  const ros::Time stamp = parted ? test_stamp(0.0, reading.time) : answered;
+  const ros::Time stamp = test_stamp(0.0, reading.time);
   if (parted) bag_.write(names::kKnotState, stamp, to_message(reading, kRun, stamp));
   bag_.write(names::kLoadCell, stamp, to_wrench(reading, stamp));
 }

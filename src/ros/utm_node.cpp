@@ -32,6 +32,7 @@ constexpr double kIdleClockPeriod = 0.1;  // longest time between them
 constexpr double kHealthPeriod = 1.0;
 constexpr double kGoodbye = 0.3;  // for the last messages to leave before the node ends
 
+constexpr double kLongestWait = 0.02;      // for messages, before the next look at what is due
 constexpr double kCatchUp = 0.1;           // wall time that is made up for after a slow step [s]
 constexpr double kLongestPause = 86400.0;  // between two commands, however slow the pace asked for [s]
 constexpr double kGapBetweenTests = 1.0;   // on /clock [s]
@@ -44,9 +45,9 @@ steady_clock::duration to_duration(double seconds) {
 
 /// The status of goals is latched and published at every change of it. By itself the server would publish it by a
 /// timer on /clock, which anybody may set, and which runs as fast as the test does.
-const char* without_timer(const ros::NodeHandle& node) {
-  node.setParam(std::string(names::kRunTest) + "/actionlib_status_frequency", 0.0);
-  return names::kRunTest;
+const char* without_timer(const ros::NodeHandle& node, const char* action) {
+  node.setParam(std::string(action) + "/actionlib_status_frequency", 0.0);
+  return action;
 }
 
 constexpr char kUtmNodeHelp[] =
@@ -93,11 +94,14 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
       launched_(launched.words),
       options_(options),
       actions_(
-          node, without_timer(node), [this](const Actions::GoalHandle& goal) { on_goal(goal); },
+          node, without_timer(node, names::kRunTest), [this](const Actions::GoalHandle& goal) { on_goal(goal); },
           [this](const Actions::GoalHandle& goal) {
             if (active() && goal_ && *goal_ == goal) program_->stop();
           },
           false),
+      moves_(
+          node, without_timer(node, names::kMove), [this](const Moves::GoalHandle& goal) { on_move(goal); },
+          [this](const Moves::GoalHandle& goal) { on_move_cancelled(goal); }, false),
       diagnostics_(node) {
   crosshead_ = advertise_watched<Crosshead>(node_, names::kCrosshead, names::kKnotNode, [this](bool is_there) {
     commands_arrive_ = is_there;
@@ -125,6 +129,7 @@ int UtmNode::spin() {
       if (!start_) {  // not before: who waits for the service or the action, as ROS has it, may begin a test at once
         start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
         actions_.start();
+        moves_.start();
       }
       if (options_.autostart) {
         const std::string why_not = start({});
@@ -189,7 +194,8 @@ std::string UtmNode::start(const StartTest::Request& request) {
     return invalid.what();
   }
   publish_method(method_);
-  if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
+  now_ = clock_now();
+  if (now_ > ros::TIME_MIN) run_start_ = now_.toSec() + kGapBetweenTests;
   ++run_;
   test_ = Test();
   state_ = State::kRunning;
@@ -202,7 +208,7 @@ std::string UtmNode::start(const StartTest::Request& request) {
 double UtmNode::wait_time() const {
   const bool to_be_paced = state_ == State::kRunning && !test_.waiting && options_.real_time_factor > 0.0;
   const double until_due = to_be_paced ? Seconds(test_.due - steady_clock::now()).count() : kIdleClockPeriod;
-  return std::clamp(until_due, 0.0, 0.02);
+  return std::clamp(until_due, 0.0, kLongestWait);
 }
 
 void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
@@ -232,9 +238,11 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   test_.motion_pattern = state.motion_pattern;
   test_.max_penetration = std::max(test_.max_penetration, test_.sample.max_penetration);
   test_.waiting = false;
+  measure_pace();
   progress_.show(test_.sample, *program_, seconds_since(test_.began));
   now_ = state.header.stamp;
   publish_clock(false);
+  report_to_move();
   if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(test_.command, test_.sample, now_));
 }
 
@@ -255,7 +263,7 @@ void UtmNode::recorder_failed(const std::string& why) {
 }
 
 bool UtmNode::may_advance() const {
-  if (!active() || test_.waiting) return false;
+  if (!active() || test_.waiting || program_->waits()) return false;
   if (program_->ended()) return true;
   if (state_ == State::kPaused) return test_.single_steps > 0;
   return options_.real_time_factor <= 0.0 || steady_clock::now() >= test_.due;
@@ -264,6 +272,7 @@ bool UtmNode::may_advance() const {
 void UtmNode::advance() {
   const Command next = program_->next(test_.sample);
   if (program_->ended()) return end();
+  if (program_->waits()) return finish_move(program_->led_by());
   if (state_ == State::kPaused) --test_.single_steps;
   if (options_.real_time_factor > 0.0) {
     const auto period =
@@ -281,6 +290,8 @@ void UtmNode::send(const Command& command) {
 
 void UtmNode::end() {
   state_ = State::kEnded;
+  stands_since_ = steady_clock::now();
+  finish_move(program_->ended_by());
   progress_.end();
   if (program_->reason().empty()) {
     ROS_INFO("the test ended by %s", ended_by_name(program_->ended_by()));
@@ -293,11 +304,17 @@ void UtmNode::end() {
   publish_status();
 }
 
+/// While nothing is tested the clock goes on with the wall, so that who sleeps by it wakes up.
+ros::Time UtmNode::clock_now() const {
+  const bool stands = active() ? program_->waits() : run_ > 0 || !options_.autostart;
+  return std::max(now_ + ros::Duration(stands ? seconds_since(stands_since_) : 0.0), ros::TIME_MIN);
+}
+
 void UtmNode::publish_clock(bool at_once) {
   if (!at_once && seconds_since(clock_published_) < kClockPeriod) return;
   clock_published_ = steady_clock::now();
   rosgraph_msgs::Clock clock;
-  clock.clock = std::max(now_, ros::TIME_MIN);
+  clock.clock = clock_now();
   clock_.publish(clock);
 }
 
@@ -342,21 +359,29 @@ void UtmNode::offer_services() {
   serve(names::kBalance, &UtmNode::active, kNoTest, "the load cell is balanced with the next command",
         [this] { program_->balance(); });
   serve(names::kResume, &UtmNode::paused, kNotPaused, "the test goes on", [this] { pause(false); });
-  serve(names::kStep, &UtmNode::paused, kNotPaused, "the test went on by one command",
-        [this] { ++test_.single_steps; });
-  services_.push_back(offer(node_, names::kPause, [this](std::string& said) {
-    const bool goes_on = paused();
-    said = !active() ? kNoTest : goes_on ? "the test goes on" : "the test is paused";
-    if (active()) pause(!goes_on);
-    return active();
+  serve(names::kPause, &UtmNode::active, kNoTest, "the test is paused", [this] { pause(true); });
+  services_.push_back(offer(node_, names::kStep, [this](std::string& said) {
+    const bool allowed = paused();
+    if (allowed) step();
+    said = allowed ? "the test went on by one command, to " + format_number(test_.sample.time) + " s" : kNotPaused;
+    return allowed;
   }));
 }
 
 void UtmNode::pause(bool paused) {
   state_ = paused ? State::kPaused : State::kRunning;
   test_.single_steps = 0;
-  test_.due = steady_clock::now();
+  begin_pace();
   publish_status();
+}
+
+/// Returns once the physics has answered, which is also how the call ends.
+void UtmNode::step() {
+  ++test_.single_steps;
+  while (ros::ok() && paused() && (test_.waiting || may_advance())) {
+    if (may_advance()) advance();
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kLongestWait));
+  }
 }
 
 void UtmNode::set_pace(MachineConfig& wanted) {
@@ -366,7 +391,7 @@ void UtmNode::set_pace(MachineConfig& wanted) {
     wanted.real_time_factor = options_.real_time_factor;
   }
   options_.real_time_factor = wanted.real_time_factor;
-  test_.due = steady_clock::now();
+  begin_pace();
 }
 
 int run_utm_node(int argc, char** argv) {

@@ -20,22 +20,29 @@ void UtmNode::publish_status() {
   status.phase = phase_name(program_ ? program_->phase() : Phase::kIdle);
   status.time_left = std::numeric_limits<double>::quiet_NaN();
   if (program_) {
-    const double wall = seconds_since(test_.factor_measured);
-    if (wall > 0.9 * kStatusPeriod) {
-      factor_ = (test_.sample.time - test_.factor_time) / wall;
-      test_.factor_measured = Clock::now();
-      test_.factor_time = test_.sample.time;
-    }
     if (state_ == State::kEnded) {
       status.ended_by = ended_by_name(program_->ended_by());
       status.reason = program_->reason();
     }
     status.progress = program_->progress();
-    if (factor_ > 0.0) status.time_left = program_->time_left() / factor_;
+    if (test_.factor > 0.0) status.time_left = program_->time_left() / test_.factor;
   }
-  status.real_time_factor = factor_;
+  status.real_time_factor = test_.factor;
   status_.publish(status);
   if (active()) report_to_goal(status);
+}
+
+void UtmNode::begin_pace() {
+  test_.due = Clock::now();
+  test_.older = test_.newer = {Clock::now(), test_.sample.time};
+}
+
+void UtmNode::measure_pace() {
+  const double wall = seconds_since(test_.older.wall);
+  if (wall > kStatusPeriod) test_.factor = (test_.sample.time - test_.older.time) / wall;
+  if (seconds_since(test_.newer.wall) < kPaceWindow) return;
+  test_.older = test_.newer;
+  test_.newer = {Clock::now(), test_.sample.time};
 }
 
 void UtmNode::report_to_goal(const TestStatus& status) {
@@ -86,14 +93,15 @@ void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   constexpr double kKeepsPace = 0.9;  // of the pace asked for: below it the machine says so
   const double asked = options_.real_time_factor;
-  const bool late = state_ == State::kRunning && asked > 0.0 && factor_ < kKeepsPace * asked;
+  const bool late = state_ == State::kRunning && asked > 0.0 && test_.factor < kKeepsPace * asked;
   if (recorder_failed_) {
     status.summary(DiagnosticStatus::ERROR, "the recorder failed");
   } else if (program_ && program_->failed()) {
     status.summary(DiagnosticStatus::ERROR,
                    std::string("the test ended by ") + ended_by_name(program_->ended_by()) + ": " + program_->reason());
   } else if (late) {
-    status.summary(DiagnosticStatus::WARN, "slower than asked for: a real-time factor of " + format_number(factor_));
+    status.summary(DiagnosticStatus::WARN,
+                   "slower than asked for: a real-time factor of " + short_number(test_.factor));
   } else if (state_ == State::kEnded) {
     status.summary(DiagnosticStatus::OK, std::string("the test ended by ") + ended_by_name(program_->ended_by()));
   } else {
@@ -103,7 +111,7 @@ void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("test", run_);
   status.add("phase", phase_name(program_ ? program_->phase() : Phase::kIdle));
   status.add("time [s]", test_.sample.time);
-  status.add("real-time factor", factor_);
+  status.add("real-time factor", test_.factor);
   status.add("real-time factor asked for", asked);
   status.add("commands", test_.command.sequence);
 }

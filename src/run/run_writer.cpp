@@ -47,6 +47,8 @@ double at(const Eigen::VectorXd& values, Eigen::Index i) {
 /// [h].
 constexpr double kLargestLoopTurn = 6.0;
 
+constexpr double kStopPassed = 0.01;  // a load that passed the crosshead's stop by more is told [of the stop]
+
 bool holds_its_knot(const Results& results) {
   return results.break_place == BreakPlace::kNone && results.knot_type == KnotType::kKept;
 }
@@ -175,6 +177,7 @@ void RunWriter::add_to_files(const Record& record) {
     // A bench that has failed answers with the last good step again.
     if (!samples_.empty() && step.time <= samples_.back().time) continue;
     full_curve_.write(step);
+    follow_stop(record.command, step);
     samples_.push_back(step);
     program_steps_.push_back(record.command.step);
   }
@@ -184,17 +187,27 @@ void RunWriter::add_to_files(const Record& record) {
   if (mounted && record.shape.cols() > 0 && whole) turn_.add(record.shape);
   if (record.shape.cols() > 1 && whole) length_ = length_of_pieces(record.shape, cuts_);
   shapes_.add(record);
-  const Sample* reading = cell_reading(record);
-  if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
-    curve_.write(*reading);
-    readings_.push_back(*reading);
-  }
+  cell_readings_.add(record, [this](const Sample& reading) { add_reading(reading); });
   if (samples_.empty() || sample.time > samples_.back().time) {
     samples_.push_back(sample);
     program_steps_.push_back(record.command.step);
   } else {
     samples_.back() = sample;
   }
+}
+
+void RunWriter::follow_stop(const Command& command, const Sample& step) {
+  const double stop = command.stop_load, sense = command.velocity < 0.0 ? -1.0 : 1.0;
+  const double passed = sense * (balanced_load(step) - stop) / std::abs(stop);
+  if (stop == 0.0 || !(passed > std::max(passed_stop_, kStopPassed))) return;
+  passed_stop_ = passed;
+  stop_ = stop;
+}
+
+void RunWriter::add_reading(const Sample& reading) {
+  if (!readings_.empty() && !(reading.time > readings_.back().time)) return;
+  curve_.write(reading);
+  readings_.push_back(reading);
 }
 
 std::vector<std::string> RunWriter::warnings_of_turn(double weight) const {
@@ -208,6 +221,7 @@ std::vector<std::string> RunWriter::warnings_of_turn(double weight) const {
 
 MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, const ResultsOptions& options) {
   if (further_.close) further_.close();
+  cell_readings_.end([this](const Sample& reading) { add_reading(reading); });
   const Results results = analyse(samples_, readings_, end.ended_by, radius_on_rollers_.has_value(), hung_,
                                   known_.knot_distance, program_steps_);
   RunFacts facts = known_;
@@ -218,6 +232,9 @@ MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, con
   facts.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
   if (facts.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
     facts.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
+  if (passed_stop_ > 0.0)
+    facts.warnings.push_back("the load passed the " + short_number(stop_) + " N at which the crosshead stopped by " +
+                             short_number(100.0 * passed_stop_) + " %");
   for (const std::vector<std::string>& more : {warnings_of_turn(facts.weight), options.warnings})
     facts.warnings.insert(facts.warnings.end(), more.begin(), more.end());
 

@@ -65,6 +65,7 @@ void visit_row(Row& row, Visitor& visit) {
   visit("command_phase", "-", command.phase);
   visit("command_speed", "m/s", command.speed);
   visit("command_duration", "s", command.duration);
+  visit("command_stop_load", "N", command.stop_load);
   visit("command_balance", "-", command.balance);
   visit("command_read_cell", "-", command.read_cell);
   visit.fill(true);
@@ -249,6 +250,19 @@ const Sample* cell_reading(const Record& record) {
   if (parted(record.answer)) return &record.answer;
   const bool read = record.command.read_cell || record.command.balance;
   return read && record.answer.status != BenchStatus::kFailed ? &record.answer : nullptr;
+}
+
+void CellReadings::add(const Record& record, const Take& take) {
+  if (record.command.step != step_) end(take);
+  unread_.reset();
+  step_ = record.command.step;
+  if (const Sample* reading = cell_reading(record)) return take(*reading);
+  if (pulls(record.command.phase) && record.answer.status != BenchStatus::kFailed) unread_ = record.answer;
+}
+
+void CellReadings::end(const Take& take) {
+  if (unread_) take(*unread_);
+  unread_.reset();
 }
 
 std::string samples_file(const std::string& folder) { return (fs::path(folder) / "samples.csv").string(); }

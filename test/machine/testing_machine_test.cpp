@@ -58,6 +58,33 @@ std::string wrong_key(const SpecimenOptions& specimen) {
   return "";
 }
 
+/// Two commands, out to three times the load at which the crosshead stops and back to none.
+TEST(TestingMachine, TheCrossheadStopsWithinACommandAtItsLoadAndStands) {
+  for (const double stiffness : {std::numeric_limits<double>::infinity(), 1e6}) {
+    TestingMachine machine = bench(straight_rod(), GripKind::kClamps, stiffness);
+    machine.respond(Command());
+    Command out = pull(1, 0.1, 1e-3);
+    out.velocity = 1e-2;
+    out.stop_load = 100.0;
+    const Sample there = machine.respond(out);
+    EXPECT_NEAR(there.load, 100.0, 1.0);
+    EXPECT_LT(there.highest_load, 101.0);
+    EXPECT_EQ(there.time, out.time);
+    EXPECT_LT(there.displacement, out.displacement);
+    Command on = pull(2, 0.2, 2e-3);  // already there
+    on.velocity = 1e-2;
+    on.stop_load = 99.0;
+    EXPECT_EQ(machine.respond(on).displacement, there.displacement);
+    Command back = pull(3, 0.3, 0.0);
+    back.velocity = -1e-2;
+    back.stop_load = 20.0;
+    EXPECT_NEAR(machine.respond(back).load, 20.0, 0.2);
+    back = pull(4, 0.4, 0.0);  // without a load to stop at
+    back.velocity = -1e-2;
+    EXPECT_EQ(machine.respond(back).displacement, 0.0);
+  }
+}
+
 /// A slack overhand is a hundred thousand times softer than taut strands: on a soft frame, too, its grip stays where
 /// forces balance, within what the frame's own damping makes at this speed.
 TEST(TestingMachine, OnASoftFrameASlackKnotFollowsTheCrosshead) {

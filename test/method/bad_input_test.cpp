@@ -191,7 +191,9 @@ TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
   EXPECT_THAT(complaint(folder_.string()), Eq("cannot read " + folder_.string() + ": is a directory"));
   EXPECT_THAT(complaint(write("long.yaml", std::string(70000, '#'))), HasSubstr("longer than 65536 characters"));
   EXPECT_THAT(complaint(write("empty.yaml", "")), HasSubstr("empty.yaml: the file is empty, but must be a map"));
-  EXPECT_THAT(complaint(write("list.yaml", "[1, 2]")), HasSubstr("list.yaml: the file is [1, 2], but must be a map"));
+  EXPECT_THAT(complaint(write("list.yaml", "[1, 2]")), HasSubstr("list.yaml: the file is a list, but must be a map"));
+  EXPECT_THAT(complaint(write("text.yaml", "root:x:0:0")),
+              HasSubstr("text.yaml: the file is a text, but must be a map"));
   EXPECT_THAT(
       complaint(write("broken.yaml", "specimen:\n  knot: [\nmaterial: x")),
       AllOf(HasSubstr("broken.yaml: line "), HasSubstr("end of sequence flow not found"), Not(HasSubstr("\n"))));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -173,13 +174,13 @@ TEST(ProgramRunner, AKnotThatComesUndoneBeforeItIsPulledEndsTheTest) {
 TEST(ProgramRunner, OverloadCountsTheTrueForceInBothDirections) {
   ProgramRunner::Limits limits;
   limits.load = 20.0;
-  for (const double force : {20.1, -20.1, 20.0, -20.0}) {
+  for (const double force : {20.1, -20.1, 20.0, -20.0, 19.9, -19.9}) {
     ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
     Sample sample;
     sample.force_upper = force;
     sample.load = force - 10.0 * (force > 0.0 ? 1.0 : -1.0);  // balanced at half of it
     program.next(sample);
-    EXPECT_EQ(program.ended_by(), std::abs(force) > 20.0 ? EndedBy::kLoad : EndedBy::kNotYet) << force;
+    EXPECT_EQ(program.ended_by(), std::abs(force) >= 20.0 ? EndedBy::kLoad : EndedBy::kNotYet) << force;
   }
 }
 
@@ -315,6 +316,123 @@ TEST(TwistStep, TheWorkOfItsTorqueOnTwoStrandsIsStoredInThem) {
   // Frames alone store less: the strands also bend, and stretch as they go around.
   EXPECT_GT(gained, 1.2 * all.back().twisting_energy);
   EXPECT_NEAR(work, gained, 0.01 * gained);  // the trapezoidal rule and drag
+}
+
+/// Stops where a machine would (Command::stop_load).
+struct StoppingBench : FakeBench {
+  Sample respond(Command command) {
+    const double sense = command.velocity < 0.0 ? -1.0 : 1.0, stop = command.stop_load / stiffness;
+    if (sense * (command.displacement - stop) > 0.0) command.displacement = stop;
+    return FakeBench::respond(command);
+  }
+};
+
+TEST(ProgramRunner, EveryCommandThatMovesSaysAtWhichLoadItStops) {
+  ProgramRunner::Limits limits;
+  limits.load = 5.0;
+  auto to_load = pull(0.01);
+  to_load.until.load = 3.0;
+  auto back = step<ReturnStep>(0.0033);
+  back.load = 1.0;
+  ProgramRunner program({BalanceStep(), to_load, back, pull(1.0)}, 3.0, 0.1, limits);
+  const Answered result = run(StoppingBench(), program);
+  for (const Command& command : result.commands) {
+    const double expected = command.velocity == 0.0 ? Sample::kNone : std::array{0.0, 3.0, 1.0, 5.0}[command.step];
+    EXPECT_TRUE(command.stop_load == expected || std::isnan(expected)) << command.sequence;
+  }
+  EXPECT_EQ(program.ended_by(), EndedBy::kLoad);
+  EXPECT_EQ(result.samples.back().load, 5.0);
+}
+
+/// Commands that the crosshead of a stiff specimen does not finish: the next ones go on from where it stands.
+TEST(ProgramRunner, GoesOnFromWhereTheCrossheadStopped) {
+  auto cycle = step<CycleStep>(0.0033);
+  cycle.load = fields::LowHigh{10.0, 100.0};
+  cycle.cycles = 2;
+  StoppingBench bench;
+  bench.stiffness = 1e6;
+  ProgramRunner program({cycle}, 3.0, 0.1, {});
+  const Answered result = run(bench, program);
+  EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
+  double least = 1e9, most = 0.0;
+  for (std::size_t i = result.samples.size() / 2; i < result.samples.size(); ++i) {
+    least = std::min(least, result.samples[i].load);
+    most = std::max(most, result.samples[i].load);
+  }
+  EXPECT_NEAR(least, 10.0, 0.09);
+  EXPECT_NEAR(most, 100.0, 0.09);
+}
+
+/// What the bench answers until the program has ended, or waits for its operator.
+std::vector<Sample> led(ProgramRunner& program) {
+  StoppingBench bench;
+  std::vector<Sample> samples;
+  Command command = program.last();
+  while (!program.ended() && samples.size() < 1000) {
+    samples.push_back(bench.respond(command));
+    command = program.next(samples.back());
+    if (program.waits()) break;
+  }
+  return samples;
+}
+
+TEST(ProgramRunner, LedByTheOperatorItPreparesTheSpecimenThenGoesThereAndWaits) {
+  ProgramRunner program(paper_program(), 3.0, 0.1, {});
+  program.lead({0.0, 20.0, 0.001});
+  std::vector<Sample> samples = led(program);
+  EXPECT_EQ(program.led_by(), EndedBy::kLoad);
+  EXPECT_NEAR(samples.back().load, 20.0, 0.02);
+  std::vector<Phase> phases;
+  for (const Sample& sample : samples)
+    if (phases.empty() || phases.back() != sample.phase) phases.push_back(sample.phase);
+  EXPECT_EQ(phases,
+            (std::vector{Phase::kIdle, Phase::kTie, Phase::kRelease, Phase::kMount, Phase::kBalance, Phase::kPull}));
+  const Command there = program.last();
+  EXPECT_EQ(program.next(samples.back()).sequence, there.sequence);  // nothing to do
+  program.stop();
+  EXPECT_EQ(program.ended_by(), EndedBy::kOperator);
+}
+
+TEST(ProgramRunner, LedOutAndInItGivesUpWhatItDidAndStandsWhereItIsToldTo) {
+  ProgramRunner program({pull(0.1)}, 3.0, 0.1, {});
+  StoppingBench bench;
+  Command command = program.last();
+  const auto go = [&](const auto& until) {
+    Sample sample;
+    for (int i = 0; i < 1000 && !program.waits() && !until(); ++i) {
+      sample = bench.respond(command);
+      command = program.next(sample);
+    }
+    return sample;
+  };
+  const auto forever = [] { return false; };
+  go([&] { return command.displacement > 0.01; });
+  program.lead({0.02, 1e6, 0.0});  // an extension, before that load
+  EXPECT_NEAR(go(forever).extension, 0.02, 0.0033 * program.period());
+  EXPECT_EQ(program.led_by(), EndedBy::kExtension);
+  program.lead({0.0, 5.0, 0.01});  // a load, inwards
+  command = program.next(bench.respond(command));
+  EXPECT_LT(command.velocity, 0.0);
+  EXPECT_NEAR(go(forever).load, 5.0, 0.03);
+  program.lead({});  // back
+  command = program.next(bench.respond(command));
+  EXPECT_NEAR(go(forever).load, 0.0, 0.01);
+  program.lead({0.1, 0.0, 0.0});
+  command = program.next(bench.respond(command));
+  EXPECT_GT(command.velocity, 0.0);
+  EXPECT_TRUE(program.stand());
+  const double place = go(forever).displacement;
+  EXPECT_EQ(program.led_by(), EndedBy::kOperator);
+  EXPECT_LT(place, 0.1);
+  EXPECT_FALSE(program.ended());
+}
+
+TEST(ProgramRunner, AMoveThatIsTakenBackBeforeItBeginsChangesNothing) {
+  ProgramRunner program(paper_program(), 3.0, 0.1, {}), usual(paper_program(), 3.0, 0.1, {});
+  program.lead({0.0, 20.0, 0.0});
+  EXPECT_FALSE(program.stand());
+  EXPECT_EQ(led(program).size(), led(usual).size());
+  EXPECT_EQ(program.ended_by(), EndedBy::kExtension);
 }
 
 }  // namespace

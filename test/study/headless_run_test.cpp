@@ -12,6 +12,7 @@
 #include "complaint.hpp"
 #include "knot_utm/analysis/statistics.hpp"
 #include "knot_utm/method/method_keys.hpp"
+#include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/batch.hpp"
 #include "knot_utm/words/invalid_input.hpp"
@@ -66,6 +67,32 @@ TEST_F(HeadlessRun, InterruptedItLeavesWhatWasMeasured) {
   EXPECT_EQ(whole.find(curve()), 0u);
   EXPECT_THAT(read_whole(options.folder + "/result.yaml"), HasSubstr("ended_by: operator\nreason: \"interrupted\"\n"));
   EXPECT_FALSE(has_complete_result(options.folder));
+}
+
+/// A rod of nylon so stiff that its load grows by 195 N from one command to the next, and by twice as much from one
+/// reading of the cell to the next.
+TEST_F(HeadlessRun, ALimitIsALimitAndThePeakIsItsReading) {
+  const std::string usual = "program=[{balance: {}}, {pull: {speed: 1.6e-3, until: {extension: 0.01}}}]";
+  const std::string to_load = "program=[{balance: {}}, {pull: {speed: 1.6e-3, until: {load: 200}}}]";
+  const std::string compliant = "machine.stiffness=1e5";
+  for (const std::vector<std::string>& changes : std::vector<std::vector<std::string>>{
+           {"ends.load=200", usual}, {to_load}, {"ends.load=200", compliant, usual}, {compliant, to_load}}) {
+    std::vector<std::string> all{"material=nylon", "specimen.length=0.1"};
+    all.insert(all.end(), changes.begin(), changes.end());
+    options.overwrite = true;
+    const HeadlessOutcome outcome =
+        run_headless(load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml", all), options);
+    EXPECT_EQ(outcome.ended, EndedBy::kLoad);
+    const YAML::Node result = YAML::LoadFile(options.folder + "/result.yaml");
+    const double peak = result["peak_force"].as<double>();
+    EXPECT_NEAR(peak, 200.0, 2.0) << all.back();
+    EXPECT_EQ(result["warnings"].size(), 0u);
+    // The last row of the curve is the end of the pull, and the peak.
+    const std::vector<CurveRow> rows = read_curve(options.folder + "/curve.csv");
+    EXPECT_EQ(rows.back().load, peak);
+    EXPECT_EQ(rows.back().extension, result["peak_extension"].as<double>());
+    EXPECT_NEAR(rows.back().load / rows.back().extension, result["secant_stiffness"].as<double>(), 2e-3 * peak * 1e4);
+  }
 }
 
 TEST_F(HeadlessRun, ThatGaveUpSaysWhy) {

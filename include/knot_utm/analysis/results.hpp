@@ -96,7 +96,7 @@ struct Results {
 
   // Readings of the pull. Its origin is the state from which it began (pull_readings.hpp).
   std::optional<double> steady_force;       ///< mean of F over the second half of the extension, where F is steady [N]
-  std::optional<double> peak_extension;     ///< s at the peak [m]
+  std::optional<double> peak_extension;     ///< s at the reading with the largest load [m]
   std::optional<double> energy_to_peak;     ///< work up to the peak [J]
   std::optional<double> energy_to_break;    ///< work up to the break, where the rod broke [J]
   std::optional<double> chord_stiffness;    ///< from 10 % to 50 % of the peak [N/m]

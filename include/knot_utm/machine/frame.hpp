@@ -38,6 +38,8 @@ class Frame {
   /// Never in steps so short that a wave along taut strands bears all that the grip can gain.
   bool passed_balance(double moved, double grip, double displacement, double force, double length, double dt,
                       double drag, double least) const;
+  /// Force that the specimen gains until the grip is at rest, once the crosshead stands at D [N].
+  double still_to_come(double grip, double displacement, double force, double length) const;
   /// After an accepted step that moved the grip by `moved` [m] and changed its force by `gained` [N].
   void follow(double moved, double gained, double length);
 

@@ -75,7 +75,7 @@ class CrossheadCourse {
 
   /// Begins a leg with this velocity. Places are computed from the beginning of the leg, so that rounding does not add
   /// up.
-  void move(const Sample& now, double velocity);
+  void move(double velocity);
   /// Turns the upper clamp from where it is, at this rate [rad/s].
   void turn(double rate) { turn_leg_ = {last_.sequence, last_.turn, rate}; }
   void balance() { balance_next_ = true; }  ///< with the next command
@@ -84,14 +84,15 @@ class CrossheadCourse {
   double velocity_to_extension(double left, double fastest) const;
   /// Distance from an extension within which it is reached [m].
   double extension_tolerance(double fastest) const;
-  /// Magnitude of the velocity towards a load. `creeps`: go slowly as long as no slope is known.
+  /// Magnitude of the velocity towards a load, at which the crosshead stops. `creeps`: go slowly as long as no slope is
+  /// known.
   double speed_to_load(const Sample& now, double load, double fastest, bool creeps);
   /// The load that velocity_at_load() keeps from now on [N]; at first that at the beginning of the step.
   void keep_load(double load) { wanted_load_ = load; }
   double velocity_at_load(const Sample& now, double fastest);
   /// Velocity with which the load grows at a rate [N/s], and then stays at `end` [N]. If the crosshead is at its
   /// highest speed and the load lags behind, it goes on from the present load: what counts is the rate, not a time
-  /// table.
+  /// table. The crosshead stops at `end`.
   double velocity_at_load_rate(const Sample& now, double rate, double fastest,
                                double end = std::numeric_limits<double>::infinity());
   /// Forgets the stiffness of the specimen, which is another one after a turning point.
@@ -99,19 +100,24 @@ class CrossheadCourse {
 
   // For the runner of the program.
   void begin_step(const Sample& now);
-  /// Takes account of a sample. Loads that are remembered are converted to its zero; returns whether that has moved.
+  /// Takes account of a sample, before which the crosshead may have stopped or moved by itself. Loads that are
+  /// remembered are converted to its zero; returns whether that has moved.
   bool take(const Sample& now);
-  /// Writes velocity, displacement and turn of the present leg at the time of `command` into it.
+  /// Writes velocity, displacement and turn of the present leg at the time of `command` into it, and the load at which
+  /// the crosshead stops: that to which it goes, but none beyond the most.
   void write_motion(Command& command) const;
   void accept(const Command& command);
   double seconds(std::uint64_t commands) const { return static_cast<double>(commands) / command_rate_; }
 
  private:
+  static constexpr double kNoLoad = std::numeric_limits<double>::quiet_NaN();
+
   double command_rate_, most_load_, most_travel_;
   Command last_;
   std::uint64_t begin_ = 0;  // the last command before the step
   double begin_load_ = 0.0, begin_turn_ = 0.0;
   double wanted_load_ = 0.0;     // that is kept, or grows at a rate [N]
+  double end_load_ = kNoLoad;    // to which the crosshead goes [N]
   double balance_offset_ = 0.0;  // of the last sample [N]
   bool balance_next_ = false;
   // Growth of the extension over that of the displacement in the last command that moved; 1 on a rigid frame.

@@ -39,6 +39,14 @@ class BreakDetector {
   double peak_ = 0.0;  // [N]
 };
 
+/// Where an operator sends the crosshead: to an extension or a load, out or in, whichever it reaches first. Neither of
+/// them: back until one of them is 0.
+struct CrossheadMove {
+  double extension = 0.0;  ///< s; 0: none [m]
+  double load = 0.0;       ///< balanced; 0: none [N]
+  double speed = 0.0;      ///< 0: that of the program's first pull [m/s]
+};
+
 /// The test program as a state machine: it gets samples and gives commands, and depends on nothing else.
 ///
 /// Commands come at a fixed period, 1/(k f) with f the cell's sampling rate and k the smallest whole number for
@@ -48,8 +56,8 @@ class BreakDetector {
 ///
 /// Each step says what the crosshead does in it, and when it ends (program/program.hpp).
 /// Loads are true balanced forces (balanced_load), not readings. LoadControl keeps, follows and meets them with a
-/// crosshead that is never faster than `speed`. A load is met within 0.1 % of it (of the range of a cycle), unless the
-/// specimen stiffens within one command.
+/// crosshead that is never faster than `speed`. A load is met within 0.1 % of it (of the range of a cycle): where the
+/// specimen stiffens within one command, the crosshead stops there (Command::stop_load).
 ///
 /// The test ends when the last step has ended. It ends earlier if the rod parts, the load falls as Limits::breaks says
 /// (judged in steps that can break, while the crosshead does not return), the bench fails, a true force or a reading
@@ -78,6 +86,13 @@ class ProgramRunner {
 
   void stop() { end(EndedBy::kOperator, "stopped by the operator"); }  ///< the test ends now
   void balance() { course_.balance(); }                                ///< by the operator: the next command balances
+  /// By the operator: the crosshead goes there once the specimen is prepared, in place of what is left of the program.
+  void lead(const CrossheadMove& move) { move_ = move; }
+  /// By the operator: the crosshead stands. False: it was not being led, and the program goes on.
+  bool stand();
+  /// The crosshead stands where it was led. The program gives no command before it is led again or stopped.
+  bool waits() const { return waits_ && !move_ && !ended(); }
+  EndedBy led_by() const { return led_by_; }  ///< what it reached; kOperator: it was to stand
   /// The plateau of the pull is settled: the test ends now, which is no failure. `where`: one line about it.
   void plateau_settled(std::string where) { end(EndedBy::kPlateau, std::move(where)); }
   /// The machine is lost: the test has ended by the solver, whatever command came before.
@@ -100,6 +115,9 @@ class ProgramRunner {
 
  private:
   void end(EndedBy by, std::string reason);
+  bool begin_next_step(EndedBy by, const Sample& sample);
+  bool may_lead_from(std::size_t step) const;
+  void lead_from(std::size_t step, const Sample& sample);
   bool end_by_alarm(const Sample& sample);
   bool only_ties() const;
   bool parts_too_early() const;
@@ -116,6 +134,12 @@ class ProgramRunner {
   BreakDetector break_detector_;
   EndedBy ended_by_ = EndedBy::kNotYet;
   std::string reason_;
+  std::optional<CrossheadMove> move_;  ///< that is to begin
+  double pull_speed_;                  ///< [m/s]
+  bool led_ = false;                   ///< a move was the last to begin
+  bool stands_ = false;                ///< it is to end
+  bool waits_ = false;                 ///< it has ended
+  EndedBy led_by_ = EndedBy::kNotYet;
 };
 
 /// Runs a whole test, or the rest of one: exchanges commands and samples with the bench until the test has ended.

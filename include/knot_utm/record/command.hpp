@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "knot_utm/numeric/archive.hpp"
 
@@ -24,6 +25,9 @@ struct Command {
   Phase phase = Phase::kIdle;
   double speed = 0.0;      ///< of the step: tie: speed of the tail grips [m/s]
   double duration = 0.0;   ///< of the step: release [s]
+  /// Balanced load at which the crosshead stops, and stands until `time`: moving outwards where the load rises to it,
+  /// moving inwards where it falls to it; NaN: none [N]
+  double stop_load = std::numeric_limits<double>::quiet_NaN();
   bool balance = false;    ///< zero the load cell and the extension before moving on
   bool read_cell = false;  ///< `time` is a sampling instant of the load cell: `load` is its reading
 

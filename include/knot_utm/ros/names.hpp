@@ -32,11 +32,12 @@ inline constexpr char kBalance[] = "utm/balance";
 inline constexpr char kPause[] = "utm/pause";
 inline constexpr char kResume[] = "utm/resume";
 inline constexpr char kStep[] = "utm/step";
-inline constexpr char kReset[] = "knot/reset";
+inline constexpr char kReset[] = "knot/reset";  ///< Reset
 inline constexpr char kSave[] = "recorder/save";
 
 // Actions
 inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test, until all of it is recorded
+inline constexpr char kMove[] = "utm/move";         ///< Move: leads the crosshead in a running test
 
 // Parameters that the nodes set
 /// set by utm_node: what a test is, {name: ..., method: ..., out: ...} (method_setup.hpp)

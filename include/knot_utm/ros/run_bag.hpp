@@ -90,7 +90,7 @@ class BagWriter {
 
 /// Writes test.bag: the topics of one test, at the stamps of their headers. Tests with and without ROS give the same
 /// bag. It has utm/crosshead, utm/joint_states and knot/state for every command, utm/load_cell for every reading
-/// (cell_reading), and knot/shape at sampling instants. The load cell is also read in the time step in which a rod
+/// (CellReadings), and knot/shape at sampling instants. The load cell is also read in the time step in which a rod
 /// parts, and the bag has a knot/state for that step, too.
 ///
 /// `rosbag play`, rviz and panel_node can show the bag while nothing else runs. For this it contains utm/method,
@@ -103,7 +103,7 @@ class RunBag {
   RunBag(const std::string& file, const Method& method)
       : RunBag(file, method, specimen_centreline(method.specimen, method.material, method.machine, method.physics)) {}
   void add(const Record& record);
-  void close() { bag_.close(); }
+  void close();
 
   std::uint64_t messages() const { return bag_.messages(); }  ///< number of messages written so far
 
@@ -111,7 +111,7 @@ class RunBag {
   static constexpr std::uint32_t kRun = 1;  ///< number of its one test, whichever it was of the node that ran it
 
   RunBag(const std::string& file, const Method& method, const Centreline& centreline);
-  void add_reading(const Sample& reading, const ros::Time& answered);
+  void add_reading(const Sample& reading);
   void add_status(const Record& record, const ros::Time& stamp);
   void add_picture(const Record& record, const ros::Time& stamp);
 
@@ -122,6 +122,7 @@ class RunBag {
   Grips grips_;
   Vec3 crosshead_;  ///< at the beginning of the test [m]
   ScenePicture picture_;
+  CellReadings cell_readings_;
   bool begun_ = false;
   bool broken_ = false;
   MotionPatternTracker motion_;

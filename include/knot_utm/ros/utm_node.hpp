@@ -6,6 +6,7 @@
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotState.h>
 #include <knot_utm/MachineConfig.h>
+#include <knot_utm/MoveAction.h>
 #include <knot_utm/RecorderStatus.h>
 #include <knot_utm/RunTestAction.h>
 #include <knot_utm/SpecimenInfo.h>
@@ -44,6 +45,7 @@ struct UtmOptions {
 class UtmNode {
  public:
   static constexpr double kStatusPeriod = 0.2;  ///< wall time between two status messages [s]
+  static constexpr double kPaceWindow = 2.0;    ///< wall time over which the pace is measured [s]
 
   /// `launched`: the setup of a test of which nothing else is asked.
   UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options);
@@ -55,6 +57,7 @@ class UtmNode {
  private:
   using Clock = std::chrono::steady_clock;
   using Actions = actionlib::ActionServer<RunTestAction>;
+  using Moves = actionlib::ActionServer<MoveAction>;
   enum class State { kIdle, kRunning, kPaused, kEnded };  ///< numbered as in TestStatus
 
   void on_specimen(const SpecimenInfo::ConstPtr& specimen);
@@ -63,6 +66,8 @@ class UtmNode {
   bool on_start(StartTest::Request& request, StartTest::Response& response);
   void offer_services();
   void on_goal(Actions::GoalHandle goal);
+  void on_move(Moves::GoalHandle goal);
+  void on_move_cancelled(const Moves::GoalHandle& goal);
 
   bool active() const { return state_ == State::kRunning || state_ == State::kPaused; }
   bool paused() const { return state_ == State::kPaused; }
@@ -74,17 +79,23 @@ class UtmNode {
   std::string start(const StartTest::Request& request);
   bool failed() const { return recorder_failed_ || test_.physics_died || (program_ && program_->failed()); }
   void pause(bool paused);
+  void step();
+  void begin_pace();
+  void measure_pace();
   void advance();
   void send(const Command& command);
   void physics_died();
   void recorder_failed(const std::string& why);
   void end_launch_of_test();
   void end();
+  ros::Time clock_now() const;
   void publish_clock(bool at_once);
   void publish_method(const Method& method);
   void publish_status();
   void report_to_goal(const TestStatus& status);
   void finish_goal();
+  void report_to_move();
+  void finish_move(EndedBy by);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void set_pace(MachineConfig& wanted);
   double wait_time() const;  ///< wall time until the next action that no message triggers [s]
@@ -101,8 +112,11 @@ class UtmNode {
     bool recorder_complete = false;
     Clock::time_point began = Clock::now();
     Clock::time_point due = Clock::now();  ///< time at which the next command may be sent
-    Clock::time_point factor_measured = Clock::now();
-    double factor_time = 0.0;  ///< test time at which the factor was last measured [s]
+    struct {
+      Clock::time_point wall = Clock::now();
+      double time = 0.0;  ///< of the test [s]
+    } older{}, newer{};   ///< answers, of which the older one is a pace window back or two, or where the test went on
+    double factor = std::numeric_limits<double>::quiet_NaN();  ///< test time over wall time since the older one
   };
 
   ros::NodeHandle node_;
@@ -119,13 +133,13 @@ class UtmNode {
   double run_start_ = 0.0;  ///< beginning of the test on /clock [s]
   bool recorder_failed_ = false;
   std::string folder_;  ///< of the recorder's files or, before it has said it, the one that it will make; empty: none
-  ros::Time now_;       ///< time on /clock
+  ros::Time now_;       ///< time on /clock of the last answer
+  Clock::time_point stands_since_ = Clock::now();  ///< since when no test runs
 
   ProgressLine progress_{stderr};  ///< on the terminal of the launch
   Clock::time_point clock_published_;
   Clock::time_point status_published_;
   Clock::time_point diagnosed_;
-  double factor_ = std::numeric_limits<double>::quiet_NaN();  ///< recent ratio of test time to wall time
 
   ros::Publisher crosshead_, joint_states_, status_, method_text_, clock_;
   ros::Subscriber states_, specimens_, recorder_;
@@ -133,6 +147,8 @@ class UtmNode {
   std::vector<ros::ServiceServer> services_;
   std::optional<Actions::GoalHandle> goal_;  ///< its test runs, or is still being recorded
   Actions actions_;
+  std::optional<Moves::GoalHandle> move_;  ///< the crosshead goes there, or will
+  Moves moves_;
   diagnostic_updater::Updater diagnostics_;
   dynamic_reconfigure::Server<MachineConfig> pace_;
 };

@@ -76,7 +76,7 @@ struct MadeResults {
 };
 
 /// Makes the files of a run from its records, in the folder that it has begun (begin_run_folder):
-///   curve.csv        one row for each reading of the load cell (cell_reading)
+///   curve.csv        one row for each reading of the load cell (CellReadings)
 ///   curve_full.csv   one row for each accepted time step
 ///   result.yaml, and final_shape.csv where the last shape is known
 ///   shapes.csv       where records have readings of the rod (ShapeSeries)
@@ -93,7 +93,9 @@ class RunWriter {
  private:
   RunWriter(const std::string& folder, const Method& method, const Centreline& drawn);
   void add_to_files(const Record& record);
+  void add_reading(const Sample& reading);
   std::vector<std::string> warnings_of_turn(double weight) const;  // one, where the loop turned far
+  void follow_stop(const Command& command, const Sample& step);
 
   std::string folder_;
   FurtherWriter further_;
@@ -106,9 +108,11 @@ class RunWriter {
   double weight_per_length_ = 0.0;           // weight of the rod per length [N/m]
   double length_ = 0.0;                      // length of all ropes in the last known shape [m]
   LoopTurn turn_;                            // turning of a loop on rollers since it was mounted
+  double passed_stop_ = 0.0, stop_ = 0.0;    // largest share by which a load passed a stop of the crosshead, that stop
   std::optional<double> radius_on_rollers_;  // radius of the rod [m]; empty: the specimen is not a loop on rollers
   double hung_ = 0.0;                        // weight on it [N]
   bool far_side_held_ = false;
+  CellReadings cell_readings_;
   CurveWriter curve_, full_curve_;
   ShapeSeries shapes_;
 };

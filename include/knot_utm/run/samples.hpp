@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,20 @@ struct Record {
 /// cell, and also where the cell was balanced, so that the curve contains its zero. The time step in which the rod
 /// parted ends the curve, mostly between two sampling instants. A machine that failed gives no row.
 const Sample* cell_reading(const Record& record);
+
+/// The rows of curve.csv, in order. Where a step that pulls ends between two sampling instants, the cell is read once
+/// more, without its errors, as where the rod parts: the largest load is often the last one.
+class CellReadings {
+ public:
+  using Take = std::function<void(const Sample& reading)>;
+
+  void add(const Record& record, const Take& take);  ///< with the readings that this record shows
+  void end(const Take& take);                        ///< with the last one, if there is one more
+
+ private:
+  std::optional<Sample> unread_;  ///< the last answer to a step that pulls
+  int step_ = -1;                 ///< that step
+};
 
 /// Whether a command's record has the rod's shape: at every reading of the load cell, and once the rod has parted.
 inline bool shape_is_due(const Command& command, const Sample& answer) {

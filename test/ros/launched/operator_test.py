@@ -29,7 +29,7 @@ class OperatorTest(unittest.TestCase):
         cls.addClassCleanup(cls.launch.__exit__)
         wait_for('the master', lambda: cls.launch.answers('utm_node'))
         os.environ.update(cls.launch.environment)
-        global rospy, client, msg, StartTest, Trigger, Client, GoalStatus, SimpleActionClient, TFMessage, MarkerArray
+        global rospy, client, msg, Reset, StartTest, Trigger, Client, GoalStatus, SimpleActionClient, TFMessage, MarkerArray
         # Not before: they take the master's address when they are loaded.
         import client
         import knot_utm.msg as msg
@@ -37,7 +37,7 @@ class OperatorTest(unittest.TestCase):
         from actionlib import GoalStatus, SimpleActionClient
         from diagnostic_msgs.msg import DiagnosticArray
         from dynamic_reconfigure.client import Client
-        from knot_utm.srv import StartTest
+        from knot_utm.srv import Reset, StartTest
         from rosgraph_msgs.msg import Clock, Log
         from std_srvs.srv import Trigger
         from tf2_msgs.msg import TFMessage
@@ -153,13 +153,15 @@ class OperatorTest(unittest.TestCase):
         self.state.wait('holds', lambda s: s.run == 2 and s.phase == 'hold' and s.load > 1.0)
         self.assertTrue(client.call('utm/balance', Trigger).success)
         self.state.wait('no load', lambda s: s.phase == 'hold' and abs(s.load) < 1e-6 * abs(s.force_upper))
-        self.assertTrue(client.call('utm/pause', Trigger).success)
+        for _ in range(2):
+            self.assertEqual(client.call('utm/pause', Trigger).message, 'the test is paused')
         before = self.status.wait('paused', lambda s: s.state == s.PAUSED).sequence
         self.state.wait('the answer that was under way', lambda s: s.sequence == before)
         self.assertEqual(self.status.wait_for_more(3).sequence, before)
-        self.assertTrue(client.call('utm/step', Trigger).success)
-        self.state.wait('one step', lambda s: s.sequence == before + 1)
+        said = client.call('utm/step', Trigger).message
+        self.assertIn(', to %.17g s' % self.state.wait('one step', lambda s: s.sequence == before + 1).time, said)
         self.assertEqual(self.status.wait_for_more(3).sequence, before + 1)
+        self.assertFalse(client.call('knot/reset', Reset).success)
         self.assertTrue(client.call('utm/resume', Trigger).success)
         self.state.wait('goes on', lambda s: s.sequence > before + 3)
         self.assertIn('success: True', self.tool('rosservice', 'call', '/recorder/save'))
@@ -171,6 +173,9 @@ class OperatorTest(unittest.TestCase):
         self.assertTrue(client.call('utm/stop_test', Trigger).success)
         status = self.ended(2)
         self.assertEqual(status.ended_by, 'operator')
+        now = rospy.get_rostime()
+        rospy.sleep(0.3)  # the clock goes on between two tests
+        self.assertGreaterEqual((rospy.get_rostime() - now).to_sec(), 0.3)
         self.assertEqual(self.recorder.last.recorded, status.sequence + 1)
         self.assertEqual(subprocess.run(['rosbag', 'check', out + '/test.bag'], check=False).returncode, 0)
         text = self.tool('rostopic', 'echo', '-b', out + '/test.bag', '-p', '/knot/state')
@@ -227,7 +232,7 @@ class OperatorTest(unittest.TestCase):
     def test_6_a_specimen_that_is_taken_out_ends_the_test(self):
         goal, feedback, end = self.goal()
         wait_for('feedback', lambda: feedback)
-        self.assertTrue(client.call('knot/reset', Trigger).success)
+        self.assertTrue(client.call('knot/reset', Reset, force=True).success)
         state, result, text = end()
         self.assertEqual((state, result.ended_by), (GoalStatus.ABORTED, 'solver'))
         self.assertIn('reset', text)
