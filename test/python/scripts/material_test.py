@@ -35,8 +35,7 @@ def solved(slopes, ends, s, y, p=None):
     return found
 
 
-def end_of_cantilever(bending, weight, overhang):
-    """Its drop, and how far it is from the clamp along the level."""
+def end_of_cantilever(bending, weight, overhang):  # how far it is below the clamp, and beside it
     def slopes(s, y):  # of the angle below the level, its slope, down, along
         return np.array([y[1], -weight / bending * (overhang - s) * np.cos(y[0]), np.sin(y[0]), np.cos(y[0])])
 
