@@ -243,6 +243,7 @@ double jump_interval(const Pull& pull) { return 0.5 * kSudden * pull.front().kno
 std::optional<Drop> jump(const Pull& pull, bool on_rollers, const HiddenRod& hidden, std::size_t begin) {
   if (pull.empty() || !may_have_jumped(hidden, begin)) return std::nullopt;
   const double interval = jump_interval(pull);
+  if (!(interval > 0.0)) return std::nullopt;  // a single knot
   const HiddenRod kept = as_kept(pull, hidden, interval, begin);
   const std::vector<std::size_t> lowest = lowest_behind(pull, interval, begin);
   double most = 1.0;

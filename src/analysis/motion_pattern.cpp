@@ -165,8 +165,10 @@ void MotionPatternTracker::follow_slope(double extension, double before) {
   }
 }
 
+/// A single knot in a line may have been tightened so far.
 bool MotionPatternTracker::vanished() const {
-  return std::any_of(excess_.begin(), excess_.end(),
+  return std::isfinite(pull_.front().knot_distance) &&
+         std::any_of(excess_.begin(), excess_.end(),
                      [](const Excess& knot) { return knot.last < kVanished * knot.tied; });
 }
 

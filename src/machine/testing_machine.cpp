@@ -331,6 +331,11 @@ struct TestingMachine::Impl {
     s.load = s.highest_load = s.lowest_load = cell.balanced(s.force_upper);
     s.balance_offset = cell.offset();
     s.tail_force = s.excess_length = PerKnot::unknown(static_cast<std::size_t>(knot_of(specimen).about().knots));
+    if (one_knot_in_line(specimen)) {
+      const Points& x = stepper->state().position;
+      const Eigen::Index edges = stepper->rod().edges();
+      s.excess_length = {(x.rightCols(edges) - x.leftCols(edges)).colwise().norm().sum() - s.end_to_end};
+    }
     if (tying) tying->read(s);
     if (free_ends && knows_contacts()) s.tail_length = free_ends->lengths(stepper->readings());
     const ContactReading contact = stepper->readings().contact();

@@ -97,6 +97,7 @@ constexpr SummaryRow kRows[] = {
     {"locked_stiffness", "locked stiffness", "locked_stiffness_error"},
     {"force_ratio", "force ratio", ""},
     {"peak_force", "largest load", "peak_force_error"},
+    {"final_excess_length", "rod in the knot", ""},
     {"break_extension", "extension at break", ""},
     {"elongation_at_break", "elongation at break", ""},
     {"relaxation", "relaxation", ""},
@@ -130,7 +131,11 @@ class ResultFile {
   }
 
  private:
-  static std::string word_in(const YAML::Node& node) { return node && node.IsScalar() ? node.Scalar() : ""; }
+  /// Of a list of one: that one.
+  static std::string word_in(const YAML::Node& node) {
+    if (node && node.IsSequence() && node.size() == 1) return word_in(node[0]);
+    return node && node.IsScalar() ? node.Scalar() : "";
+  }
   YAML::Node root_;
 };
 

@@ -117,6 +117,13 @@ int bearing_strands(const SpecimenOptions& specimen) {
   return static_cast<int>(lower == 0 ? upper : upper == 0 ? lower : std::min(upper, lower));
 }
 
+bool one_knot_in_line(const SpecimenOptions& specimen) {
+  const KnotDrawing* drawing = specimen.drawing.get();
+  if (drawing == nullptr) return knot_of(specimen).about().knots == 1;
+  return drawing->strands.size() == 1 && drawing->posts.empty() && drawing->lower.size() == 1 &&
+         drawing->upper.size() == 1;
+}
+
 bool type_is_followed(const SpecimenOptions& specimen) {
   const KnotDrawing* drawing = specimen.drawing.get();
   const bool loose = drawing != nullptr && (drawing->strands.size() > 1 || drawing->has_free_ends());

@@ -312,7 +312,7 @@ constexpr const char* kNoJump = "no knot jumped open";
 constexpr const char* kNoHold = "the crosshead was not held under a load";
 constexpr const char* kNoCycle = "no cycle was closed";
 constexpr const char* kNoKnots = "there are no two knots";
-constexpr const char* kNoLoop = "the specimen is no loop";
+constexpr const char* kNoExcess = "known of loops, and of one knot drawn in one rope from grip to grip";
 constexpr NullReason kNoDrop = NullReason::of_a_pull(kFewForDrops);
 constexpr NullReason kNoContact = NullReason::of_a_pull("no two knots touched each other while pulled");
 constexpr NullReason kNoTouch = NullReason::of_a_pull("no roller bore on a knot or its tail while pulled");
@@ -341,9 +341,9 @@ constexpr ResultKey kKeys[] = {
     {"tied_knot_distance", "m", kKnots, "Knot distance once tied", read<&R::tied_knot_distance>, kNoKnots},
     {"knot_distance", "m", kKnots, "Knot distance as the pull begins", read<&R::knot_distance>, kNoKnots},
     {"excess_length", "m", kKnots, "Length of rod within each knot once tied", of_knots<&R::tied_excess_length>,
-     kNoLoop},
+     kNoExcess},
     {"final_excess_length", "m", kKnots, "Length of rod within each knot at the end", of_knots<&R::final_excess_length>,
-     kNoLoop},
+     kNoExcess},
     {"tail_slip", "m", kKnots, "Length of each free end that ran into the knot in the pull", of_knots<&R::tail_slip>,
      why_no_tail_slip},
     {"knot_readings", "-", kKnots, "Names of what the knot's file reads of it", knot_readings, kNoReason},

@@ -114,6 +114,9 @@ TEST(MotionPattern, UntanglingWhereAKnotJumpsOpenHoweverLongIsPulled) {
   // A low load alone, in knots that did not open, is a slide after a high breakaway; one that rises is no jump.
   EXPECT_EQ(on_rollers(jumps(1e-3, 0.0), EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);
   EXPECT_EQ(on_rollers(jumps(1.2, 0.06), EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);
+  std::vector<Sample> single = jumps(1e-3, 0.06);
+  for (Sample& sample : single) sample.knot_distance = Sample::kNone;
+  EXPECT_FALSE(on_rollers(single, EndedBy::kExtension).curve.jump_force);
 }
 
 TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLostAndTheLoadIsGone) {
@@ -146,6 +149,8 @@ TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLostAndTheRodHasRunOutOfAKnot) {
   EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling);
   EXPECT_FALSE(results.true_plateau_force);
   EXPECT_FALSE(results.lock_extension);
+  for (Sample& sample : samples) sample.knot_distance = Sample::kNone;
+  EXPECT_FALSE(on_rollers(samples, EndedBy::kExtension).untangled_at) << "a single knot, which was tightened";
 }
 
 /// The ends of the rod are joined outside to tell the knot type, where a roller can be in the way.

@@ -177,13 +177,14 @@ TEST_F(Summary, OfARunHasTheMainReadingsAndNoNull) {
       "lock_extension: 0.0834049\nlock_extension_error: 0.00068807\nlocked_stiffness: 345199.8\n"
       "locked_stiffness_error: 2497.1\npeak_force: 4985.15\nbreak_extension: 0.1030345\nelongation_at_break: 0.4196\n"
       "relaxation: 0.1\nhysteresis: 2\nno_plateau_because: null\nsimulated_time: 44.66\nreal_time_factor: 5.11\n"
-      "specification_passed: false\nspecification_failed: [\"a\", \"b\"]\n");
+      "final_excess_length: [0.0401]\nspecification_passed: false\nspecification_failed: [\"a\", \"b\"]\n");
   const std::string text = run_summary(folder());
   EXPECT_THAT(text,
               AllOf(StartsWith("the test ended by break after 44.7 s, at 5.1 times real time\n"),
                     HasSubstr("motion pattern        sliding (confidence 0.71)\n"),
                     HasSubstr("plateau force         4.98 ± 0.24 N, between 3.92 N and 6.73 N\n"),
                     HasSubstr("lock extension        83.40 ± 0.69 mm\n"), HasSubstr("largest load          4.985 kN\n"),
+                    HasSubstr("rod in the knot       40.10 mm\n"),
                     HasSubstr("specification         not met in 2 of its requirements\n"), Not(HasSubstr("null"))));
   EXPECT_LE(lines(text), 10);
 }

@@ -47,7 +47,7 @@ struct Bench {
 };
 
 Method knot_method(const std::string& knot, std::vector<std::string> settings = {}) {
-  settings.insert(settings.end(),
+  settings.insert(settings.begin(),
                   {"specimen.knot=" + knot, "physics.accuracy=draft", "program.pull.until.extension=0.02"});
   return load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/knot.yaml", settings);
 }
@@ -132,6 +132,7 @@ TEST(TiedByEnds, ReadsHowMuchOfEachFreeEndIsLeft) {
   const double slipped = tied[0] - bench.last.tail_length[0] + tied[1] - bench.last.tail_length[1];
   EXPECT_GT(slipped, 0.25 * 0.02);
   EXPECT_LT(slipped, 2.0 * 0.02);
+  EXPECT_EQ(bench.last.excess_length.size(), 0u) << "two ropes";
 }
 
 /// How far from its free end a rope of one strand first comes near to itself, whatever lies between it and a post.
@@ -189,6 +190,21 @@ TEST(TiedByEnds, ARopeIsReadToLoseInTheKnotWhatItsEndsGain) {
   // An answer is read, and no time step before it.
   const std::vector<Sample>& steps = bench.machine.substeps();
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) EXPECT_EQ(steps[i].knot_readings.size(), 0u);
+}
+
+/// Tight knots are alike in all ropes that are hardly flattened: an overhand takes 10.1 diameters, a figure-eight 13.7.
+TEST(KnotInLine, TakesUpTheRopeBeyondTheDistanceOfTheGrips) {
+  for (const auto& [knot, diameters] : {std::pair("overhand_tied", 10.1), std::pair("figure_eight", 13.7)}) {
+    Bench bench(knot_method(knot, {"program.pull.until.extension=0.03"}));
+    bench.run_past(Phase::kPull);
+    const Points& x = bench.machine.state().position;
+    double length = 0.0;
+    for (Eigen::Index i = 1; i < x.cols(); ++i) length += (x.col(i) - x.col(i - 1)).norm();
+    ASSERT_EQ(bench.last.excess_length.size(), 1u) << knot;
+    const double found = bench.last.excess_length[0], diameter = 2.0 * bench.method.material.radius;
+    EXPECT_NEAR(found, length - (x.rightCols(1) - x.leftCols(1)).norm(), 1e-9) << knot;
+    EXPECT_NEAR(found, diameters * diameter, 0.1 * diameter) << knot;
+  }
 }
 
 void expect_the_same_bits_from_a_saved_state(const Method& method, int commands) {

@@ -99,6 +99,8 @@ inline const Knot& knot_of(const SpecimenOptions& specimen) { return knot_of(spe
 /// Whether the type of its knot is followed (KnotWatch): of one rod with both ends held, or of a loop. To close any
 /// other rod into a knot, one would have to decide how its free ends lie.
 bool type_is_followed(const SpecimenOptions& specimen);
+/// Whether one rope runs from grip to grip with one knot in it. The rope of a shape from a file may have several.
+bool one_knot_in_line(const SpecimenOptions& specimen);
 /// Number of strands that bear the load side by side: two of a loop, else as many ends as each grip holds.
 int bearing_strands(const SpecimenOptions& specimen);
 /// Throws InvalidInput ("specimen.knot") where no knot has this name.

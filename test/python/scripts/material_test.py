@@ -35,12 +35,12 @@ def solved(slopes, ends, s, y, p=None):
     return found
 
 
-def drop_of_cantilever(bending, weight, overhang):
-    def slopes(s, y):  # of the angle below the level, its slope, down
-        return np.array([y[1], -weight / bending * (overhang - s) * np.cos(y[0]), np.sin(y[0])])
+def end_of_cantilever(bending, weight, overhang):  # how far it is below the clamp, and beside it
+    def slopes(s, y):  # of the angle below the level, its slope, down, along
+        return np.array([y[1], -weight / bending * (overhang - s) * np.cos(y[0]), np.sin(y[0]), np.cos(y[0])])
 
     s = np.linspace(0.0, overhang, 200)
-    return solved(slopes, lambda a, b: np.array([a[0], b[1], a[2]]), s, np.zeros((3, len(s)))).y[2, -1]
+    return solved(slopes, lambda a, b: np.array([a[0], b[1], a[2], a[3]]), s, np.zeros((4, len(s)))).y[2:, -1]
 
 
 class Fibres:
@@ -151,7 +151,7 @@ class Rod:
             "tied": {"mass": self.read(11.0, 0.1)}}
         overhang = 1.8 * (bending / weight) ** (1 / 3)
         self.measured["cantilever"] = {"overhang": self.read(overhang, 1e-3),
-                                       "drop": self.read(drop_of_cantilever(bending, weight, overhang), 1e-3)}
+                                       "drop": self.read(end_of_cantilever(bending, weight, overhang)[0], 1e-3)}
 
     def rub(self, kept, ratio, compaction):
         """Fibres that rub, and what they show."""
@@ -213,6 +213,12 @@ class Material(unittest.TestCase):
             self.assertAlmostEqual(made["tying_preload"], rod.measured["tied"]["mass"][0] * GRAVITY, places=3)
         # Neither larger nor smaller than they should be: of 25 draws, the mean square of a standard normal one.
         self.assertTrue(0.3 < np.mean(np.square(misses)) < 2.2, misses)
+
+    def test_a_strip_of_cloth_shows_what_peirce_s_formula_says(self):
+        drop, reach = end_of_cantilever(1 / 8, 1.0, 1.0)
+        self.assertAlmostEqual(math.degrees(math.atan(drop / reach)), 41.5, delta=0.02)
+        share = float(re.search(r"k_b = w l³/8:\s`overhang` is l, and `drop` is ([0-9.]+) l\.", content(os.path.join(ROOT, "doc/measure.md")))[1])
+        self.assertAlmostEqual(material.cantilever_stiffness(1.0, 1.0, share), 1 / 8, delta=1e-3 / 8)
 
     def test_fibres_that_rub_come_back_within_their_uncertainty(self):
         k_b = 3e-5
