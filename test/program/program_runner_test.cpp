@@ -321,11 +321,26 @@ TEST(TwistStep, TheWorkOfItsTorqueOnTwoStrandsIsStoredInThem) {
 /// Stops where a machine would (Command::stop_load).
 struct StoppingBench : FakeBench {
   Sample respond(Command command) {
-    const double sense = command.velocity < 0.0 ? -1.0 : 1.0, stop = command.stop_load / stiffness;
+    const double sense = command.velocity < 0.0 ? -1.0 : 1.0, stop = (command.stop_load + offset) / stiffness;
     if (sense * (command.displacement - stop) > 0.0) command.displacement = stop;
-    return FakeBench::respond(command);
+    const Sample sample = FakeBench::respond(command);
+    offset = sample.balance_offset;
+    return sample;
   }
+
+  double offset = 0.0;  // [N]
 };
+
+/// Until the program has ended, or waits for its operator.
+Answered run_to_stop(ProgramRunner& program, StoppingBench bench = {}) {
+  Answered result;
+  while (!program.ended() && !program.waits() && result.samples.size() < 5000) {
+    result.commands.push_back(program.last());
+    result.samples.push_back(bench.respond(program.last()));
+    program.next(result.samples.back());
+  }
+  return result;
+}
 
 TEST(ProgramRunner, EveryCommandThatMovesSaysAtWhichLoadItStops) {
   ProgramRunner::Limits limits;
@@ -335,7 +350,7 @@ TEST(ProgramRunner, EveryCommandThatMovesSaysAtWhichLoadItStops) {
   auto back = step<ReturnStep>(0.0033);
   back.load = 1.0;
   ProgramRunner program({BalanceStep(), to_load, back, pull(1.0)}, 3.0, 0.1, limits);
-  const Answered result = run(StoppingBench(), program);
+  const Answered result = run_to_stop(program);
   for (const Command& command : result.commands) {
     const double expected = command.velocity == 0.0 ? Sample::kNone : std::array{0.0, 3.0, 1.0, 5.0}[command.step];
     EXPECT_TRUE(command.stop_load == expected || std::isnan(expected)) << command.sequence;
@@ -352,7 +367,7 @@ TEST(ProgramRunner, GoesOnFromWhereTheCrossheadStopped) {
   StoppingBench bench;
   bench.stiffness = 1e6;
   ProgramRunner program({cycle}, 3.0, 0.1, {});
-  const Answered result = run(bench, program);
+  const Answered result = run_to_stop(program, bench);
   EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
   double least = 1e9, most = 0.0;
   for (std::size_t i = result.samples.size() / 2; i < result.samples.size(); ++i) {
@@ -363,23 +378,10 @@ TEST(ProgramRunner, GoesOnFromWhereTheCrossheadStopped) {
   EXPECT_NEAR(most, 100.0, 0.09);
 }
 
-/// What the bench answers until the program has ended, or waits for its operator.
-std::vector<Sample> led(ProgramRunner& program) {
-  StoppingBench bench;
-  std::vector<Sample> samples;
-  Command command = program.last();
-  while (!program.ended() && samples.size() < 1000) {
-    samples.push_back(bench.respond(command));
-    command = program.next(samples.back());
-    if (program.waits()) break;
-  }
-  return samples;
-}
-
 TEST(ProgramRunner, LedByTheOperatorItPreparesTheSpecimenThenGoesThereAndWaits) {
   ProgramRunner program(paper_program(), 3.0, 0.1, {});
   program.lead({0.0, 20.0, 0.001});
-  std::vector<Sample> samples = led(program);
+  const std::vector<Sample> samples = run_to_stop(program).samples;
   EXPECT_EQ(program.led_by(), EndedBy::kLoad);
   EXPECT_NEAR(samples.back().load, 20.0, 0.02);
   std::vector<Phase> phases;
@@ -431,7 +433,7 @@ TEST(ProgramRunner, AMoveThatIsTakenBackBeforeItBeginsChangesNothing) {
   ProgramRunner program(paper_program(), 3.0, 0.1, {}), usual(paper_program(), 3.0, 0.1, {});
   program.lead({0.0, 20.0, 0.0});
   EXPECT_FALSE(program.stand());
-  EXPECT_EQ(led(program).size(), led(usual).size());
+  EXPECT_EQ(run_to_stop(program).samples.size(), run_to_stop(usual).samples.size());
   EXPECT_EQ(program.ended_by(), EndedBy::kExtension);
 }
 
