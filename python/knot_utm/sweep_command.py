@@ -24,7 +24,7 @@ def _sweep(asked):
     elif asked.only == "check":
         work.check(asked.jobs)
     elif asked.only not in (None, "table"):
-        work.one(asked.only)
+        work.some(asked.only)
     else:
         table, out = work.table() if asked.only else work.all(asked.jobs), os.path.relpath(work.folder.path)
         out = work.folder.path if out.startswith(os.pardir) else out

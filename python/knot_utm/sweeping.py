@@ -70,13 +70,15 @@ class Sweep:
             more = f"; {len(refused)} of {len(points)} runs would be refused" if len(refused) > 1 else ""
             raise WrongInput(f"{self.study.file}: the run with {described(point)} would be refused: {why}{more}")
 
-    def one(self, run):
-        """That run alone, beside others of other processes."""
-        refuse_if(run not in self.runs, f"{run} is no run of {self.study.file}")
+    def some(self, part):
+        """The open runs FIRST..LAST in the order of their names, one at a time, beside others of other processes."""
+        first, _, last = part.partition("..")
+        for run in filter(None, (first, last)):
+            refuse_if(run not in self.runs, f"{run} is no run of {self.study.file}")
         self._require_same_readings()
         with self._may_be_stopped(), self.folder.shared():
-            if run in self._open():
-                self._make(run, self.runs[run])
+            points = self._open()
+            self._each(self._make, {run: points[run] for run in sorted(points) if first <= run <= (last or run)}, 1, "run")
 
     def table(self):
         """The table of the runs that are there."""

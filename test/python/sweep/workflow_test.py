@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""python/knot_utm/workflow/Snakefile, by its profile for this machine and by that for Slurm, on a Slurm of one node that the test starts
-itself. Skipped, with exit code 77, where Snakemake, Slurm or a module is not installed."""
+"""python/knot_utm/workflow/Snakefile, by its profile for this machine and by that for Slurm: on a Slurm of one node that the test starts
+itself, and on one of small scripts that speak as the manuals of its commands say, where a job has to end in a way of its own. Skipped,
+with exit code 77, where Snakemake, Slurm or a module is not installed."""
 import contextlib
 import os
 import re
@@ -9,9 +10,11 @@ import socket
 import subprocess
 import sys
 import unittest
+from collections import Counter
 
 from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, content, write
 
+WORKFLOW = os.path.join(ROOT, "python/knot_utm/workflow")
 COMMANDS = ("snakemake", "slurmctld", "slurmd", "sbatch")
 
 SLURM = """
@@ -40,6 +43,29 @@ NodeName=localhost NodeAddr=localhost CPUs={cores} State=UNKNOWN
 PartitionName=all Nodes=localhost Default=YES MaxTime=INFINITE State=UP
 """
 
+# In the time of the first job, ten times what Snakemake took to start at least, there is room for one run and the beginning of another.
+TIMEOUT = """#!/bin/bash
+[ "$1" -ge $((10 * $(ps -o etimes= -p $(ps -o ppid= -p $PPID)))) ] || exit 1
+sweep=("${@:2:$#-2}")
+"${sweep[@]}" "..$("${sweep[@]}" names | sort | head -n 1)"
+exit 124
+"""
+
+# $JOBS/NUMBER holds what scontrol says of a job, which begins at once; the one that is $CUT_SHORT ends before its runs.
+STATE = "JobId=1 JobName=knot_utm-job UserId=me(1) JobState=%s Reason=None ExitCode=0:0"
+FORGOTTEN = "slurm_load_jobs error: Invalid job id specified"
+SLURM_COMMANDS = {"scontrol": '#!/bin/sh\ncat "$JOBS/$4"', "sacct": '#!/bin/sh\necho "$ACCOUNTS"', "sbatch": f"""#!/bin/bash
+number=$(($(ls "$JOBS" | wc -l) + 1))
+file=$JOBS/$number
+echo "{STATE % 'RUNNING'}" >"$file"
+(
+  exec 9>"$ALIVE"
+  if [ "$number" != "$CUT_SHORT" ]; then SLURM_JOB_ID=$number sh "${{@: -1}}"; fi
+  echo "$ENDS_AS" >"$file"
+) >".snakemake/slurm-$number.log" 2>&1 </dev/null &
+echo "$number"
+"""}
+
 
 def free_ports(count):
     with contextlib.ExitStack() as stack:
@@ -50,14 +76,26 @@ def free_ports(count):
 
 
 class Workflow(Sweeps):
-    def snakemake(self, profile, out, *more, code=0, **environment):
-        """What it said; `more`: words of its config."""
-        done = subprocess.run(["snakemake", "--snakefile", os.path.join(ROOT, "python/knot_utm/workflow/Snakefile"), "--profile",
-                               os.path.join(ROOT, "python/knot_utm/workflow/profiles", profile), "--config", "study=" + self.study,
-                               "out=" + self.path(out), *more], env={**self.environment, **environment}, cwd=self.folder, check=False,
-                              text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.assertEqual(done.returncode, code, done.stdout)
-        return done.stdout
+    def started_snakemake(self, profile, out, *more, **environment):
+        """`more`: words of its config, and options."""
+        return subprocess.Popen(["snakemake", "--snakefile", os.path.join(WORKFLOW, "Snakefile"), "--profile",
+                                 os.path.join(WORKFLOW, "profiles", profile), "--config", "study=" + self.study, "out=" + self.path(out),
+                                 *more], env={**self.environment, **environment}, cwd=self.folder, text=True,
+                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def snakemake(self, *words, code=0, **environment):
+        """What it said."""
+        process = self.started_snakemake(*words, **environment)
+        said, _ = process.communicate()
+        self.assertEqual(process.returncode, code, said)
+        return said
+
+    def command(self, name, text):
+        """A command that is found before any other of its name."""
+        folder = self.path("commands")
+        os.makedirs(folder, exist_ok=True)
+        os.chmod(write(os.path.join(folder, name), text), 0o755)
+        self.environment["PATH"] = folder + os.pathsep + os.environ["PATH"]
 
     def jobs(self):
         """Slurm's number of the job by which each run was made; empty of one that was made without."""
@@ -123,11 +161,72 @@ class OnSlurm(Workflow):
         return process
 
     def test_makes_the_runs_and_the_table_of_a_sweep(self):
-        write(self.study, content(self.study).decode().replace(str(LENGTHS), str(LENGTHS[:2])))
+        self.command("timeout", TIMEOUT)
         self.snakemake("slurm", "flow", KILL_AT=f"specimen.length={LENGTHS[1]}")
-        self.assertEqual(len(set(self.jobs()) - {""}), 2, "each run was a job")
+        self.assertEqual(sorted(Counter(self.jobs()).values()), [1, 1, 2], "one run in the time of the first job: two to a job")
+        self.assertNotIn("", self.jobs())
         self.sweep("alone", KILL_AT=f"specimen.length={LENGTHS[1]}")
         self.assertEqual(self.table("flow"), self.table("alone"))
+
+
+class OnSlurmOfScripts(Workflow):
+    def setUp(self):
+        super().setUp()
+        for name, text in SLURM_COMMANDS.items():
+            self.command(name, text)
+        for name in ("jobs", ".snakemake"):
+            os.mkdir(self.path(name))
+        self.environment.update(JOBS=self.path("jobs"), ALIVE=os.devnull, ENDS_AS=FORGOTTEN, CUT_SHORT="", ACCOUNTS="")
+
+    def says(self, scontrol, accounts="", log=None):
+        """What Snakemake is told of a job."""
+        write(self.path("jobs/1"), scontrol)
+        if log:
+            write(self.path(".snakemake/slurm-1.log"), log)
+        return subprocess.check_output([os.path.join(WORKFLOW, "profiles/slurm/status.sh"), "1"], cwd=self.folder, text=True,
+                                       env={**self.environment, "ACCOUNTS": accounts}).strip()
+
+    def test_tells_by_its_state_what_became_of_a_job(self):
+        for meaning, states in {
+                "success": "COMPLETED",
+                "running": "CONFIGURING COMPLETING PENDING RUNNING RESV_DEL_HOLD REQUEUE_FED REQUEUE_HOLD REQUEUED RESIZING SIGNALING "
+                           "SPECIAL_EXIT STAGE_OUT STOPPED SUSPENDED",
+                "failed": "BOOT_FAIL CANCELLED DEADLINE FAILED LAUNCH_FAILED NODE_FAIL OUT_OF_MEMORY PREEMPTED REVOKED"}.items():
+            for state in states.split():
+                self.assertEqual(self.says(STATE % state), meaning, state)
+                self.assertEqual(self.says(FORGOTTEN, state), meaning, state)
+        self.assertEqual(self.says(FORGOTTEN, "CANCELLED by 1000"), "failed")
+        self.assertEqual(self.says("slurm_load_jobs error: Unable to contact slurm controller (connect failure)"), "running")
+
+    def test_a_job_past_its_time_limit_or_forgotten_has_failed_only_where_its_log_lacks_its_end(self):
+        for scontrol in (FORGOTTEN, STATE % "TIMEOUT"):
+            self.assertEqual(self.says(scontrol), "success", "no log: Snakemake looks for what it made")
+        for scontrol in (FORGOTTEN, STATE % "TIMEOUT"):
+            self.assertEqual(self.says(scontrol, log="slurmstepd: error: *** JOB 1 ON node CANCELLED DUE TO TIME LIMIT ***"), "failed")
+            self.assertEqual(self.says(scontrol, log="1 of 1 steps (100%) done"), "success")
+
+    def test_a_job_that_was_cut_short_is_made_again_and_one_that_ended_is_not(self):
+        self.snakemake("slurm", "flow", ENDS_AS=STATE % "TIMEOUT", CUT_SHORT="1")
+        self.assertEqual(self.jobs(), ["2"] * len(LENGTHS))
+
+    def test_goes_on_after_a_kill_once_it_is_unlocked(self):
+        for name in ("held", "never", "alive"):
+            os.mkfifo(self.path(name))
+        process = self.started_snakemake("slurm", "flow", HOLD_AT=f"specimen.length={LENGTHS[1]}", ALIVE=self.path("alive"))
+        with open(self.path("alive"), "rb") as alive, open(self.path("held"), "rb") as held:
+            self.assertEqual(held.readline(), b"held\n")
+            process.kill()
+            process.communicate()
+            write(self.path("never"), "\n")
+            alive.read()  # until the job, which goes on, has ended
+        self.assertIn("cannot be locked", self.snakemake("slurm", "flow", code=1))
+        study = content(self.study).decode()
+        write(self.study, study + "nonsense: 1\n")
+        self.snakemake("slurm", "flow", "--unlock")
+        write(self.study, study)
+        self.snakemake("slurm", "flow")
+        self.assertEqual(sorted(self.started()), LENGTHS)
+        self.assertEqual(len(self.whole_runs("flow")), len(LENGTHS))
 
 
 if __name__ == "__main__":
