@@ -234,10 +234,12 @@ Transforms fixed_frames(const Vec3& lower_grip, const ros::Time& stamp) {
           transform(names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero(), stamp)};
 }
 
-Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const ros::Time& stamp) {
+Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const Vec3& knot,
+                         const ros::Time& stamp) {
   const Vec3 now = crosshead + Vec3(0.0, 0.0, displacement);
   return {transform(names::kBaseFrame, names::kCrossheadFrame, now, stamp),
-          transform(names::kCrossheadFrame, names::kUpperGripFrame, upper_grip - now, stamp)};
+          transform(names::kCrossheadFrame, names::kUpperGripFrame, upper_grip - now, stamp),
+          transform(names::kBaseFrame, names::kKnotFrame, knot, stamp)};
 }
 
 std::string machine_urdf(const Method& method, const Vec3& lower_grip, const Vec3& upper_grip) {

@@ -39,6 +39,7 @@ namespace {
 constexpr char kFrames[] = "/tf";  // where tf2 listens
 constexpr std::uint32_t kShownQueue = 100;
 constexpr double kSlowest = 0.1, kFastest = 60.0;  // pictures in a second [Hz]
+constexpr int kFewestSides = 3, kMostSides = 24;   // of the tube
 
 std::optional<InvalidInput> fault_of(const ViewConfig& wanted) {
   if (!(wanted.marker_rate >= kSlowest && wanted.marker_rate <= kFastest))
@@ -46,6 +47,9 @@ std::optional<InvalidInput> fault_of(const ViewConfig& wanted) {
                         format_number(kSlowest) + " to " + format_number(kFastest));
   if (wanted.color_by != View_tension && wanted.color_by != View_curvature)
     return InvalidInput("color_by", "\"" + wanted.color_by + "\"", "tension or curvature");
+  if (wanted.sides != 0 && (wanted.sides < kFewestSides || wanted.sides > kMostSides))
+    return InvalidInput("sides", std::to_string(wanted.sides),
+                        "0, or " + std::to_string(kFewestSides) + " to " + std::to_string(kMostSides));
   return std::nullopt;
 }
 
@@ -53,17 +57,21 @@ std::optional<InvalidInput> fault_of(const ViewConfig& wanted) {
 /// colours. Pictures show the latest state, at most ~marker_rate of them, while somebody subscribes. Whoever subscribes
 /// late gets the last moving frames: before a test and after it nothing moves, and no others come.
 ///
-/// The parameters ~marker_rate, ~color_by and ~contact_forces can be changed by dynamic_reconfigure while the node
-/// runs. Where a value is not allowed all of them stay as they were, which the client is told, and a line says what is
-/// allowed.
+/// The parameters ~marker_rate, ~color_by, ~contact_forces and ~sides can be changed by dynamic_reconfigure while the
+/// node runs. Where a value is not allowed all of them stay as they were, which the client is told, and a line says
+/// what is allowed.
 class Show {
  public:
   /// `latest`: the state to be shown. Throws InvalidInput where a parameter has a value that is not allowed.
   Show(ros::NodeHandle node, std::function<SceneView()> latest)
       : latest_(std::move(latest)),
-        markers_(node.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
+        markers_(node.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1,
+                                                                 [this](const auto&) { is_old_ = true; })),
+        bodies_(node.advertise<visualization_msgs::MarkerArray>(names::kBodies, 1, true)),
         colors_(node.advertise<ColorBar>(names::kColors, 1, true)),
-        moving_(node.advertise<tf2_msgs::TFMessage>(kFrames, kShownQueue, true)),
+        moving_(node.advertise<tf2_msgs::TFMessage>(
+            kFrames, kShownQueue,
+            [this](const auto&) { publish_frames(latest_(), published_ + ros::Duration(0, 1)); })),
         timer_(node.createSteadyTimer(ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { show_latest(); })),
         server_(ros::NodeHandle("~")) {
     server_.setCallback([this](ViewConfig& wanted, std::uint32_t) { take(wanted); });
@@ -75,6 +83,7 @@ class Show {
     fixed_.sendTransform(fixed_frames(machine.lower_grip(), ros::TIME_MIN));
     picture_.emplace(method.specimen, method.machine, method.material);
     picture_->begin(machine.state().position, machine.rod().cuts);
+    bodies_.publish(picture_->bodies());
     apply();
   }
 
@@ -82,12 +91,9 @@ class Show {
 
   /// Now, for the node may end before the next picture.
   void show_latest() {
-    const std::uint32_t viewers = markers_.getNumSubscribers();
-    const bool somebody_is_new = viewers > viewers_;
-    viewers_ = viewers;
     const SceneView view = latest_();
     publish_frames(view);
-    if (viewers == 0 || !(is_old_ || somebody_is_new)) return;
+    if (markers_.getNumSubscribers() == 0 || !is_old_) return;
     is_old_ = false;
     markers_.publish(picture_->draw(view));
   }
@@ -108,17 +114,20 @@ class Show {
   void apply() {
     picture_->color_by(view_->color_by == View_tension ? ColorBy::kTension : ColorBy::kCurvature);
     picture_->show_contacts(view_->contact_forces);
+    picture_->sides(view_->sides);
     colors_.publish(picture_->scale().bar());
     is_old_ = true;
   }
 
-  /// The moving frames once for each stamp, because tf2 warns of repeated ones.
-  void publish_frames(const SceneView& view) {
-    const ros::Time valid = std::max(view.stamp, ros::TIME_MIN);
+  /// The moving frames once for each stamp, because tf2 warns of repeated ones. Somebody new gets them a nanosecond
+  /// later: what is latched arrives twice where somebody subscribes as it is published.
+  void publish_frames(const SceneView& view, const ros::Time& earliest = ros::TIME_MIN) {
+    const ros::Time valid = std::max(view.stamp, earliest);
     if (valid <= published_) return;
     published_ = valid;
     tf2_msgs::TFMessage message;
-    message.transforms = moving_frames(crosshead_, view.sample.displacement, view.upper_grip, valid);
+    message.transforms =
+        moving_frames(crosshead_, view.sample.displacement, view.upper_grip, picture_->knot(view.points), valid);
     moving_.publish(message);
   }
 
@@ -127,10 +136,8 @@ class Show {
   Vec3 crosshead_ = Vec3::Zero();        ///< at the beginning of the test [m]
   std::optional<ScenePicture> picture_;  ///< empty: before the first specimen
   bool is_old_ = true;
-  std::uint32_t viewers_ = 0;
   ros::Time published_;  ///< stamp of the last moving frames
-  ros::Publisher markers_, colors_;
-  ros::Publisher moving_;  ///< latched
+  ros::Publisher markers_, bodies_, colors_, moving_;
   tf2_ros::StaticTransformBroadcaster fixed_;
   ros::SteadyTimer timer_;
   dynamic_reconfigure::Server<ViewConfig> server_;
@@ -151,6 +158,7 @@ file sets (doc/ros.md).
   _marker_rate:=NUMBER        most pictures per second for rviz [25]
   _color_by:=WORD             what the colours of the rod show, tension or curvature [tension]
   _contact_forces:=FLAG       shows them in the picture [true]
+  _sides:=NUMBER              of the rod's tube; 0: cylinders, with the fewest bytes [0]
 )";
 
 /// The simulation as a node. It answers each command with the state of the same sequence number and stamp. Command 0 of
@@ -341,7 +349,6 @@ class KnotNode {
     return {machine_.state().position,
             machine_.tension(),
             machine_.contact_forces(),
-            machine_.lower_grip(),
             machine_.upper_grip(),
             sample_,
             stamp_};

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/rod/frames.hpp"
@@ -32,10 +31,14 @@ constexpr std::size_t kGaugeMarks = 9;  // along the rod
 constexpr double kGaugeMark = 0.6;      // half of its length [radius]
 constexpr double kAboveTheRod = 1.03;   // of its paint [radius]
 constexpr double kLongestForce = 6.0;   // half of the line of a contact force at the end of the scale [radius]
+constexpr double kForceWidth = 0.15;    // of that line [radius]
+constexpr double kPartedGap = 2.0;      // from the place of a break to each of the new ends [radius]
+constexpr double kNoBend = 0.01;        // curvature of a rod that is as good as straight [1/radius]
 
-// Spheres in place of a tube
-constexpr double kSphereDistance = 1.3;  // beyond which one is put between two [radius]
-constexpr int kMostBetween = 4;          // on an edge
+// Between two rings of the rod at most
+constexpr double kRingTurn = 0.2;   // angle by which it turns
+constexpr float kRingColor = 0.1f;  // by which its colour changes
+constexpr double kRoundBend = 0.5;  // cosine of half the turn up to which cylinders meet on the outside of a bend
 
 const std_msgs::ColorRGBA kWhite = color(1.0, 1.0, 1.0);  // of what has a colour for each of its points
 const std_msgs::ColorRGBA kInk = color(0.12, 0.12, 0.15);
@@ -59,14 +62,28 @@ Marker marker_of(const char* ns, int id, int type, const Vec3& size, const std_m
   return m;
 }
 
-Marker triangles(const char* ns) { return marker_of(ns, 0, Marker::TRIANGLE_LIST, Vec3::Ones(), kWhite); }
+/// Takes away all that was there before.
+visualization_msgs::MarkerArray nothing() {
+  visualization_msgs::MarkerArray array;
+  array.markers.push_back(marker_of("", 0, Marker::CUBE, Vec3::Ones(), kWhite));
+  array.markers.back().action = Marker::DELETEALL;
+  return array;
+}
 
 /// One ring of the tube at a node.
 struct Ring {
   Vec3 center, normal, binormal;  ///< normal x binormal points along the rod
+  Vec3 along() const { return normal.cross(binormal); }
+  std_msgs::ColorRGBA color;
 };
 
-std::vector<Ring> rings_of(const Points& points) {
+bool differ(const Ring& a, const Ring& b) {
+  const Eigen::Vector3f change(a.color.r - b.color.r, a.color.g - b.color.g, a.color.b - b.color.b);
+  return a.along().dot(b.along()) < std::cos(kRingTurn) || change.cwiseAbs().maxCoeff() > kRingColor;
+}
+
+/// Those between which the rod is as good as straight and of one colour. `colors`: of the nodes.
+std::vector<Ring> rings_of(const Points& points, Colors::const_iterator colors) {
   const Eigen::Index n = points.cols();
   std::vector<Ring> rings;
   rings.reserve(static_cast<std::size_t>(n));
@@ -78,79 +95,57 @@ std::vector<Ring> rings_of(const Points& points) {
     const Vec3 tangent = length > 0.0 ? Vec3(chord / length) : last_tangent;
     normal = i == 0 ? any_normal(tangent) : parallel_transport(normal, last_tangent, tangent);
     normal = (normal - tangent * tangent.dot(normal)).normalized();
-    rings.push_back({points.col(i), normal, tangent.cross(normal)});
+    rings.push_back({points.col(i), normal, tangent.cross(normal), colors[i]});
     last_tangent = tangent;
   }
-  return rings;
+  std::vector<Ring> needed;
+  for (std::size_t i = 0; i < rings.size(); ++i)
+    if (i == 0 || i + 1 == rings.size() || differ(rings[i + 1], needed.back())) needed.push_back(rings[i]);
+  return needed;
 }
 
-Marker body_marker(int id, const GripBody& body, const Vec3& grip, double radius) {
-  const bool cylinder = body.cylinder_radius > 0.0;
-  const Vec3 half =
-      cylinder ? Vec3(body.cylinder_radius, body.cylinder_radius, body.half_length(radius)) : body.half_box(radius);
-  Marker m = marker_of("grips", id, cylinder ? Marker::CYLINDER : Marker::CUBE, 2.0 * half, kBodyColor);
-  m.pose.position = to_point(grip + body.from_grip);
-  if (cylinder) {
-    // A marker's cylinder stands along z.
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), body.axis);
-    m.pose.orientation.w = turn.w();
-    m.pose.orientation.x = turn.x();
-    m.pose.orientation.y = turn.y();
-    m.pose.orientation.z = turn.z();
-  }
+Marker cylinder(const char* ns, int id, const Vec3& from, const Vec3& to, double radius, const std_msgs::ColorRGBA& c) {
+  const Vec3 axis = to - from;
+  Marker m = marker_of(ns, id, Marker::CYLINDER, {2.0 * radius, 2.0 * radius, axis.norm()}, c);
+  m.pose.position = to_point(0.5 * (from + to));
+  // A marker's cylinder stands along z.
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis);
+  m.pose.orientation.w = turn.w();
+  m.pose.orientation.x = turn.x();
+  m.pose.orientation.y = turn.y();
+  m.pose.orientation.z = turn.z();
   return m;
 }
 
-/// Adds a tube around a centreline to a list of triangles. `color_at`: the colour of a node.
-template <class ColorAt>
-void add_tube(Marker& m, const Points& points, double radius, ColorAt color_at) {
-  const std::vector<Ring> rings = rings_of(points);
-  const auto outwards = [&](const Ring& ring, int side) -> Vec3 {
-    const double angle = 2.0 * kPi * side / kTubeSides;
-    return std::cos(angle) * ring.normal + std::sin(angle) * ring.binormal;
-  };
-  const auto add = [&](const Vec3& point, const std_msgs::ColorRGBA& c) {
-    m.points.push_back(to_point(point));
-    m.colors.push_back(c);
-  };
-  const auto add_side = [&](std::size_t i, int side) {
-    const Vec3 normal = outwards(rings[i], side);
-    add(rings[i].center + radius * normal, lit(color_at(i), normal));
-  };
-  for (std::size_t i = 0; i + 1 < rings.size(); ++i)
-    for (int side = 0; side < kTubeSides; ++side) {
-      add_side(i, side), add_side(i, side + 1), add_side(i + 1, side + 1);
-      add_side(i, side), add_side(i + 1, side + 1), add_side(i + 1, side);
-    }
-  const auto add_end = [&](std::size_t i, double direction) {
-    const Ring& ring = rings[i];
-    const std_msgs::ColorRGBA shade = lit(color_at(i), direction * ring.normal.cross(ring.binormal));
-    for (int side = 0; side < kTubeSides; ++side) {
-      const int from = direction > 0.0 ? side : side + 1, to = direction > 0.0 ? side + 1 : side;
-      add(ring.center, shade);
-      add(ring.center + radius * outwards(ring, from), shade);
-      add(ring.center + radius * outwards(ring, to), shade);
-    }
-  };
-  add_end(0, -1.0);
-  add_end(rings.size() - 1, 1.0);
+/// It goes with the frame of its grip.
+Marker body_marker(int id, const GripBody& body, double radius) {
+  const Vec3 half = body.half_length(radius) * body.axis;
+  Marker m = marker_of("grips", id, Marker::CUBE, 2.0 * body.half_box(radius), kBodyColor);
+  m.pose.position = to_point(body.from_grip);
+  if (body.cylinder_radius > 0.0)
+    m = cylinder("grips", id, body.from_grip - half, body.from_grip + half, body.cylinder_radius, kBodyColor);
+  m.header.frame_id = body.goes_up ? names::kUpperGripFrame : names::kLowerGripFrame;
+  m.frame_locked = true;
+  return m;
 }
 
-/// Dark bands on the rod, each along the edges beside its node.
-Marker gauge_marker(const Points& points, const std::vector<Eigen::Index>& nodes, const RopeRadii& radius) {
-  Marker m = triangles("gauge_marks");
-  for (const Eigen::Index node : nodes) {
-    if (node < 1 || node + 1 >= points.cols()) continue;
-    const Vec3 here = points.col(node);
-    const auto towards = [&](Eigen::Index other) -> Vec3 {
-      const Vec3 offset = points.col(other) - here;
-      return here + std::min(1.0, kGaugeMark * radius(node) / offset.norm()) * offset;
-    };
-    Points band(3, 3);
-    band << towards(node - 1), here, towards(node + 1);
-    add_tube(m, band, kAboveTheRod * radius(node), [](std::size_t) { return kInk; });
-  }
-  return m;
+/// A tube of this many sides around a centreline, added to a list of triangles.
+void add_tube(Marker& m, const std::vector<Ring>& rings, double radius, int sides) {
+  const auto add_side = [&](const Ring& ring, double r, int side) {
+    const double angle = 2.0 * kPi * side / sides;
+    const Vec3 normal = std::cos(angle) * ring.normal + std::sin(angle) * ring.binormal;
+    m.points.push_back(to_point(ring.center + r * normal));
+    m.colors.push_back(lit(ring.color, normal));
+  };
+  const auto add_band = [&](const Ring& a, double radius_a, const Ring& b, double radius_b) {
+    for (int side = 0; side < sides; ++side) {
+      add_side(a, radius_a, side), add_side(a, radius_a, side + 1), add_side(b, radius_b, side + 1);
+      add_side(a, radius_a, side), add_side(b, radius_b, side + 1), add_side(b, radius_b, side);
+    }
+  };
+  add_band(rings.front(), 0.0, rings.front(), radius);
+  for (std::size_t i = 0; i + 1 < rings.size(); ++i) add_band(rings[i], radius, rings[i + 1], radius);
+  add_band(rings.back(), radius, rings.back(), 0.0);
 }
 
 }  // namespace
@@ -186,44 +181,38 @@ Eigen::VectorXd curvature_at_nodes(const Points& points, const RopeRadii& radius
   return out;
 }
 
-Marker tube_marker(const Points& points, const Colors& colors, const RopeRadii& radius,
-                   const std::vector<int>& missing) {
-  Marker m = triangles("rod");
-  const std::size_t corners = 6 * static_cast<std::size_t>(kTubeSides) * static_cast<std::size_t>(points.cols());
-  m.points.reserve(corners);
-  m.colors.reserve(corners);
+Marker tube_marker(const Points& points, const Colors& colors, const RopeRadii& radius, const std::vector<int>& missing,
+                   int sides) {
+  Marker m = marker_of("rod", 0, Marker::TRIANGLE_LIST, Vec3::Ones(), kWhite);
   for (const Piece& piece : pieces_between(points.cols(), missing))
     if (piece.nodes() > 1)
-      add_tube(m, points.middleCols(piece.begin, piece.nodes()), radius(piece.begin),
-               [&](std::size_t node) { return colors[static_cast<std::size_t>(piece.begin) + node]; });
+      add_tube(m, rings_of(points.middleCols(piece.begin, piece.nodes()), colors.begin() + piece.begin),
+               radius(piece.begin), sides);
   return m;
 }
 
-std::vector<Marker> sphere_markers(const Points& points, const Colors& colors, const RopeRadii& radius,
-                                   const std::vector<int>& missing) {
-  std::vector<Marker> lists;
+std::vector<Marker> cylinder_markers(const Points& points, const Colors& colors, const RopeRadii& radius,
+                                     const std::vector<int>& missing) {
+  std::vector<Marker> cylinders;
   for (const Piece& piece : pieces_between(points.cols(), missing)) {
+    if (piece.nodes() < 2) continue;
     const double r = radius(piece.begin);
-    if (lists.empty() || piece.begin == radius.first_of_others)
-      lists.push_back(
-          marker_of("rod", static_cast<int>(lists.size()), Marker::SPHERE_LIST, {2 * r, 2 * r, 2 * r}, kWhite));
-    const auto add = [&](const Vec3& place, Eigen::Index node) {
-      lists.back().points.push_back(to_point(place));
-      lists.back().colors.push_back(colors[static_cast<std::size_t>(node)]);
-    };
-    for (Eigen::Index i = piece.begin; i < piece.end; ++i) {
-      add(points.col(i), i);
-      if (i + 1 == piece.end) break;
-      const Vec3 edge = points.col(i + 1) - points.col(i);
-      const int between = std::min(static_cast<int>(edge.norm() / (kSphereDistance * r)), kMostBetween);
-      for (int k = 1; k <= between; ++k) add(points.col(i) + edge * k / (between + 1), i);
+    const auto rings = rings_of(points.middleCols(piece.begin, piece.nodes()), colors.begin() + piece.begin);
+    for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+      const Vec3 along = (rings[i + 1].center - rings[i].center).normalized();
+      const auto to_mitre = [&](const Ring& ring) -> Vec3 {
+        const double cosine = std::max(ring.along().dot(along), kRoundBend);
+        return r * std::sqrt(std::max(1.0 / (cosine * cosine) - 1.0, 0.0)) * along;
+      };
+      cylinders.push_back(cylinder("rod", static_cast<int>(cylinders.size()), rings[i].center - to_mitre(rings[i]),
+                                   rings[i + 1].center + to_mitre(rings[i + 1]), r, rings[i].color));
     }
   }
-  return lists;
+  return cylinders;
 }
 
 Marker contact_marker(const std::vector<ContactForce>& forces, double radius, const ColorScale& scale, double longest) {
-  Marker m = marker_of("contact_forces", 0, Marker::LINE_LIST, {0.35 * radius, 0.0, 0.0}, kContactColor);
+  Marker m = marker_of("contact_forces", 0, Marker::LINE_LIST, {kForceWidth * radius, 0.0, 0.0}, kContactColor);
   m.points.reserve(2 * forces.size());
   for (const ContactForce& contact : forces) {
     const double size = contact.force.norm();
@@ -249,7 +238,7 @@ void ScenePicture::begin(const Points& points, const std::vector<int>& cuts) {
   const auto is_cut = [&](Eigen::Index edge) { return std::binary_search(cuts.begin(), cuts.end(), edge); };
   for (Eigen::Index i = 1; i < points.cols(); ++i)
     arclength_[i] = arclength_[i - 1] + (is_cut(i - 1) ? 0.0 : (points.col(i) - points.col(i - 1)).norm());
-  for (Eigen::Index i = 1; i < points.cols(); ++i) {
+  for (Eigen::Index i = 1; i + 1 < points.cols(); ++i) {
     if (is_cut(i - 1) || is_cut(i)) continue;
     const double next = arclength_[points.cols() - 1] * static_cast<double>(gauge_.size() + 1) / (kGaugeMarks + 1.0);
     if (gauge_.size() < kGaugeMarks && arclength_[i] >= next) gauge_.push_back(i);
@@ -261,51 +250,50 @@ ScenePicture::Rod ScenePicture::rod_of(const SceneView& view) const {
   Eigen::VectorXd value =
       by_tension ? tension_at_nodes(view.tension, cuts_) : curvature_at_nodes(view.points, radii_, cuts_);
   value.conservativeResizeLike(Eigen::VectorXd::Constant(view.points.cols(), Sample::kNone));
-  Rod rod{{}, cuts_};
-  if (!std::isnan(view.sample.break_arclength)) {
-    const double* begin = arclength_.data();
-    const Eigen::Index beyond = std::upper_bound(begin, begin + arclength_.size(), view.sample.break_arclength) - begin;
-    const Eigen::Index parted = std::min(beyond - 1, view.points.cols() - 2);
-    rod.missing.insert(std::upper_bound(rod.missing.begin(), rod.missing.end(), parted), static_cast<int>(parted));
-    if (by_tension) {
-      value.setConstant(Sample::kNone);
-    } else {
-      value.segment(parted, 2).setZero();  // no bend is there any more
-    }
+  Rod rod;
+  const double gap = kPartedGap * radii_.first, parted = view.sample.break_arclength;
+  for (Eigen::Index i = 0; i + 1 < view.points.cols(); ++i) {
+    const bool gone = arclength_[i + 1] > parted - gap && arclength_[i] < parted + gap;
+    if (gone || std::binary_search(cuts_.begin(), cuts_.end(), i)) rod.missing.push_back(static_cast<int>(i));
+    if (gone) value.segment(i, 2).setZero();  // no bend is there any more
   }
+  if (by_tension && !std::isnan(parted)) value.setConstant(Sample::kNone);
   rod.colors.reserve(static_cast<std::size_t>(value.size()));
   for (const double x : value) rod.colors.push_back(std::isfinite(x) ? scale().color(x) : kUnknown);
   return rod;
 }
 
-visualization_msgs::MarkerArray ScenePicture::with_bodies(std::vector<Marker> markers, const SceneView& view) const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    markers.push_back(body_marker(static_cast<int>(i), bodies_[i],
-                                  bodies_[i].goes_up ? view.upper_grip : view.lower_grip, thickest(material_)));
-  for (Marker& marker : markers) {
-    marker.header.stamp = view.stamp;
-    const bool a_list = marker.type == Marker::TRIANGLE_LIST || marker.type == Marker::LINE_LIST;
-    if (a_list && marker.points.empty()) marker.action = Marker::DELETE;  // rviz takes an empty list for an error
-  }
-  visualization_msgs::MarkerArray array;
-  array.markers = std::move(markers);
+Vec3 ScenePicture::knot(const Points& points) const {
+  const Eigen::ArrayXd bend = curvature_at_nodes(points, radii_, cuts_).array().max(kNoBend).square();
+  return points * bend.matrix() / bend.sum();
+}
+
+visualization_msgs::MarkerArray ScenePicture::bodies() const {
+  visualization_msgs::MarkerArray array = nothing();
+  for (const GripBody& body : bodies_)
+    array.markers.push_back(body_marker(static_cast<int>(array.markers.size()), body, thickest(material_)));
   return array;
 }
 
 visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view) const {
   const Rod rod = rod_of(view);
-  const std::vector<ContactForce> contacts = show_contacts_ ? view.contacts : std::vector<ContactForce>();
-  return with_bodies(
-      {tube_marker(view.points, rod.colors, radii_, rod.missing), gauge_marker(view.points, gauge_, radii_),
-       contact_marker(contacts, radii_.first, tension_, kLongestForce * radii_.first)},
-      view);
-}
-
-visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view) const {
-  Rod rod = rod_of(view);
-  for (const Eigen::Index node : gauge_)
-    if (node < view.points.cols()) rod.colors[static_cast<std::size_t>(node)] = kInk;
-  return with_bodies(sphere_markers(view.points, rod.colors, radii_, rod.missing), view);
+  visualization_msgs::MarkerArray array = nothing();
+  std::vector<Marker>& markers = array.markers;
+  if (sides_ > 0) {
+    markers.push_back(tube_marker(view.points, rod.colors, radii_, rod.missing, sides_));
+  } else {
+    for (const Marker& one : cylinder_markers(view.points, rod.colors, radii_, rod.missing)) markers.push_back(one);
+  }
+  for (const Eigen::Index node : gauge_) {
+    const Vec3 here = view.points.col(node);
+    const Vec3 half = kGaugeMark * radii_(node) * (view.points.col(node + 1) - here).normalized();
+    markers.push_back(cylinder("gauge_marks", static_cast<int>(markers.size()), here - half, here + half,
+                               kAboveTheRod * radii_(node), kInk));
+  }
+  if (show_contacts_ && std::isnan(view.sample.break_arclength) && !view.contacts.empty())
+    markers.push_back(contact_marker(view.contacts, radii_.first, tension_, kLongestForce * radii_.first));
+  for (Marker& marker : markers) marker.header.stamp = view.stamp;
+  return array;
 }
 
 }  // namespace knot_utm

@@ -43,6 +43,7 @@ void RunBag::add(const Record& record) {
       text.data = method_;
       bag_.write_latched(names::kMethod, stamp, text);
       bag_.write_latched(names::kColors, stamp, picture_.scale().bar());
+      bag_.write_latched(names::kBodies, stamp, picture_.bodies());
     }
     begun_ = true;
     add_status(record, stamp);
@@ -82,11 +83,11 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   const Vec3 upper_grip = grips_.upper(sample.end_to_end - grips_.end_to_end(0.0));
   tf2_msgs::TFMessage frames;
   for (const Transforms& some :
-       {fixed_frames(grips_.lower(), stamp), moving_frames(crosshead_, sample.displacement, upper_grip, stamp)})
+       {fixed_frames(grips_.lower(), stamp),
+        moving_frames(crosshead_, sample.displacement, upper_grip, picture_.knot(record.shape), stamp)})
     frames.transforms.insert(frames.transforms.end(), some.begin(), some.end());
   bag_.write("tf", stamp, frames);
-  const SceneView view{record.shape, record.tension, {}, grips_.lower(), upper_grip, sample, stamp};
-  bag_.write(names::kMarkers, stamp, picture_.draw_small(view));
+  bag_.write(names::kMarkers, stamp, picture_.draw({record.shape, record.tension, {}, upper_grip, sample, stamp}));
 }
 
 }  // namespace knot_utm

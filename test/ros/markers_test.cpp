@@ -1,10 +1,13 @@
 #include "knot_utm/ros/markers.hpp"
 
 #include <gtest/gtest.h>
+#include <ros/serialization.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "knot_utm/method/method.hpp"
+#include "knot_utm/settings/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -47,30 +50,24 @@ Points two_ropes() {
 }
 
 TEST(TubeMarker, ClosedSurfaceWindsOutwards) {
-  static_assert(kTubeSides == 12);
   const double radius = 0.002;
   const Points points = helix(400);
   const double length = (points.rightCols(399) - points.leftCols(399)).colwise().norm().sum();
-  const auto marker = tube_marker(points, Colors(400), radius);
+  const auto marker = tube_marker(points, Colors(400), radius, {}, 12);
   // A regular polygon of 12 sides in place of the circle.
   const double area = 6.0 * std::sin(3.14159265358979 / 6.0) * radius * radius;
   EXPECT_NEAR(enclosed_volume(marker), area * length, 0.01 * area * length);
-  EXPECT_EQ(marker.points.size(), 3u * 12u * 2u * 400u);
   EXPECT_EQ(marker.colors.size(), marker.points.size());
 }
 
-/// Where edges are longer than the rod is thick there are spheres between the nodes, but not where it has parted.
-TEST(SpheresMarker, StandCloseTogether) {
-  const double radius = 0.002;
-  const Points points = straight(21, 20.0 * 2.5 * radius);
-  const auto marker = sphere_markers(points, Colors(21), radius, {7}).front();
-  EXPECT_EQ(marker.colors.size(), marker.points.size());
-  EXPECT_DOUBLE_EQ(marker.scale.x, 2.0 * radius);
-  for (std::size_t i = 1; i < marker.points.size(); ++i) {
-    const double gap = (vec(marker.points[i]) - vec(marker.points[i - 1])).norm();
-    const bool parted = (vec(marker.points[i - 1]) - points.col(7)).norm() < 1e-12;
-    EXPECT_NEAR(gap, parted ? 2.5 * radius : 1.25 * radius, 1e-12);
-  }
+TEST(CylinderMarkers, MeetOnTheOutsideOfABend) {
+  const double radius = 0.01, turn = 0.6;
+  Points bend = Points::Zero(3, 3);
+  bend.col(0) << -1.0, 0.0, 0.0;
+  bend.col(2) << std::cos(turn), std::sin(turn), 0.0;
+  const auto cylinders = cylinder_markers(bend, Colors(3), radius, {});
+  ASSERT_EQ(cylinders.size(), 2u);
+  EXPECT_NEAR(cylinders[0].pose.position.x + 0.5 * cylinders[0].scale.z, radius * std::tan(0.5 * turn), 1e-12);
 }
 
 TEST(TensionAtNodes, IsTheMeanOfTheirEdges) {
@@ -106,11 +103,14 @@ TEST(ContactMarker, LinesAreAsLongAsTheScaleSays) {
   EXPECT_NEAR((0.5 * (vec(marker.points[0]) + vec(marker.points[1])) - forces[0].place).norm(), 0.0, 1e-15);
 }
 
+constexpr int kSides = 12;
+
 class ScenePictureTest : public testing::Test {
  protected:
+  ScenePictureTest() { picture.sides(kSides); }
   SceneView view(const Points& points, double tension = 1.0) const {
     const Eigen::VectorXd tensions = Eigen::VectorXd::Constant(points.cols() - 1, tension);
-    return {points, tensions, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, ros::Time(1.0)};
+    return {points, tensions, contacts, Vec3::UnitZ(), sample, ros::Time(1.0)};
   }
   /// The marker of this name in a picture.
   visualization_msgs::Marker marker(const char* name, const Points& points, double tension = 1.0) const {
@@ -137,13 +137,8 @@ TEST_F(ScenePictureTest, GaugeMarksGoWithTheRod) {
   picture.begin(before);
   Points after = before;
   after.row(0).array() += 0.3;
-  const auto marks_before = marker("gauge_marks", before), marks_after = marker("gauge_marks", after);
-  ASSERT_GT(marks_before.points.size(), 0u);
-  ASSERT_EQ(marks_before.points.size(), marks_after.points.size());
-  for (std::size_t i = 0; i < marks_before.points.size(); ++i) {
-    const Vec3 way = vec(marks_after.points[i]) - vec(marks_before.points[i]);
-    EXPECT_NEAR((way - Vec3(0.3, 0.0, 0.0)).norm(), 0.0, 1e-12);
-  }
+  const Vec3 way = vec(marker("gauge_marks", after).pose.position) - vec(marker("gauge_marks", before).pose.position);
+  EXPECT_NEAR((way - Vec3(0.3, 0.0, 0.0)).norm(), 0.0, 1e-12);
 }
 
 /// Of a rod that has parted no tension is known: all of it has one colour, whatever its tension was, and no value of
@@ -159,22 +154,29 @@ TEST_F(ScenePictureTest, ARodThatPartedHasNoColourOfAForce) {
   EXPECT_NE(parted.front(), whole.front());
   const Points rod = straight(50, 0.5);
   picture.begin(rod);
-  const auto unknown = picture.draw_small(view(rod, 4.0)).markers.front().colors.front();
+  picture.sides(0);
+  const auto unknown = marker("rod", rod, 4.0).color;
+  picture.sides(kSides);
   for (double force = -500.0; force <= 500.0; force += 0.5) ASSERT_NE(picture.scale().color(force), unknown) << force;
   picture.color_by(ColorBy::kCurvature);
   EXPECT_EQ(marker("rod", rod).colors.front(), marker("rod", rod, 9.0).colors.front());
   EXPECT_NE(marker("rod", rod).colors.front(), parted.front());
 }
 
-/// Of the straight rod's 100 edges the one that parted is missing, and the two new ends are closed.
+/// A gap as wide as two rods is seen: edges of 1 mm that lie less than 4 mm from the break are missing, and the two new
+/// ends are closed. No force between strands is known any more.
 TEST_F(ScenePictureTest, ARodThatPartedHasAGap) {
-  const Points rod = straight(101, 1.0);
+  const Points rod = straight(1001, 1.0);
   picture.begin(rod);
+  contacts = {{Vec3::Zero(), Vec3::UnitX()}};
   const double whole = enclosed_volume(marker("rod", rod));
-  sample.break_arclength = 0.305;
-  const auto parted = marker("rod", rod);
-  EXPECT_NEAR(enclosed_volume(parted), 0.99 * whole, 1e-9 * whole);
-  for (const auto& point : parted.points) EXPECT_FALSE(point.z > 0.3 + 1e-9 && point.z < 0.31 - 1e-9) << point.z;
+  sample.break_arclength = 0.3055;
+  EXPECT_NEAR(enclosed_volume(marker("rod", rod)), 0.991 * whole, 1e-9 * whole);
+  picture.sides(0);
+  for (const auto& one : picture.draw(view(rod)).markers) {
+    EXPECT_NE(one.ns, "contact_forces");
+    EXPECT_TRUE(one.ns != "rod" || std::abs(one.pose.position.z - 0.3055) > 0.5 * one.scale.z + 0.004);
+  }
 }
 
 /// Nothing is drawn from one rope to the other, and they have the colours of their own tensions to their ends. The
@@ -186,8 +188,7 @@ TEST_F(ScenePictureTest, RopesAreDrawnEachByItself) {
     for (const auto& point : triangles.points) EXPECT_LT(std::min(std::abs(point.x), std::abs(point.x - 0.5)), 0.003);
     return triangles.points.size();
   };
-  EXPECT_EQ(count(marker("rod", both)), 2u * 3u * 12u * 2u * 51u);
-  count(marker("gauge_marks", both));
+  EXPECT_EQ(count(marker("rod", both)), 2u * 3u * 6u * kSides);
   Eigen::VectorXd tension = Eigen::VectorXd::Constant(101, 3.0);
   tension[50] = 0.0;
   EXPECT_EQ(tension_at_nodes(tension, {50}), Eigen::VectorXd::Constant(102, 3.0));
@@ -203,6 +204,7 @@ TEST_F(ScenePictureTest, RopesOfAnotherMaterialHaveTheirOwnRadius) {
   thin.radius = 0.001;
   two.other = std::make_shared<const Material>(thin);
   picture = ScenePicture(SpecimenOptions(), MachineOptions(), two);
+  picture.sides(kSides);
   picture.begin(both, {50});
   double widest[2] = {0.0, 0.0};
   for (const auto& point : marker("rod", both).points) {
@@ -211,9 +213,10 @@ TEST_F(ScenePictureTest, RopesOfAnotherMaterialHaveTheirOwnRadius) {
   }
   EXPECT_NEAR(widest[0], 0.002, 1e-12);
   EXPECT_NEAR(widest[1], 0.001, 1e-12);
-  std::vector<std::pair<double, double>> rows;  // diameter, and x of the first sphere
-  for (const auto& row : picture.draw_small(view(both)).markers)
-    if (row.ns == "rod") rows.emplace_back(row.scale.x, row.points.front().x);
+  picture.sides(0);
+  std::vector<std::pair<double, double>> rows;  // diameter and x
+  for (const auto& row : picture.draw(view(both)).markers)
+    if (row.ns == "rod") rows.emplace_back(row.scale.x, row.pose.position.x);
   EXPECT_EQ(rows, (std::vector<std::pair<double, double>>{{0.004, 0.0}, {0.002, 0.5}}));
 }
 
@@ -226,7 +229,8 @@ TEST_F(ScenePictureTest, APostIsACylinderWhereTheSpecimenHasIt) {
   machine.grips = GripKind::kNodes;
   picture = ScenePicture(capstan, machine, material());
   picture.begin(helix(50));
-  const auto post = marker("grips", helix(50));
+  const auto post = picture.bodies().markers[1];
+  EXPECT_EQ(post.header.frame_id, "lower_grip");
   EXPECT_EQ(post.type, visualization_msgs::Marker::CYLINDER);
   EXPECT_EQ(post.scale.x, capstan.post_diameter);
   EXPECT_EQ(post.scale.y, capstan.post_diameter);
@@ -236,12 +240,37 @@ TEST_F(ScenePictureTest, APostIsACylinderWhereTheSpecimenHasIt) {
   EXPECT_NEAR((axis - wanted).norm(), 0.0, 1e-12);
 }
 
+/// Each picture takes the one before away.
 TEST_F(ScenePictureTest, ForcesThatAreNotShownAreTakenAway) {
   picture.begin(helix(50));
   contacts = {{Vec3::Zero(), Vec3::UnitX()}};
-  EXPECT_EQ(marker("contact_forces", helix(50)).action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(marker("contact_forces", helix(50)).points.size(), 2u);
   picture.show_contacts(false);
-  EXPECT_EQ(marker("contact_forces", helix(50)).action, visualization_msgs::Marker::DELETE);
+  const auto without = picture.draw(view(helix(50))).markers;
+  EXPECT_EQ(without.front().action, visualization_msgs::Marker::DELETEALL);
+  for (const auto& one : without) EXPECT_NE(one.ns, "contact_forces");
+}
+
+/// The shipped test at its mesh, in all colours and with as many contacts as its knots have when they have locked.
+TEST_F(ScenePictureTest, OfTheShippedTestItHasAHundredKilobytesAtMost) {
+  const Method method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml");
+  const Centreline rod = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
+  picture = ScenePicture(method.specimen, method.machine, method.material);
+  picture.begin(rod.points, rod.cuts);
+  contacts.resize(300);
+  SceneView shown = view(rod.points);
+  shown.tension = Eigen::VectorXd::LinSpaced(rod.points.cols() - 1, 0.0, *method.material.breaking_force);
+  EXPECT_LE(ros::serialization::serializationLength(picture.draw(shown)), 100000u);
+}
+
+/// The frame that a camera follows: a knot between straight ends, wherever it is; of a straight rod the middle.
+TEST_F(ScenePictureTest, TheKnotIsWhereTheRodIsBentMost) {
+  Points rod(3, 160);
+  rod << straight(100, 0.4), (0.1 * helix(50)).colwise() + Vec3(0.0, 0.0, 0.4),
+      straight(10, 0.04).colwise() + Vec3(0.0, 0.0, 0.43);
+  picture.begin(rod);
+  EXPECT_NEAR((picture.knot(rod) - Vec3(0.0, 0.0, 0.406)).norm(), 0.0, 0.01);
+  EXPECT_NEAR((picture.knot(straight(101, 1.0)) - Vec3(0.0, 0.0, 0.5)).norm(), 0.0, 1e-12);
 }
 
 }  // namespace

@@ -43,20 +43,21 @@ TEST_F(TestBagTest, HoldsEveryCommandAndEveryReading) {
   EXPECT_EQ(count(in("a.bag"), "/utm/load_cell"), 3u);
   EXPECT_EQ(count(in("a.bag"), "/knot/shape"), 3u);
   for (const char* topic : {"/knot/markers", "/tf", "/utm/status"}) EXPECT_EQ(count(in("a.bag"), topic), 3u) << topic;
-  for (const char* topic : {"/utm/method", "/knot/colors"}) EXPECT_EQ(count(in("a.bag"), topic), 1u) << topic;
-  EXPECT_EQ(bag.messages(), 5u + 5u + 5u + 3u + 3u + 3u * 3u + 2u);
+  for (const char* topic : {"/utm/method", "/knot/colors", "/knot/bodies"})
+    EXPECT_EQ(count(in("a.bag"), topic), 1u) << topic;
+  EXPECT_EQ(bag.messages(), 5u + 5u + 5u + 3u + 3u + 3u * 3u + 3u);
   const rosbag::Bag read(in("a.bag"), rosbag::bagmode::Read);
   for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/state")))
     EXPECT_EQ(m.getTime(), m.instantiate<KnotState>()->header.stamp);
   // Topics that wait for whoever comes late.
-  const std::set<std::string> kept = {"/utm/method", "/utm/status", "/knot/colors"};
+  const std::set<std::string> kept = {"/utm/method", "/utm/status", "/knot/colors", "/knot/bodies"};
   rosbag::View all(read);
   for (const rosbag::ConnectionInfo* connection : all.getConnections())
     EXPECT_EQ(connection->header->count("latching"), kept.count(connection->topic)) << connection->topic;
 }
 
 /// The rod parts in a command at whose end the cell is not read: its shape and its picture are there all the same, and
-/// nothing but the rod and the grips is in it.
+/// nothing but the rod and its marks is in it.
 TEST_F(TestBagTest, ARodThatPartsIsSeenToPart) {
   RunBag bag(in("a.bag"), straight());
   for (std::uint64_t i = 0; i < 2; ++i) bag.add(record(i));
@@ -73,9 +74,10 @@ TEST_F(TestBagTest, ARodThatPartsIsSeenToPart) {
   const rosbag::Bag read(in("a.bag"), rosbag::bagmode::Read);
   std::set<std::string> drawn;
   for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/markers")))
-    for (const auto& marker : m.instantiate<visualization_msgs::MarkerArray>()->markers) drawn.insert(marker.ns);
+    for (const auto& marker : m.instantiate<visualization_msgs::MarkerArray>()->markers)
+      if (marker.action == visualization_msgs::Marker::ADD) drawn.insert(marker.ns);
   EXPECT_EQ(count(in("a.bag"), "/knot/markers"), 2u);
-  EXPECT_EQ(drawn, (std::set<std::string>{"grips", "rod"}));
+  EXPECT_EQ(drawn, (std::set<std::string>{"gauge_marks", "rod"}));
 }
 
 /// A file that may not grow stands for a disk that is full.

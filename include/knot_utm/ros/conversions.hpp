@@ -50,11 +50,12 @@ geometry_msgs::WrenchStamped to_wrench(const Sample& sample, const ros::Time& st
 sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sample, const ros::Time& stamp);
 
 /// The frames of a test, all with the axes of `world`: world -> utm_base -> lower_grip, and utm_base -> crosshead ->
-/// upper_grip -> load_cell. The second ones move. `crosshead`: where it stood at the beginning of the test, above the
-/// lower grip by the distance of the grips [m].
+/// upper_grip -> load_cell. The second ones move, and so does utm_base -> knot. `crosshead`: where it stood at the
+/// beginning of the test, above the lower grip by the distance of the grips [m].
 using Transforms = std::vector<geometry_msgs::TransformStamped>;
 Transforms fixed_frames(const Vec3& lower_grip, const ros::Time& stamp);
-Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const ros::Time& stamp);
+Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const Vec3& knot,
+                         const ros::Time& stamp);
 
 /// The machine of a method as URDF, for the parameter robot_description. Its links are these frames,
 /// and its only joint that moves is the one in utm/joint_states. Its shapes are those of the grips, as in knot/markers.

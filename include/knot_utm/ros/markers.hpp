@@ -39,17 +39,16 @@ Eigen::VectorXd curvature_at_nodes(const Points& points, const RopeRadii& radius
 /// A colour for each node.
 using Colors = std::vector<std_msgs::ColorRGBA>;
 
-/// The surface of a tube around the centreline of each rope: a TRIANGLE_LIST with outward winding, flat ends and a
-/// colour for each vertex. The cross-section is carried along the centreline without twist, so that the surface is not
-/// wrung where the rod turns. `missing`: edges that are not drawn, ascending: cuts, and one that has parted.
-inline constexpr int kTubeSides = 12;
+/// The surface of a tube of `sides` faces around the centreline of each rope: a TRIANGLE_LIST with outward winding,
+/// flat ends and a colour for each vertex. The cross-section is carried along the centreline without twist, so that the
+/// surface is not wrung where the rod turns. Where it is straight and of one colour its faces are long. `missing`:
+/// edges that are not drawn, ascending: cuts, and those at a break.
 visualization_msgs::Marker tube_marker(const Points& points, const Colors& colors, const RopeRadii& radius,
-                                       const std::vector<int>& missing = {});
+                                       const std::vector<int>& missing, int sides);
 
-/// The same as rows of spheres, with a fiftieth of the bytes: a SPHERE_LIST for each radius, because all spheres of a
-/// list are of one size. Where edges are long, there are spheres between the nodes, too.
-std::vector<visualization_msgs::Marker> sphere_markers(const Points& points, const Colors& colors,
-                                                       const RopeRadii& radius, const std::vector<int>& missing = {});
+/// The same as a row of cylinders, which rviz draws round and lights: a tenth of the bytes of six sides.
+std::vector<visualization_msgs::Marker> cylinder_markers(const Points& points, const Colors& colors,
+                                                         const RopeRadii& radius, const std::vector<int>& missing);
 
 /// One line for each contact force, centred at the contact. The lines stick out of the strands where the strands are
 /// pressed together. Half of a line has the length `longest` [m] times the place of the force on the scale of tension.
@@ -61,7 +60,6 @@ struct SceneView {
   Points points;                       ///< nodes of the rod [m]
   Eigen::VectorXd tension;             ///< of each edge [N]; of a rod that has parted it is not shown
   std::vector<ContactForce> contacts;  ///< contact forces between the strands
-  Vec3 lower_grip;                     ///< [m]
   Vec3 upper_grip;                     ///< [m]
   Sample sample;
   ros::Time stamp;
@@ -76,15 +74,19 @@ class ScenePicture {
   void begin(const Points& points, const std::vector<int>& cuts = {});
   void color_by(ColorBy what) { color_by_ = what; }
   void show_contacts(bool shown) { show_contacts_ = shown; }
+  void sides(int of_the_tube) { sides_ = of_the_tube; }  ///< 0: the rod is drawn as cylinders
 
   /// The scale of the rod's colours as they are shown now.
   const ColorScale& scale() const { return color_by_ == ColorBy::kTension ? tension_ : curvature_; }
 
-  /// The rod with its gauge marks, the forces between its strands, and the bodies that hold and support it.
+  /// The rod with its gauge marks, and the forces between its strands.
   visualization_msgs::MarkerArray draw(const SceneView& view) const;
 
-  /// A small picture for a bag: the rod as spheres, and the bodies that hold and support it.
-  visualization_msgs::MarkerArray draw_small(const SceneView& view) const;
+  /// The bodies that hold and support it, in the frames of the grips. They do not change during a test.
+  visualization_msgs::MarkerArray bodies() const;
+
+  /// Where the rod is bent most: in its knots, in the middle between them. The middle of a straight rod [m].
+  Vec3 knot(const Points& points) const;
 
  private:
   /// How the rod is drawn.
@@ -93,9 +95,6 @@ class ScenePicture {
     std::vector<int> missing;  ///< edges that are not drawn
   };
   Rod rod_of(const SceneView& view) const;
-  /// These markers and the bodies, stamped.
-  visualization_msgs::MarkerArray with_bodies(std::vector<visualization_msgs::Marker> markers,
-                                              const SceneView& view) const;
 
   std::vector<GripBody> bodies_;
   Material material_;
@@ -106,6 +105,7 @@ class ScenePicture {
   ColorBy color_by_ = ColorBy::kTension;
   ColorScale tension_, curvature_;
   bool show_contacts_ = true;
+  int sides_ = 0;
 };
 
 }  // namespace knot_utm

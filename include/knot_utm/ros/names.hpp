@@ -22,6 +22,7 @@ inline constexpr char kKnotRecord[] = "knot/record";
 inline constexpr char kKnotShape[] = "knot/shape";            ///< KnotShape, at each reading of the load cell
 inline constexpr char kSpecimen[] = "knot/specimen";          ///< SpecimenInfo, latched
 inline constexpr char kMarkers[] = "knot/markers";            ///< visualization_msgs/MarkerArray
+inline constexpr char kBodies[] = "knot/bodies";              ///< visualization_msgs/MarkerArray, latched
 inline constexpr char kColors[] = "knot/colors";              ///< ColorBar, latched: meaning of the rod's colours
 inline constexpr char kRecorderStatus[] = "recorder/status";  ///< RecorderStatus, latched
 
@@ -54,6 +55,7 @@ inline constexpr char kLowerGripFrame[] = "lower_grip";
 inline constexpr char kCrossheadFrame[] = "crosshead";
 inline constexpr char kUpperGripFrame[] = "upper_grip";
 inline constexpr char kLoadCellFrame[] = "load_cell";
+inline constexpr char kKnotFrame[] = "knot";
 
 inline constexpr char kCrossheadJoint[] = "crosshead";  ///< in utm/joint_states
 

@@ -94,8 +94,8 @@ class BagWriter {
 /// parts, and the bag has a knot/state for that step, too.
 ///
 /// `rosbag play`, rviz and panel_node can show the bag while nothing else runs. For this it contains utm/method,
-/// knot/colors and all frames on /tf, and at every reading knot/markers (ScenePicture::draw_small). utm/status is
-/// included without the fields that depend on wall time.
+/// knot/colors, knot/bodies and all frames on /tf, and at every reading knot/markers with the rod as spheres.
+/// utm/status is included without the fields that depend on wall time.
 class RunBag {
  public:
   /// Throws InvalidInput where the specimen does not fit the machine. All functions throw std::runtime_error where the

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A recorded test is seen again without anything of this package but the panel: by `rosbag play`, as doc/ros.md says it."""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -42,6 +43,7 @@ class BagTest(unittest.TestCase):
             panels = client.Latest('view/panel', Image)
             self.assertFalse(client.shows(panels.wait('the empty panel', lambda _: True), OURS))
             state, status = client.Latest('knot/state', KnotState), client.Latest('utm/status', TestStatus)
+            bodies = client.Latest('knot/bodies', MarkerArray)
             pictures, frames = client.Latest('knot/markers', MarkerArray), client.Latest('/tf', TFMessage)
             # It stays, for its last messages are lost where it ends before they have left.
             self.begin('rosbag', 'play', '--clock', '--keep-alive', '--rate', '2', '--delay', '3', run.folder + '/test.bag')
@@ -51,13 +53,15 @@ class BagTest(unittest.TestCase):
             wait_for('the last state', lambda: state.last.sequence == recorded[-1])
             self.assertEqual([message.sequence for message in state.messages], recorded)
             self.assertEqual(status.last.state, TestStatus.RUNNING)  # the bag is the same without ROS
-            self.assertEqual({marker.ns for marker in pictures.last.markers}, {'rod', 'grips'})
-            self.assertLessEqual({marker.header.frame_id for marker in pictures.last.markers},
+            self.assertEqual({marker.ns for marker in pictures.last.markers}, {'', 'rod', 'gauge_marks'})
+            self.assertEqual({marker.ns for marker in bodies.last.markers}, {'', 'grips'})
+            self.assertLessEqual({marker.header.frame_id for marker in pictures.last.markers + bodies.last.markers},
                                  {transform.child_frame_id for transform in frames.last.transforms})
             with open(os.path.join(ROOT, 'config/bag.rviz'), encoding='utf-8') as file:
                 shown = file.read()
-            for topic in 'knot/markers', 'view/panel':
+            for topic in 'knot/markers', 'knot/bodies', 'view/panel':
                 self.assertIn('Topic: ' + topic, shown)
+            self.assertIn(re.search('Target Frame: (.*)', shown)[1], {transform.child_frame_id for transform in frames.last.transforms})
 
 
 if __name__ == '__main__':
