@@ -16,8 +16,6 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// rviz does not light triangles that have colours of their own, so the light is put into the colours: one lamp, and
 /// soft enough that no side is black (half-Lambert).
 std_msgs::ColorRGBA lit(const std_msgs::ColorRGBA& c, const Vec3& normal) {
@@ -69,7 +67,6 @@ struct Ring {
 std::vector<Ring> rings_of(const Points& points) {
   const Eigen::Index n = points.cols();
   std::vector<Ring> rings;
-  rings.reserve(static_cast<std::size_t>(n));
   Vec3 last_tangent = Vec3::UnitZ();
   Vec3 normal = Vec3::UnitX();
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -106,7 +103,7 @@ template <class ColorAt>
 void add_tube(Marker& m, const Points& points, double radius, ColorAt color_at) {
   const std::vector<Ring> rings = rings_of(points);
   const auto outwards = [&](const Ring& ring, int side) -> Vec3 {
-    const double angle = 2.0 * kPi * side / kTubeSides;
+    const double angle = 2.0 * M_PI * side / kTubeSides;
     return std::cos(angle) * ring.normal + std::sin(angle) * ring.binormal;
   };
   const auto add = [&](const Vec3& point, const std_msgs::ColorRGBA& c) {
@@ -224,7 +221,6 @@ std::vector<Marker> sphere_markers(const Points& points, const Colors& colors, c
 
 Marker contact_marker(const std::vector<ContactForce>& forces, double radius, const ColorScale& scale, double longest) {
   Marker m = marker_of("contact_forces", 0, Marker::LINE_LIST, {0.35 * radius, 0.0, 0.0}, kContactColor);
-  m.points.reserve(2 * forces.size());
   for (const ContactForce& contact : forces) {
     const double size = contact.force.norm();
     const Vec3 half = size > 0.0 ? Vec3(longest * scale.place(size) / size * contact.force) : Vec3::Zero();
@@ -273,7 +269,6 @@ ScenePicture::Rod ScenePicture::rod_of(const SceneView& view) const {
       value.segment(parted, 2).setZero();  // no bend is there any more
     }
   }
-  rod.colors.reserve(static_cast<std::size_t>(value.size()));
   for (const double x : value) rod.colors.push_back(std::isfinite(x) ? scale().color(x) : kUnknown);
   return rod;
 }
