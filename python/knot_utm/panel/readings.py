@@ -58,7 +58,7 @@ class Readings:
         self._zero = None  # balance offset of the curve
         self._sliding = []  # loads while the knots slid
         self.measured = []  # the same of the experiment, as its topics have it
-        self._measured_pairs = Pairs(self.measured.append)
+        self.measured_pairs = Pairs(self.measured.append)
 
     def take_method(self, method):
         """method: the method of the test as a map."""
@@ -106,12 +106,6 @@ class Readings:
         if state.motion_pattern == 'sliding' and not state.locked:
             self._sliding.append(load)
         self.curve.append((state.extension, load))
-
-    def take_measured_extension(self, stamp, extension):
-        self._measured_pairs.add(0, stamp, extension)
-
-    def take_measured_load(self, stamp, load):
-        self._measured_pairs.add(1, stamp, load)
 
     def small_load(self):
         """A load [N] up to which the loads are to be shown once more, because larger ones hide those of sliding; else

@@ -101,8 +101,8 @@ class ReadingsTest(unittest.TestCase):
         readings = Readings()
         readings.take_state(1.0, state(extension=0.002))
         for stamp, extension, load in ((1.0, 0.0021, 3.0), (2.0, 0.0041, 5.0)):
-            readings.take_measured_load(stamp, load)
-            readings.take_measured_extension(stamp, extension)
+            readings.measured_pairs.add(1, stamp, load)
+            readings.measured_pairs.add(0, stamp, extension)
         self.assertEqual(readings.measured, [(0.0021, 3.0), (0.0041, 5.0)])
 
     def test_the_curve_begins_at_the_zero_of_the_pull(self):
@@ -227,8 +227,8 @@ class DrawingTest(unittest.TestCase):
         readings = pull(Readings(), [0.0, 10.0])
         readings.bar = color_bar()
         for stamp in (20.0, 21.0):
-            readings.take_measured_extension(stamp, 0.001 * stamp)
-            readings.take_measured_load(stamp, 30.0)
+            readings.measured_pairs.add(0, stamp, 0.001 * stamp)
+            readings.measured_pairs.add(1, stamp, 30.0)
         self.assertLessEqual({'simulated', 'measured', '30'}, set(self.texts(readings)))
 
     def test_what_changes_is_drawn_anew_without_the_rest(self):
