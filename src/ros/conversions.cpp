@@ -8,10 +8,13 @@
 #include <type_traits>
 
 #include "knot_utm/grips/grips.hpp"
+#include "knot_utm/numeric/pieces.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/program/program.hpp"
 #include "knot_utm/record/sample_fields.hpp"
+#include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/settings/accuracy.hpp"
 #include "knot_utm/words/number.hpp"
 
 namespace knot_utm {
@@ -54,11 +57,7 @@ void copy_command(const From& from, To& to) {
 void put(Phase phase, std::string& to) { to = phase_name(phase); }
 template <class From, class To>
 void put(const From& from, To& to) {
-  if constexpr (std::is_enum_v<From>) {
-    to = static_cast<To>(from);
-  } else {
-    to = from;
-  }
+  to = static_cast<To>(from);
 }
 template <class To>
 void put(const PerKnot& from, To& to) {
@@ -170,6 +169,22 @@ void put_motion(const MotionPatternTracker& motion, KnotState& message) {
   message.locked = static_cast<std::uint8_t>(motion.lock_extension().has_value());
 }
 
+void put_specimen(const Method& method, const Points& drawn, const std::vector<int>& cuts, SpecimenInfo& message) {
+  const RopeRadii radii(method.material, cuts);
+  message.header.frame_id = names::kBaseFrame;
+  message.longest_step = tolerances(method.physics, method.specimen, method.material).longest_step;
+  message.radius = radii.first;
+  message.length = length_of_pieces(drawn, cuts);
+  message.nodes = static_cast<std::uint32_t>(drawn.cols());
+  message.other_radius = radii.others;
+  message.first_of_other = static_cast<std::uint32_t>(std::min(radii.first_of_others, drawn.cols()));
+}
+
+std::string in_words(const TestEnd& end) {
+  return std::string("the test ended by ") + ended_by_name(end.ended_by) +
+         (end.reason.empty() ? "" : ": " + end.reason);
+}
+
 geometry_msgs::Point to_point(const Vec3& place) {
   geometry_msgs::Point point;
   point.x = place.x();
@@ -185,7 +200,6 @@ KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, doubl
   m.run = command.run;
   m.sequence = command.sequence;
   m.radius = radius;
-  m.points.reserve(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) m.points.push_back(to_point(points.col(i)));
   m.tension.assign(tension.data(), tension.data() + tension.size());
   return m;
@@ -228,18 +242,22 @@ sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sam
   return m;
 }
 
-Transforms fixed_frames(const Vec3& lower_grip, const ros::Time& stamp) {
-  return {transform(names::kWorldFrame, names::kBaseFrame, Vec3::Zero(), stamp),
-          transform(names::kBaseFrame, names::kLowerGripFrame, lower_grip, stamp),
-          transform(names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero(), stamp)};
+tf2_msgs::TFMessage fixed_frames(const Vec3& lower_grip, const ros::Time& stamp) {
+  tf2_msgs::TFMessage frames;
+  frames.transforms = {transform(names::kWorldFrame, names::kBaseFrame, Vec3::Zero(), stamp),
+                       transform(names::kBaseFrame, names::kLowerGripFrame, lower_grip, stamp),
+                       transform(names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero(), stamp)};
+  return frames;
 }
 
-Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const Vec3& knot,
-                         const ros::Time& stamp) {
+tf2_msgs::TFMessage moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const Vec3& knot,
+                                  const ros::Time& stamp) {
   const Vec3 now = crosshead + Vec3(0.0, 0.0, displacement);
-  return {transform(names::kBaseFrame, names::kCrossheadFrame, now, stamp),
-          transform(names::kCrossheadFrame, names::kUpperGripFrame, upper_grip - now, stamp),
-          transform(names::kBaseFrame, names::kKnotFrame, knot, stamp)};
+  tf2_msgs::TFMessage frames;
+  frames.transforms = {transform(names::kBaseFrame, names::kCrossheadFrame, now, stamp),
+                       transform(names::kCrossheadFrame, names::kUpperGripFrame, upper_grip - now, stamp),
+                       transform(names::kBaseFrame, names::kKnotFrame, knot, stamp)};
+  return frames;
 }
 
 std::string machine_urdf(const Method& method, const Vec3& lower_grip, const Vec3& upper_grip) {

@@ -4,7 +4,6 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -125,24 +124,7 @@ std::vector<CurveRow> read_curve_bag(const std::string& file, int test) {
 
 void write_curve_bag(const std::string& file, const std::vector<CurveRow>& rows) {
   BagWriter bag(file);
-  Command command;
-  Sample sample;
-  ros::Time stamp;
-  const double start = rows.empty() ? 0.0 : rows.front().time;
-  for (const CurveRow& row : rows) {
-    // Readings may be closer to each other than their times tell; their stamps pair them with their commands.
-    stamp = std::max(test_stamp(-start, row.time), stamp + ros::Duration(0, 1));
-    const double passed = row.time - command.time;
-    command.velocity = passed > 0.0 ? (travel_of(row) - command.displacement) / passed : 0.0;
-    command.time = row.time;
-    command.displacement = travel_of(row);
-    command.phase = row.phase;
-    command.read_cell = true;
-    sample.load = row.load;
-    bag.write(names::kCrosshead, stamp, to_message(command, 1, stamp));
-    bag.write(names::kLoadCell, stamp, to_wrench(sample, stamp));
-    ++command.sequence;
-  }
+  write_readings(bag, rows, 0.0, names::kCrosshead, names::kLoadCell);
   bag.close();
 }
 

@@ -9,7 +9,6 @@
 #include <knot_utm/TestStatus.h>
 #include <knot_utm/ViewConfig.h>
 #include <ros/ros.h>
-#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
@@ -80,7 +79,7 @@ class Show {
   /// Begins a new specimen on its machine.
   void begin(const Method& method, const TestingMachine& machine) {
     crosshead_ = machine.lower_grip() + Vec3(0.0, 0.0, method.specimen.end_to_end);
-    fixed_.sendTransform(fixed_frames(machine.lower_grip(), ros::TIME_MIN));
+    fixed_.sendTransform(fixed_frames(machine.lower_grip(), ros::TIME_MIN).transforms);
     picture_.emplace(method.specimen, method.machine, method.material);
     picture_->begin(machine.state().position, machine.rod().cuts);
     bodies_.publish(picture_->bodies());
@@ -125,10 +124,8 @@ class Show {
     const ros::Time valid = std::max(view.stamp, earliest);
     if (valid <= published_) return;
     published_ = valid;
-    tf2_msgs::TFMessage message;
-    message.transforms =
-        moving_frames(crosshead_, view.sample.displacement, view.upper_grip, picture_->knot(view.points), valid);
-    moving_.publish(message);
+    moving_.publish(
+        moving_frames(crosshead_, view.sample.displacement, view.upper_grip, picture_->knot(view.points), valid));
   }
 
   std::function<SceneView()> latest_;
@@ -288,13 +285,7 @@ class KnotNode {
                   XmlRpc::XmlRpcValue(machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip())));
 
     info_.header.stamp = stamp_;
-    info_.header.frame_id = names::kBaseFrame;
-    info_.longest_step = machine_.longest_step();
-    info_.radius = method_.material.radius;
-    info_.length = machine_.rod().length();
-    info_.nodes = static_cast<std::uint32_t>(machine_.rod().nodes());
-    info_.other_radius = machine_.rod().other_material.value_or(machine_.rod().material).radius;
-    info_.first_of_other = static_cast<std::uint32_t>(machine_.rod().first_of_other());
+    put_specimen(method_, machine_.state().position, machine_.rod().cuts, info_);
     specimen_.publish(info_);
   }
 
@@ -309,14 +300,15 @@ class KnotNode {
 
     KnotRecord record = record_of(message, sample_);
     const double start = stamp_.toSec() - command.time;
-    read_ = [=](const Sample& reading) { load_cell_.publish(to_wrench(reading, test_stamp(start, reading.time))); };
-    readings_.add({command, sample_, machine_.substeps(), {}, {}, {}}, read_);
-    record.steps.reserve(machine_.substeps().size());
-    for (const Sample& step : machine_.substeps()) {
+    for (const Sample& step : machine_.substeps())
       record.steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
-    }
     if (shape_is_due(command, sample_) || sample_.status == BenchStatus::kFailed) put_shape(record);
     publish(record);
+    read_ = [=, now = stamp_](const Sample& reading) {
+      const bool at_command = reading.time == command.time;
+      load_cell_.publish(to_wrench(reading, at_command ? now : test_stamp(start, reading.time)));
+    };
+    readings_.add({command, sample_, machine_.substeps(), {}, {}, {}}, read_);
   }
 
   void refuse(const Crosshead& message, const std::string& why) {

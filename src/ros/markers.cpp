@@ -15,8 +15,6 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// rviz does not light triangles that have colours of their own, so the light is put into the colours: one lamp, and
 /// soft enough that no side is black (half-Lambert).
 std_msgs::ColorRGBA lit(const std_msgs::ColorRGBA& c, const Vec3& normal) {
@@ -86,7 +84,6 @@ bool differ(const Ring& a, const Ring& b) {
 std::vector<Ring> rings_of(const Points& points, Colors::const_iterator colors) {
   const Eigen::Index n = points.cols();
   std::vector<Ring> rings;
-  rings.reserve(static_cast<std::size_t>(n));
   Vec3 last_tangent = Vec3::UnitZ();
   Vec3 normal = Vec3::UnitX();
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -213,7 +210,6 @@ std::vector<Marker> cylinder_markers(const Points& points, const Colors& colors,
 
 Marker contact_marker(const std::vector<ContactForce>& forces, double radius, const ColorScale& scale, double longest) {
   Marker m = marker_of("contact_forces", 0, Marker::LINE_LIST, {kForceWidth * radius, 0.0, 0.0}, kContactColor);
-  m.points.reserve(2 * forces.size());
   for (const ContactForce& contact : forces) {
     const double size = contact.force.norm();
     const Vec3 half = size > 0.0 ? Vec3(longest * scale.place(size) / size * contact.force) : Vec3::Zero();
@@ -258,7 +254,6 @@ ScenePicture::Rod ScenePicture::rod_of(const SceneView& view) const {
     if (gone) value.segment(i, 2).setZero();  // no bend is there any more
   }
   if (by_tension && !std::isnan(parted)) value.setConstant(Sample::kNone);
-  rod.colors.reserve(static_cast<std::size_t>(value.size()));
   for (const double x : value) rod.colors.push_back(std::isfinite(x) ? scale().color(x) : kUnknown);
   return rod;
 }

@@ -80,11 +80,8 @@ int run_node(int argc, char** argv, const char* name, const char* help, const st
   int code = 0;
   try {
     code = body();
-  } catch (const InvalidInput& error) {
-    code = report_failure(name, error.what(), 2);
-    end_launch();
   } catch (const std::exception& error) {
-    code = report_failure(name, error.what(), 1);
+    code = report_failure(name, error.what(), dynamic_cast<const InvalidInput*>(&error) ? 2 : 1);
     end_launch();
   }
   if (ros::isStarted()) ros::shutdown();

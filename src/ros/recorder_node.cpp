@@ -199,7 +199,8 @@ class RecorderNode {
     std::unique_ptr<RunBag> bag;
     options.further = [&](const std::string& folder, const Method& method) {
       bag = std::make_unique<RunBag>(folder + "/" + bag_name, method);
-      return FurtherWriter{[&](const Record& record) { bag->add(record); }, [&] { bag->close(); }};
+      return FurtherWriter{[&](const Record& record) { bag->add(record); },
+                           [&](const TestEnd& end) { bag->close(end); }};
     };
     const MadeResults made = make_results(run.folder.path(), run.method, options);
     run.rows = made.rows;
@@ -237,10 +238,8 @@ class RecorderNode {
     using diagnostic_msgs::DiagnosticStatus;
     if (!error_.empty()) {
       status.summary(DiagnosticStatus::ERROR, error_);
-    } else if (is_complete()) {
-      status.summary(DiagnosticStatus::OK, "complete");
     } else {
-      status.summary(DiagnosticStatus::OK, run_ ? "recording" : "nothing to record yet");
+      status.summary(DiagnosticStatus::OK, !run_ ? "nothing to record yet" : run_->complete ? "complete" : "recording");
     }
     if (!run_) return;
     status.add("folder", run_->folder.path());

@@ -293,11 +293,7 @@ void UtmNode::end() {
   stands_since_ = steady_clock::now();
   finish_move(program_->ended_by());
   progress_.end();
-  if (program_->reason().empty()) {
-    ROS_INFO("the test ended by %s", ended_by_name(program_->ended_by()));
-  } else {
-    ROS_INFO("the test ended by %s: %s", ended_by_name(program_->ended_by()), program_->reason().c_str());
-  }
+  ROS_INFO("%s", in_words({program_->ended_by(), program_->reason()}).c_str());
   if (program_->ended_by() == EndedBy::kUntangled)
     ROS_WARN("the knot came undone: %s", what_keeps_a_knot(method_).c_str());
   publish_clock(true);

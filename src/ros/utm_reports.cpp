@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "knot_utm/program/phases.hpp"
+#include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/process.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/run/run_folder.hpp"
@@ -96,14 +97,12 @@ void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const bool late = state_ == State::kRunning && asked > 0.0 && test_.factor < kKeepsPace * asked;
   if (recorder_failed_) {
     status.summary(DiagnosticStatus::ERROR, "the recorder failed");
-  } else if (program_ && program_->failed()) {
-    status.summary(DiagnosticStatus::ERROR,
-                   std::string("the test ended by ") + ended_by_name(program_->ended_by()) + ": " + program_->reason());
   } else if (late) {
     status.summary(DiagnosticStatus::WARN,
                    "slower than asked for: a real-time factor of " + short_number(test_.factor));
   } else if (state_ == State::kEnded) {
-    status.summary(DiagnosticStatus::OK, std::string("the test ended by ") + ended_by_name(program_->ended_by()));
+    status.summary(program_->failed() ? DiagnosticStatus::ERROR : DiagnosticStatus::OK,
+                   in_words({program_->ended_by(), program_->reason()}));
   } else {
     const char* states[] = {"idle", "running", "paused"};
     status.summary(DiagnosticStatus::OK, states[static_cast<int>(state_)]);

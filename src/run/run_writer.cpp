@@ -220,7 +220,7 @@ std::vector<std::string> RunWriter::warnings_of_turn(double weight) const {
 }
 
 MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, const ResultsOptions& options) {
-  if (further_.close) further_.close();
+  if (further_.close) further_.close(end);
   cell_readings_.end([this](const Sample& reading) { add_reading(reading); });
   const Results results = analyse(samples_, readings_, end.ended_by, radius_on_rollers_.has_value(), hung_,
                                   known_.knot_distance, program_steps_);

@@ -44,10 +44,11 @@ ShownUnit shown_unit(const std::string& unit, double size) {
   return size >= 1e-4 ? ShownUnit{"m" + unit, 1e3} : ShownUnit{"µ" + unit, 1e6};
 }
 
+/// Without a minus before a zero.
 std::string with_decimals(double value, int decimals) {
   std::array<char, 400> text{};
   std::snprintf(text.data(), text.size(), "%.*f", std::max(decimals, 0), value);
-  return text.data();
+  return text.data() + (text[0] == '-' && std::strtod(text.data(), nullptr) == 0.0);
 }
 
 /// The place of the last of so many digits, counted behind the point. A 9.97 of two digits is 10.
@@ -216,10 +217,7 @@ std::string compared(const char* label, const std::optional<double>& a, const st
   std::string change = "-";
   if (a && b && *a != 0.0) {
     const double percent = 100.0 * (*b - *a) / std::abs(*a);
-    if (std::abs(percent) < 0.05)
-      change = "0.0 %";  // without a sign
-    else
-      change = (percent > 0.0 ? "+" : "") + with_decimals(percent, std::abs(percent) < 10.0 ? 1 : 0) + " %";
+    change = (percent >= 0.05 ? "+" : "") + with_decimals(percent, std::abs(percent) < 10.0 ? 1 : 0) + " %";
   }
   return line_of(label, cell(a) + cell(b) + change);
 }
@@ -302,8 +300,9 @@ void ProgressLine::show(const Sample& sample, const ProgramRunner& program, doub
   shown_ = true;
   const double factor = sample.time / wall_time;
   const double left = factor > 0.0 ? program.time_left() / factor : 0.0;
-  std::fprintf(out_, "\r%-8s %5.1f %%  s %8.2f mm  F %10.4g N  %6.1f x real time  %5.0f s left ",
-               phase_name(sample.phase), 100.0 * program.progress(), 1e3 * sample.extension, sample.load, factor, left);
+  std::fprintf(out_, "\r%-8s %5.1f %%  s %7s mm  load %9.4g N  %5.1f x real time  %4.0f s left",
+               phase_name(sample.phase), 100.0 * program.progress(), with_decimals(1e3 * sample.extension, 2).c_str(),
+               sample.load + 0.0, factor, left);
   std::fflush(out_);
 }
 

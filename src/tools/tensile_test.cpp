@@ -94,7 +94,7 @@ decltype(HeadlessOptions::further) further() {
 #ifdef KNOT_UTM_HAS_ROS
   return [](const std::string& folder, const Method& method) -> FurtherWriter {
     const auto bag = std::make_shared<RunBag>(folder + "/test.bag", method);
-    return {[bag](const Record& record) { bag->add(record); }, [bag] { bag->close(); }};
+    return {[bag](const Record& record) { bag->add(record); }, [bag](const TestEnd& end) { bag->close(end); }};
   };
 #else
   return nullptr;

@@ -1,7 +1,9 @@
 #include "knot_utm/ros/run_bag.hpp"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <knot_utm/KnotState.h>
+#include <knot_utm/TestStatus.h>
 #include <rosbag/view.h>
 #include <sys/resource.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -14,7 +16,17 @@
 namespace knot_utm {
 namespace {
 
-using TestBagTest = MadeFolder;
+struct TestBagTest : MadeFolder {
+  /// Those in a.bag.
+  template <class Message>
+  std::vector<Message> messages(const std::string& topic) const {
+    const rosbag::Bag bag(in("a.bag"), rosbag::bagmode::Read);
+    std::vector<Message> found;
+    for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery(topic)))
+      found.push_back(*m.instantiate<Message>());
+    return found;
+  }
+};
 
 Method straight() { return load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml"); }
 
@@ -42,18 +54,39 @@ TEST_F(TestBagTest, HoldsEveryCommandAndEveryReading) {
   EXPECT_EQ(count(in("a.bag"), "/utm/crosshead"), 5u);
   EXPECT_EQ(count(in("a.bag"), "/utm/load_cell"), 3u);
   EXPECT_EQ(count(in("a.bag"), "/knot/shape"), 3u);
-  for (const char* topic : {"/knot/markers", "/tf", "/utm/status"}) EXPECT_EQ(count(in("a.bag"), topic), 3u) << topic;
-  for (const char* topic : {"/utm/method", "/knot/colors", "/knot/bodies"})
+  for (const char* topic : {"/knot/markers", "/tf", "/utm/status", "/diagnostics"})
+    EXPECT_EQ(count(in("a.bag"), topic), 3u) << topic;
+  for (const char* topic :
+       {"/utm/method", "/knot/colors", "/knot/bodies", "/knot/specimen", "/robot_description", "/tf_static"})
     EXPECT_EQ(count(in("a.bag"), topic), 1u) << topic;
-  EXPECT_EQ(bag.messages(), 5u + 5u + 5u + 3u + 3u + 3u * 3u + 3u);
+  EXPECT_EQ(bag.messages(), 5u + 5u + 5u + 3u + 3u + 4u * 3u + 6u);
   const rosbag::Bag read(in("a.bag"), rosbag::bagmode::Read);
   for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/state")))
     EXPECT_EQ(m.getTime(), m.instantiate<KnotState>()->header.stamp);
   // Topics that wait for whoever comes late.
-  const std::set<std::string> kept = {"/utm/method", "/utm/status", "/knot/colors", "/knot/bodies"};
+  const std::set<std::string> kept = {"/utm/method",    "/utm/status",        "/knot/colors", "/knot/bodies",
+                                      "/knot/specimen", "/robot_description", "/tf_static"};
   rosbag::View all(read);
   for (const rosbag::ConnectionInfo* connection : all.getConnections())
     EXPECT_EQ(connection->header->count("latching"), kept.count(connection->topic)) << connection->topic;
+}
+
+TEST_F(TestBagTest, SaysLastHowTheTestEnded) {
+  const auto last = [&](const TestEnd& end) {
+    RunBag bag(in("a.bag"), straight());
+    for (std::uint64_t i = 0; i < 2; ++i) bag.add(record(i));
+    bag.close(end);
+    return std::make_pair(messages<TestStatus>("/utm/status").back(),
+                          messages<diagnostic_msgs::DiagnosticArray>("/diagnostics").back().status.at(0));
+  };
+  EXPECT_EQ(last({}).first.state, TestStatus::RUNNING);
+  const auto [status, machine] = last({EndedBy::kSolver, "why"});
+  EXPECT_EQ(status.state, TestStatus::ENDED);
+  EXPECT_EQ(status.sequence, 1u);
+  EXPECT_EQ(status.ended_by, "solver");
+  EXPECT_EQ(machine.message, "the test ended by solver: why");
+  EXPECT_EQ(machine.level, diagnostic_msgs::DiagnosticStatus::ERROR);
+  EXPECT_EQ(last({EndedBy::kExtension, ""}).second.level, diagnostic_msgs::DiagnosticStatus::OK);
 }
 
 /// The rod parts in a command at whose end the cell is not read: its shape and its picture are there all the same, and
@@ -71,10 +104,9 @@ TEST_F(TestBagTest, ARodThatPartsIsSeenToPart) {
   bag.add(broken);
   bag.close();
   EXPECT_EQ(count(in("a.bag"), "/knot/shape"), 2u);
-  const rosbag::Bag read(in("a.bag"), rosbag::bagmode::Read);
   std::set<std::string> drawn;
-  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/markers")))
-    for (const auto& marker : m.instantiate<visualization_msgs::MarkerArray>()->markers)
+  for (const auto& picture : messages<visualization_msgs::MarkerArray>("/knot/markers"))
+    for (const auto& marker : picture.markers)
       if (marker.action == visualization_msgs::Marker::ADD) drawn.insert(marker.ns);
   EXPECT_EQ(count(in("a.bag"), "/knot/markers"), 2u);
   EXPECT_EQ(drawn, (std::set<std::string>{"gauge_marks", "rod"}));

@@ -2,13 +2,17 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pty.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "knot_utm/method/shipped.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/run/csv.hpp"
+#include "knot_utm/run/load_test.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/summary.hpp"
 #include "knot_utm/words/invalid_input.hpp"
@@ -146,6 +150,21 @@ TEST_F(Compare, RefusesInOneLine) {
   EXPECT_THAT(compare("a.csv", "nan.csv").text, HasSubstr("nan.csv: reading 1 has no time, no extension or no load"));
 }
 
+TEST(ProgressLine, NamesTheLoadAndHasNoMinusBeforeAZero) {
+  int terminal = 0, end = 0;
+  ASSERT_EQ(openpty(&terminal, &end, nullptr, nullptr, nullptr), 0);
+  std::FILE* out = fdopen(end, "w");
+  Sample sample;
+  sample.extension = -1e-6;
+  sample.load = -0.0;
+  ProgressLine(out).show(sample, make_program(load_method(KNOT_UTM_SOURCE_DIR "/config/straight.yaml"), 0.1), 1.0);
+  std::string said(200, '\0');
+  EXPECT_GT(read(terminal, said.data(), said.size()), 0);
+  EXPECT_THAT(said, HasSubstr("%  s    0.00 mm  load         0 N  "));
+  std::fclose(out);
+  close(terminal);
+}
+
 TEST(ReadingText, HasThePrefixAndTheDigitsThatSuitIt) {
   EXPECT_EQ(reading_text(4.976520961, "N", 0.2440667), "4.98 ± 0.24 N");
   EXPECT_EQ(reading_text(0.083404934, "m", 6.88e-4), "83.40 ± 0.69 mm");
@@ -154,7 +173,7 @@ TEST(ReadingText, HasThePrefixAndTheDigitsThatSuitIt) {
   EXPECT_EQ(reading_text(-20.0, "N"), "-20.00 N");
   EXPECT_EQ(reading_text(2.5e-3, "N"), "2.500 mN");
   EXPECT_EQ(reading_text(3e-8, "N"), "0.03000 µN");
-  EXPECT_EQ(reading_text(0.0, "N"), "0 N");
+  for (const double zero : {0.0, -0.0}) EXPECT_EQ(reading_text(zero, "N"), "0 N");
   EXPECT_EQ(reading_text(0.4196, "of the gauge length"), "41.96 % of the gauge length");
   EXPECT_EQ(reading_text(1.4, "-"), "1.400");
   EXPECT_EQ(reading_text(31.0, "N", 1e-14), "31.00 N") << "an error of rounding is none";

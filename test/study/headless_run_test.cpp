@@ -43,7 +43,7 @@ TEST_F(HeadlessRun, HandsEveryRecordToTheFurtherWriterAndClosesItOnce) {
   std::string place;
   options.further = [&](const std::string& into, const Method&) {
     place = into;
-    return FurtherWriter{[&](const Record&) { ++records; }, [&] { ++closed; }};
+    return FurtherWriter{[&](const Record&) { ++records; }, [&](const TestEnd&) { ++closed; }};
   };
   options.progress = [&](const Sample&, const ProgramRunner&, double) { ++shown; };
   const HeadlessOutcome outcome = run_headless(method, options);

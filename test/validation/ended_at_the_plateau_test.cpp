@@ -27,7 +27,7 @@ class OfThePlateau : public OwnFolder {
     options.interrupted = [] { return false; };
     options.further = [this](const std::string&, const Method&) {
       ++further;
-      return FurtherWriter{[](const Record&) {}, [] {}};
+      return FurtherWriter{[](const Record&) {}, [](const TestEnd&) {}};
     };
   }
 

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <geometry_msgs/Point.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotRecord.h>
 #include <knot_utm/KnotShape.h>
 #include <knot_utm/KnotState.h>
+#include <knot_utm/SpecimenInfo.h>
 #include <ros/time.h>
 #include <sensor_msgs/JointState.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <cstdint>
 #include <string>
@@ -43,6 +44,13 @@ KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, doubl
 Points points_from_message(const KnotShape& message);
 Record from_message(const KnotRecord& message);
 
+/// Enters all but the stamp and who listens. `drawn`: the specimen's nodes before the test. `cuts`: edges between one
+/// rope and the next.
+void put_specimen(const Method& method, const Points& drawn, const std::vector<int>& cuts, SpecimenInfo& message);
+
+/// "the test ended by break: the rod parted at ..."
+std::string in_words(const TestEnd& end);
+
 /// The reading of the load cell as a force along z of the frame of the cell, tension positive.
 geometry_msgs::WrenchStamped to_wrench(const Sample& sample, const ros::Time& stamp);
 
@@ -52,10 +60,9 @@ sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sam
 /// The frames of a test, all with the axes of `world`: world -> utm_base -> lower_grip, and utm_base -> crosshead ->
 /// upper_grip -> load_cell. The second ones move, and so does utm_base -> knot. `crosshead`: where it stood at the
 /// beginning of the test, above the lower grip by the distance of the grips [m].
-using Transforms = std::vector<geometry_msgs::TransformStamped>;
-Transforms fixed_frames(const Vec3& lower_grip, const ros::Time& stamp);
-Transforms moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const Vec3& knot,
-                         const ros::Time& stamp);
+tf2_msgs::TFMessage fixed_frames(const Vec3& lower_grip, const ros::Time& stamp);
+tf2_msgs::TFMessage moving_frames(const Vec3& crosshead, double displacement, const Vec3& upper_grip, const Vec3& knot,
+                                  const ros::Time& stamp);
 
 /// The machine of a method as URDF, for the parameter robot_description. Its links are these frames,
 /// and its only joint that moves is the one in utm/joint_states. Its shapes are those of the grips, as in knot/markers.

@@ -12,8 +12,8 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/grips/grips.hpp"
 #include "knot_utm/method/method.hpp"
-#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/markers.hpp"
+#include "knot_utm/run/csv.hpp"
 #include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/samples.hpp"
 #include "knot_utm/settings/step_settings.hpp"
@@ -88,43 +88,46 @@ class BagWriter {
   std::uint64_t messages_ = 0;
 };
 
+/// Writes the readings of a curve as write_curve_bag does. `begin`: test time of the first [s].
+void write_readings(BagWriter& bag, const std::vector<CurveRow>& rows, double begin, const char* crosshead,
+                    const char* load_cell);
+
 /// Writes test.bag: the topics of one test, at the stamps of their headers. Tests with and without ROS give the same
 /// bag. It has utm/crosshead, utm/joint_states and knot/state for every command, utm/load_cell for every reading
 /// (CellReadings), and knot/shape at sampling instants. The load cell is also read in the time step in which a rod
 /// parts, and the bag has a knot/state for that step, too.
 ///
 /// `rosbag play`, rviz and panel_node can show the bag while nothing else runs. For this it contains utm/method,
-/// knot/colors, knot/bodies and all frames on /tf, and at every reading knot/markers with the rod as spheres.
-/// utm/status is included without the fields that depend on wall time.
+/// knot/specimen, knot/colors, knot/bodies, robot_description and all frames, and at every reading knot/markers.
+/// utm/status and /diagnostics are included without what depends on wall time; the last ones say how the test ended. A
+/// record that is followed is on experiment/..., and begins where the crosshead follows it.
 class RunBag {
  public:
   /// Throws InvalidInput where the specimen does not fit the machine. All functions throw std::runtime_error where the
   /// file cannot be written.
-  RunBag(const std::string& file, const Method& method)
-      : RunBag(file, method, specimen_centreline(method.specimen, method.material, method.machine, method.physics)) {}
+  RunBag(const std::string& file, const Method& method);
   void add(const Record& record);
-  void close();
+  void close(const TestEnd& end = {});
 
   std::uint64_t messages() const { return bag_.messages(); }  ///< number of messages written so far
 
  private:
   static constexpr std::uint32_t kRun = 1;  ///< number of its one test, whichever it was of the node that ran it
 
-  RunBag(const std::string& file, const Method& method, const Centreline& centreline);
   void add_reading(const Sample& reading);
-  void add_status(const Record& record, const ros::Time& stamp);
+  void add_status(const TestEnd& end);
   void add_picture(const Record& record, const ros::Time& stamp);
 
   BagWriter bag_;
-  std::string method_;     ///< text of the method
-  double radius_;          ///< [m]
-  std::vector<int> cuts_;  ///< edges between one rope and the next
+  Method method_;
+  Centreline centreline_;
   Grips grips_;
   Vec3 crosshead_;  ///< at the beginning of the test [m]
   ScenePicture picture_;
   CellReadings cell_readings_;
+  Command command_;  ///< the last one
+  Sample answer_;    ///< to it
   bool begun_ = false;
-  bool broken_ = false;
   MotionPatternTracker motion_;
 };
 

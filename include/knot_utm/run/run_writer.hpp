@@ -57,7 +57,7 @@ struct Centreline;
 /// Writes a further file of a run's folder, such as a bag, which MakeFurther begins.
 struct FurtherWriter {
   std::function<void(const Record&)> add;
-  std::function<void()> close;  ///< called after the last record
+  std::function<void(const TestEnd&)> close;  ///< called after the last record
 };
 using MakeFurther = std::function<FurtherWriter(const std::string& folder, const Method& method)>;
 

@@ -13,14 +13,6 @@ ENDS = {'break': 'broke', 'untangled': 'came undone', 'solver': 'the physics gav
         'operator': 'ended by the operator', 'program': 'ended with its program'}
 MOST_WAITING = 1000  # states that wait for the reading of the load cell of the same stamp, and the other way round
 
-# What the curve takes of a state. `zero`: its balance offset; `slides`: whether the knots slide.
-Place = collections.namedtuple('Place', 'run phase extension zero slides')
-
-
-def place_of(state):
-    slides = state.motion_pattern == 'sliding' and not state.locked
-    return Place(state.run, state.phase, state.extension, state.balance_offset, slides)
-
 
 class Pairs:
     """Two coordinates of a point that come in two messages of the same stamp, in any order; `take` gets both of them."""
@@ -60,13 +52,13 @@ class Readings:
         self._begin_test()
 
     def _begin_test(self):
-        self.load = math.nan
-        self.load_at_break = None
+        self.parted = False
+        self._shown = None  # the last state with the load that was read at its stamp
         self.curve = []  # extension and load at each reading of the load cell
         self._zero = None  # balance offset of the curve
         self._sliding = []  # loads while the knots slid
         self.measured = []  # the same of the experiment, as its topics have it
-        self._measured_pairs = Pairs(self.measured.append)
+        self.measured_pairs = Pairs(self.measured.append)
 
     def take_method(self, method):
         """method: the method of the test as a map."""
@@ -85,39 +77,35 @@ class Readings:
         if state.status == BROKEN:
             self._take_break(state)
         else:
-            self._pairs.add(0, stamp, place_of(state))
+            self._pairs.add(0, stamp, state)
 
     def take_status(self, status):
         """status: a TestStatus, or what has its fields."""
         self._status = status
 
     def take_load(self, stamp, load):
-        self.load = load
         self._pairs.add(1, stamp, load)
 
     def _take_break(self, state):
         """The largest load of the command in which the rod parts is that of the break; it has none behind that."""
-        if self.load_at_break is None:
-            self.load_at_break = state.highest_load
-            self._take_point((place_of(state), state.highest_load))
+        if not self.parted:
+            self._take_point((state, state.highest_load))
+            self.parted = True
 
     def _take_point(self, point):
         """Nothing that was read before the zero belongs to the curve: neither tying and mounting nor another zero."""
-        place, load = point
-        if place.phase in PREPARATION or self.state is None or place.run != self.state.run:
+        state, load = point
+        if self.parted or self.state is None or state.run != self.state.run:
             return
-        if place.zero != self._zero:
+        self._shown = point
+        if state.phase in PREPARATION:
+            return
+        if state.balance_offset != self._zero:
             self.curve, self._sliding = [], []
-        self._zero = place.zero
-        if place.slides:
+        self._zero = state.balance_offset
+        if state.motion_pattern == 'sliding' and not state.locked:
             self._sliding.append(load)
-        self.curve.append((place.extension, load))
-
-    def take_measured_extension(self, stamp, extension):
-        self._measured_pairs.add(0, stamp, extension)
-
-    def take_measured_load(self, stamp, load):
-        self._measured_pairs.add(1, stamp, load)
+        self.curve.append((state.extension, load))
 
     def small_load(self):
         """A load [N] up to which the loads are to be shown once more, because larger ones hide those of sliding; else
@@ -130,7 +118,7 @@ class Readings:
 
     def colours_are_known(self):
         """What the colours of a rod show that has parted is not known, where it is a force."""
-        return self.load_at_break is None or self.bar is None or self.bar.quantity != 'tension'
+        return not self.parted or self.bar is None or self.bar.quantity != 'tension'
 
     def how_it_stands(self):
         """The state of the test in words."""
@@ -152,37 +140,32 @@ class Readings:
         return ', '.join(words) or ('paused' if is_of_this and status.state == PAUSED else 'running')
 
     def table(self):
-        """Rows of name, value and unit."""
-        state = self.state
-        if state is None:
+        """Rows of name, value and unit. All values are of one time: of the last reading of the load cell, once there is one."""
+        if self.state is None:
             return [('material', self.material or '–', ''), ('knot', self.knot or '–', '')]
+        state, load = self._shown or (self.state, self.state.load)
         pattern = 'locked' if state.locked else state.motion_pattern
         return [
-            ('time', '%.1f' % state.time, 's'),
+            ('time', shown('%.1f', state.time), 's'),
             ('material', self.material or '–', ''),
             ('knot', self.knot or '–', ''),
             ('state', self.how_it_stands(), ''),
             ('phase', state.phase or '–', ''),
             ('motion pattern', pattern or '–', ''),
             ('extension', millimetres(state.extension), 'mm'),
-            self._row_of_load(),
+            ('load at the break' if self.parted else 'load', shown('%.0f' if abs(load) >= 1e4 else '%.4g', load), 'N'),
             ('knot distance', millimetres(state.knot_distance), 'mm'),
             ('end-to-end distance', millimetres(state.end_to_end), 'mm'),
         ]
 
-    def _row_of_load(self):
-        if self.load_at_break is not None:
-            return ('load at the break', number(self.load_at_break), 'N')
-        return ('load', number(self.state.load if math.isnan(self.load) else self.load), 'N')
-
 
 def millimetres(metres):
-    return '–' if math.isnan(metres) else '%.1f' % (1e3 * metres)
+    return shown('%.1f', 1e3 * metres)
 
 
-def number(value):
-    """Four digits, without an exponent where they are enough."""
+def shown(form, value):
+    """– where there is none, and no minus before a zero."""
     if math.isnan(value):
         return '–'
-    value += 0.0  # no minus before a zero
-    return '%.0f' % value if abs(value) >= 1e4 else '%.4g' % value
+    text = form % value
+    return text.lstrip('-') if float(text) == 0.0 else text

@@ -59,14 +59,22 @@ class ReadingsTest(unittest.TestCase):
     def test_each_reading_has_its_name_and_unit(self):
         readings = Readings()
         readings.take_method({'material': {'name': 'nylon'}, 'specimen': {'knot': 'fisherman'}})
-        readings.take_state(1.0, state(locked=True, load=-0.0))
-        self.assertLessEqual({('load', '0', 'N'), ('motion pattern', 'locked', '')}, set(readings.table()))
+        readings.take_state(1.0, state(locked=True, load=-0.0, extension=-1e-5))
+        self.assertLessEqual({('load', '0', 'N'), ('extension', '0.0', 'mm'), ('motion pattern', 'locked', '')}, set(readings.table()))
         readings.take_state(1.5, state())
         rows = {name: (value, unit) for name, value, unit in readings.table()}
         self.assertEqual(rows, {'time': ('12.5', 's'), 'material': ('nylon', ''), 'knot': ('fisherman', ''),
                                 'state': ('running', ''), 'phase': ('pull', ''), 'motion pattern': ('sliding', ''), 'extension': ('30.1', 'mm'),
                                 'load': ('4.2', 'N'), 'knot distance': ('102.1', 'mm'),
                                 'end-to-end distance': ('280.1', 'mm')})
+
+    def test_all_values_are_of_the_last_reading_of_the_load_cell(self):
+        readings = pull(Readings(), [100.0, 131.8])
+        readings.take_state(0.5, state(extension=0.0935, load=236.7))  # no reading is due
+        self.assertLessEqual({('extension', '1.0', 'mm'), ('load', '131.8', 'N')}, set(readings.table()))
+        readings.take_load(0.6, 240.1)
+        readings.take_state(0.6, state(extension=0.0938, load=240.1))
+        self.assertLessEqual({('extension', '93.8', 'mm'), ('load', '240.1', 'N')}, set(readings.table()))
 
     def test_the_curve_pairs_readings_by_their_stamps_in_any_order(self):
         readings = Readings()
@@ -93,8 +101,8 @@ class ReadingsTest(unittest.TestCase):
         readings = Readings()
         readings.take_state(1.0, state(extension=0.002))
         for stamp, extension, load in ((1.0, 0.0021, 3.0), (2.0, 0.0041, 5.0)):
-            readings.take_measured_load(stamp, load)
-            readings.take_measured_extension(stamp, extension)
+            readings.measured_pairs.add(1, stamp, load)
+            readings.measured_pairs.add(0, stamp, extension)
         self.assertEqual(readings.measured, [(0.0021, 3.0), (0.0041, 5.0)])
 
     def test_the_curve_begins_at_the_zero_of_the_pull(self):
@@ -219,14 +227,14 @@ class DrawingTest(unittest.TestCase):
         readings = pull(Readings(), [0.0, 10.0])
         readings.bar = color_bar()
         for stamp in (20.0, 21.0):
-            readings.take_measured_extension(stamp, 0.001 * stamp)
-            readings.take_measured_load(stamp, 30.0)
+            readings.measured_pairs.add(0, stamp, 0.001 * stamp)
+            readings.measured_pairs.add(1, stamp, 30.0)
         self.assertLessEqual({'simulated', 'measured', '30'}, set(self.texts(readings)))
 
     def test_what_changes_is_drawn_anew_without_the_rest(self):
         readings = pull(Readings(), [0.0, 3.0, 5.0])
         before = self.drawing.draw(readings).copy()
-        readings.take_state(1.2, state(time=1.2, phase='hold'))
+        pull(readings, [5.0], begin=1.2, step=0.0, time=1.2, phase='hold', extension=readings.curve[-1][0])
         after = self.drawing.draw(readings)
         rows = (before != after).any(axis=(1, 2)).nonzero()[0]
         self.assertGreater(len(rows), 0)

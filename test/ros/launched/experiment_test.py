@@ -34,6 +34,7 @@ class ExperimentTest(unittest.TestCase):
             os.environ.update(launch.environment)
             # Not before: they take the master's address when they are loaded.
             import client
+            import rosbag
             import rospy
             from sensor_msgs.msg import Image
             rospy.init_node('experiment_test', disable_signals=True)
@@ -41,12 +42,16 @@ class ExperimentTest(unittest.TestCase):
             panels.wait('both curves', lambda image: client.shows(image, OURS) and client.shows(image, MEASURED))
             wait_for('the result', lambda: os.path.exists(launch.out + '/result.yaml'))
             self.assertEqual(launch.result('ended_by'), 'program')
+            with rosbag.Bag(launch.out + '/test.bag') as bag:
+                loads = [(message.header.stamp.to_sec(), message.wrench.force.z)
+                         for _, message, _ in bag.read_messages(topics=['/experiment/load_cell'])]
             rows = list(csv.DictReader(launch.text('curve.csv').splitlines()))[1:]
         # From the beginning of the record on, the crosshead is where the record has it.
         begin = float(rows[-1]['time']) - RECORD[-1][0]
         for time, extension, _ in RECORD:
             ours = min(rows, key=lambda row, at=begin + time: abs(float(row['time']) - at))
             self.assertAlmostEqual(float(ours['extension']), extension, delta=1e-9)
+        self.assertEqual([(round(stamp - begin, 6), load) for stamp, load in loads], [(time, load) for time, _, load in RECORD])
 
 
 if __name__ == '__main__':

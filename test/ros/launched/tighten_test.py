@@ -34,7 +34,7 @@ WITH_WINDOW = """<launch>
   <node name="rviz" pkg="knot_utm" type="panel_node"/>
 </launch>
 """
-LINE = re.compile(r'\r(\w+) +[\d.]+ %  s +[-\d.]+ mm  F +\S+ N +\S+ x real time +\S+ s left ')
+LINE = re.compile(r'\r(\w+) +[\d.]+ %  s +[-\d.]+ mm  load +\S+ N +\S+ x real time +\S+ s left')
 
 
 def on_terminal(*command, **environment):
