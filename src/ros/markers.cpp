@@ -129,7 +129,7 @@ Marker body_marker(int id, const GripBody& body, double radius) {
 /// A tube of this many sides around a centreline, added to a list of triangles.
 void add_tube(Marker& m, const std::vector<Ring>& rings, double radius, int sides) {
   const auto add_side = [&](const Ring& ring, double r, int side) {
-    const double angle = 2.0 * kPi * side / sides;
+    const double angle = 2.0 * M_PI * side / sides;
     const Vec3 normal = std::cos(angle) * ring.normal + std::sin(angle) * ring.binormal;
     m.points.push_back(to_point(ring.center + r * normal));
     m.colors.push_back(lit(ring.color, normal));
