@@ -17,9 +17,9 @@ from launched import LAST_RESORT, ROOT, children, free_port, wait_for
 PROGRAMS = ['knot_node', 'utm_node', 'recorder_node', 'panel_node', 'tensile_test', 'compare']
 
 
-def blocks():
-    """The indented blocks of the page, each a list of lines."""
-    with open(os.path.join(ROOT, 'doc/ros_in_ten_lines.md'), encoding='utf-8') as file:
+def blocks(page):
+    """The indented blocks of a page, each a list of lines."""
+    with open(os.path.join(ROOT, 'doc', page), encoding='utf-8') as file:
         return [block.replace('    ', '').strip().split('\n') for block in re.findall(r'(?:^    .+\n?)+', file.read(), re.MULTILINE)]
 
 
@@ -39,7 +39,7 @@ class Shell:
     def run(self, lines, name):
         """Waits until all of them have ended; returns what they said."""
         begin = len(self.said())
-        self.begin(['%s </dev/null || echo failed: %s' % (line, line.split()[0]) for line in lines] + ['echo end of ' + name])
+        self.begin(['{ %s; } </dev/null || echo failed: %s' % (line, line.split()[0]) for line in lines] + ['echo end of ' + name])
         wait_for(name, lambda: 'end of ' + name in self.said())
         return self.said()[begin:]
 
@@ -58,7 +58,7 @@ class Shell:
         self.process.wait(LAST_RESORT)
 
 
-class TenLinesTest(unittest.TestCase):
+class InBareShells(unittest.TestCase):
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix='a folder ')
@@ -85,8 +85,11 @@ class TenLinesTest(unittest.TestCase):
         except OSError:
             return False
 
+
+class TenLinesTest(InBareShells):
+
     def test_lines(self):
-        launch, ask, read, stay, start, core, play = blocks()
+        launch, ask, read, stay, start, core, play = blocks('ros_in_ten_lines.md')
         self.assertEqual(len({*launch, *ask, *read, *stay, *start, *core, *play}), 10)
         first, second = self.shell('first'), self.shell('second')
         first.begin(launch + ['echo the launch has ended'])
