@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -189,7 +190,11 @@ class RecorderNode {
     } catch (const std::exception& error) {
       return fail(error.what());
     }
-    ROS_INFO("%zu readings were written to %s", run.rows, run.folder.path().c_str());
+    const std::string said = std::to_string(run.rows) + " readings were written to " + run.folder.path();
+    if (ros::ok())
+      ROS_INFO("%s", said.c_str());
+    else  // as after Ctrl-C, when ROS prints nothing any more
+      std::printf("%s\n", said.c_str());
     point_latest_to(run.folder.path());
     run.complete = true;
   }

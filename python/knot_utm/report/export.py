@@ -87,7 +87,7 @@ def at_one_time(arguments, run, shapes, shape):
     colours = scale.of(values[scale.name][mesh.along.astype(int)]) if scale else np.tile(UNKNOWN, (len(mesh.points), 1))
     with open(arguments.gltf, "wb") as out:
         out.write(glb(mesh, colours, "rod"))
-    in_colours = f"coloured by its {scale.label()}" if scale else "in one colour, as no tension is known then"
+    in_colours = f"coloured by the {scale.label()}" if scale else "in one colour, as no tension is known then"
     return f"{arguments.gltf}: the rod at {shape.time:g} s, {in_colours}"
 
 

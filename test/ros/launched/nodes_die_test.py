@@ -77,6 +77,7 @@ class NodesDieTest(unittest.TestCase):
                 'scripts/tighten: the test was cut off; the files are in %s\n' % launch.out), launch.console())
             self.assertEqual((launch.result('ended_by'), launch.result('reason')),
                              ('interrupted', 'ROS was shut down before the test had ended'))
+            self.assertIn('readings were written to ' + launch.out, launch.console())
 
 
 if __name__ == '__main__':
