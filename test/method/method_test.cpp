@@ -67,9 +67,6 @@ TEST(Method, EveryShippedFileLoads) {
     ++methods;
   }
   EXPECT_GE(methods, 4);
-  for (const auto& file : fs::directory_iterator(kConfig + "materials")) {
-    EXPECT_NO_THROW(load_method(kTighten, {"material=" + file.path().stem().string()})) << file.path();
-  }
   for (const auto& file : fs::directory_iterator(kConfig + "load_cells")) {
     EXPECT_NO_THROW(load_method(kTighten, {"machine.load_cell=" + file.path().stem().string()})) << file.path();
   }
@@ -102,8 +99,8 @@ TEST(Method, WritesBackToTheSame) {
     }
   const std::string odd = method_yaml(load_method(
       kTighten, {"physics.max_step=0.012345678901234567", "physics.friction={law: smoothed, slip_tolerance: 1.0e-4}",
-                 "material.breaking_force=1e4", "machine.load_cell.noise=0.1", "machine.load_cell.accuracy=0.005",
-                 "machine.load_cell.floor=0.002", "physics.gravity=[0, 0.1, -9.81]",
+                 "specimens.count=2", "material.breaking_force=1e4", "machine.load_cell.noise=0.1",
+                 "machine.load_cell.accuracy=0.005", "machine.load_cell.floor=0.002", "physics.gravity=[0, 0.1, -9.81]",
                  "program=[{preload: {load: 1}}, {hold: {duration: 2}}, {pull: {until: {load: 5, time: 3}}}]"}));
   EXPECT_THAT(odd, HasSubstr("max_step: 0.012345678901234567"));
   EXPECT_THAT(odd, HasSubstr("slip_tolerance: 1.0e-04"));
