@@ -118,32 +118,24 @@ TEST(ProgramRunner, ARodThatPartsUnderItsLoadFailsNoTest) {
 }
 
 TEST(ProgramRunner, EndsByBreakOverloadTravelAndSolver) {
-  FakeBench breaks;
+  const auto ended = [](const FakeBench& bench, const ProgramRunner::Limits& limits) {
+    ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
+    run(bench, program);
+    return program;
+  };
+  FakeBench breaks, fails;
   breaks.break_force = 3.0;
-  ProgramRunner by_break({pull(0.1)}, 3.0, 0.1, {});
-  run(breaks, by_break);
-  EXPECT_EQ(by_break.ended_by(), EndedBy::kBreak);
-  EXPECT_FALSE(by_break.failed());
-
-  ProgramRunner::Limits limits;
-  limits.load = 3.0;
-  ProgramRunner by_overload({pull(0.1)}, 3.0, 0.1, limits);
-  run(FakeBench(), by_overload);
-  EXPECT_EQ(by_overload.ended_by(), EndedBy::kLoad);
-  EXPECT_THAT(by_overload.reason(), HasSubstr("capacity"));
-
-  limits = {};
-  limits.travel = 0.02;
-  ProgramRunner by_travel({pull(0.1)}, 3.0, 0.1, limits);
-  run(FakeBench(), by_travel);
-  EXPECT_EQ(by_travel.ended_by(), EndedBy::kTravel);
-
-  FakeBench fails;
   fails.fail_time = 1.0;
-  ProgramRunner by_solver({pull(0.1)}, 3.0, 0.1, {});
-  run(fails, by_solver);
-  EXPECT_EQ(by_solver.ended_by(), EndedBy::kSolver);
-  EXPECT_THAT(by_solver.reason(), HasSubstr("converged"));
+  ProgramRunner::Limits load, travel;
+  load.load = 3.0;
+  travel.travel = 0.02;
+  EXPECT_EQ(ended(breaks, {}).ended_by(), EndedBy::kBreak);
+  EXPECT_FALSE(ended(breaks, {}).failed());
+  EXPECT_EQ(ended({}, load).ended_by(), EndedBy::kLoad);
+  EXPECT_THAT(ended({}, load).reason(), HasSubstr("capacity"));
+  EXPECT_EQ(ended({}, travel).ended_by(), EndedBy::kTravel);
+  EXPECT_EQ(ended(fails, {}).ended_by(), EndedBy::kSolver);
+  EXPECT_THAT(ended(fails, {}).reason(), HasSubstr("converged"));
 }
 
 /// FakeBench ties for half a second, releases for one, mounts for half a second.
