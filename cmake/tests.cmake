@@ -134,7 +134,8 @@ if(catkin_FOUND)
     get_filename_component(name ${test} NAME_WE)
     add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${PYTHON_EXECUTABLE} -B ${test})
     # One at a time, from the beginning: each is four processes already, which mostly wait for one another.
-    set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS launched COST 100 RESOURCE_LOCK launched_system)
+    set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS launched COST 100 RESOURCE_LOCK launched_system
+                         ENVIRONMENT "PYTHONPATH=${PROJECT_SOURCE_DIR}/bench:${PROJECT_SOURCE_DIR}/test/ros")
   endforeach()
 endif()
 

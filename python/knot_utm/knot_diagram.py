@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if
 
 MOST_CROSSINGS = 60
 MOST_UNSIGNED = 16  # crossings: all their signs are tried
@@ -17,10 +17,8 @@ def diagram_in(file, text):
     crossings = planar(text) or gauss(file, text)
     if not crossings:
         return None
-    if len(crossings) > MOST_CROSSINGS:
-        raise WrongInput(f"{file}: it has {len(crossings)} crossings, but may have at most {MOST_CROSSINGS}")
-    if not is_plane(crossings):
-        raise WrongInput(f"{file}: it is the code of no diagram in a plane, or of one in several parts")
+    refuse_if(len(crossings) > MOST_CROSSINGS, f"{file}: it has {len(crossings)} crossings, but may have at most {MOST_CROSSINGS}")
+    refuse_if(not is_plane(crossings), f"{file}: it is the code of no diagram in a plane, or of one in several parts")
     return polygons(crossings)
 
 
@@ -50,8 +48,7 @@ def gauss(file, text):
         return None
     if names == sorted(signs):
         return signed(walks, [signs[name] for name in names])
-    if len(names) > MOST_UNSIGNED:
-        raise WrongInput(f"{file}: a Gauss code of more than {MOST_UNSIGNED} crossings must tell their signs")
+    refuse_if(len(names) > MOST_UNSIGNED, f"{file}: a Gauss code of more than {MOST_UNSIGNED} crossings must tell their signs")
     found = (signed(walks, each) for each in itertools.product((True, False), repeat=len(names)))
     return next(filter(is_plane, found), signed(walks, [True] * len(names)))
 

@@ -3,7 +3,7 @@ grips, and drawn through few points. All this moves no strand through another on
 import numpy as np
 from scipy.spatial import cKDTree
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 
 X, UP = np.eye(3)[[0, 2]]
 APART = 2.2            # least distance of strands [radii]
@@ -29,8 +29,7 @@ def lines_of(curves, lower=(), upper=()):
     """The curves as polylines of the size 1 around the origin, and whether they are closed, which end where they begin then. The longest
     axis becomes z, the next one x; of open ones what is held below lies below, or the first one begins there. Raises WrongInput."""
     closed = curves[0].closed
-    if any(one.closed != closed for one in curves):
-        raise WrongInput("some of its curves are closed and others are not")
+    refuse_if(any(one.closed != closed for one in curves), "some of its curves are closed and others are not")
     size = np.ptp(np.vstack([one.points for one in curves]), axis=0).max()
     lines = [(np.vstack([one.points, one.points[:1]]) if closed else one.points) / size for one in curves]
     everything = np.vstack([dense(line) for line in lines])
@@ -127,8 +126,7 @@ def tightest(lines, closed):
     # The first radius of which a pair lies nearer than APART, but further along than ALONG.
     tight = np.searchsorted(radii, distance / APART, side="right")
     first = np.where(ALONG * np.append(radii, np.inf)[tight] < along, tight, len(radii)).min()
-    if first == len(radii):
-        raise WrongInput("no strand comes near another one: there is no knot")
+    refuse_if(first == len(radii), "no strand comes near another one: there is no knot")
     nearest = np.unravel_index(np.argmin(np.where(along > ALONG * radii[first], distance, np.inf)), distance.shape)
     shares = [(number, i / (len(line) - 1)) for number, line in enumerate(lines) for i in range(len(line))]
     return radii[first] / 1.02, [shares[i] for i in nearest]  # the radius before
@@ -181,8 +179,7 @@ def ends_of(strands):
 def held_ends(ends, lower, upper):
     """The lowest end is held below and the highest one above, unless others are told."""
     for name in [*lower, *upper]:
-        if name not in ends:
-            raise WrongInput(f"no end is called {name}; the ends are {', '.join(ends)}")
+        refuse_if(name not in ends, f"no end is called {name}; the ends are {', '.join(ends)}")
     if twice := [name for name in lower if name in upper]:
         raise WrongInput(f"{twice[0]} cannot be held below and above")
     free = [name for name in ends if name not in lower and name not in upper]

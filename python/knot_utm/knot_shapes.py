@@ -8,7 +8,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.knot_diagram import diagram_in
 
 MOST = 20000       # points of a file
@@ -28,13 +28,10 @@ def curves_of(file):
         curves = read(file, text)
     except RecursionError as error:
         raise WrongInput(f"{file}: its brackets stand too deep in each other") from error
-    if len(curves) > MOST_CURVES:
-        raise WrongInput(f"{file}: it holds {len(curves)} curves, but a knot may have at most {MOST_CURVES} ropes")
-    if sum(len(curve.points) for curve in curves) > MOST:
-        raise WrongInput(f"{file}: it has more than {MOST} points")
+    refuse_if(len(curves) > MOST_CURVES, f"{file}: it holds {len(curves)} curves, but a knot may have at most {MOST_CURVES} ropes")
+    refuse_if(sum(len(curve.points) for curve in curves) > MOST, f"{file}: it has more than {MOST} points")
     for number, curve in enumerate(curves, 1):
-        if len(curve.points) < 4:
-            raise WrongInput(f"{file}: curve {number} has {len(curve.points)} different points, but must have 4 or more")
+        refuse_if(len(curve.points) < 4, f"{file}: curve {number} has {len(curve.points)} different points, but must have 4 or more")
     if not curves:
         raise WrongInput(f"{file}: it holds no curve: give VECT, CSV of x,y,z, JSON of points, rows of three numbers, or a PD or Gauss code")
     return curves
@@ -58,10 +55,8 @@ def read(file, text):
 def text_in(file):
     try:
         found = os.stat(file)
-        if not stat.S_ISREG(found.st_mode):
-            raise WrongInput(f"{file}: it is a folder, a device or a pipe, but must be a file of text")
-        if found.st_size > MOST_BYTES:
-            raise WrongInput(f"{file}: it has {found.st_size:,} bytes, but may have at most {MOST_BYTES:,}")
+        refuse_if(not stat.S_ISREG(found.st_mode), f"{file}: it is a folder, a device or a pipe, but must be a file of text")
+        refuse_if(found.st_size > MOST_BYTES, f"{file}: it has {found.st_size:,} bytes, but may have at most {MOST_BYTES:,}")
         with open(file, encoding="utf-8-sig") as opened:
             return opened.read(MOST_BYTES)
     except UnicodeDecodeError as error:
@@ -112,8 +107,7 @@ def vect(file, words, move):
     curves, done = [], 0
     for count in counts:
         end = begin + 3 * abs(count)
-        if end > len(numbers):
-            raise WrongInput(f"{file}: it names more points than it has")
+        refuse_if(end > len(numbers), f"{file}: it names more points than it has")
         places = [f"point {done + i + 1}" for i in range(abs(count))]
         points = np.reshape(numbers[begin:end], (-1, 3)) @ move[:3, :3] + move[3, :3]
         curves.append(curve(points, True if count < 0 else None, places, lines == 1))
@@ -187,6 +181,5 @@ def to_number(file, where, word):
 
 
 def whole(file, number):
-    if number != int(number) or abs(number) > MOST:
-        raise WrongInput(f"{file}: a VECT file: {number:g} is no number of points or polylines")
+    refuse_if(number != int(number) or abs(number) > MOST, f"{file}: a VECT file: {number:g} is no number of points or polylines")
     return int(number)

@@ -82,7 +82,7 @@ def read(folder):
     """The run in a folder. Raises WrongInput where there is none."""
     folder = os.path.abspath(folder)
     results = pd.Series(load(os.path.join(folder, "result.yaml")), dtype=object)
-    results.attrs["units"] = {row["key"]: row["unit"] for row in tool.result_keys()}
+    results.attrs["units"] = {row["key"]: row["unit"] for row in tool.listing("results")}
     return Run(folder, load(os.path.join(folder, "method.yaml")), results, read_table(os.path.join(folder, "curve.csv")))
 
 
@@ -185,7 +185,7 @@ def read_batch(folder):
     folder = os.path.abspath(folder)
     written = load(os.path.join(folder, STATISTICS))
     rejected = {one["specimen"]: one["reason"] for one in written["rejected"]}
-    units = {row["key"]: row["unit"] for row in tool.result_keys()}
+    units = {row["key"]: row["unit"] for row in tool.listing("results")}
     statistics = pd.DataFrame.from_dict({key: written[key] for key in units if "mean" in (written.get(key) or ())}, orient="index",
                                         dtype=float).astype({"n": int})
     statistics.attrs["units"] = {key: units[key] for key in statistics.index}

@@ -97,8 +97,7 @@ def _keys(given, name):
 
 def _method(given):
     method = given.get("method")
-    if method is None:
-        raise WrongInput("method is missing: give a file, from the folder of the study, or the name of a shipped method")
+    refuse_if(method is None, "method is missing: give a file, from the folder of the study, or the name of a shipped method")
     require(isinstance(method, str) and method, "method", method, "a file or a name")
     return method
 

@@ -76,7 +76,7 @@ class Table:
 def result_columns():
     """{(key of result.yaml, place in a pair): (column, unit, kind)}."""
     columns = {}
-    for row in tool.result_keys():
+    for row in tool.listing("results"):
         key, unit, kind = row["key"], row["unit"], row["kind"]
         if kind == "pair":
             columns.update({(key, i): (f"{key}.{i}", unit, "number") for i in (0, 1)})

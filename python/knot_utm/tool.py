@@ -70,11 +70,6 @@ def listing(name):
     return list(csv.DictReader(_asked("--list-" + name).stdout.splitlines()))
 
 
-def result_keys():
-    """[{key, unit, kind, group, meaning}] of result.yaml."""
-    return listing("results")
-
-
 def find_method(name, folder):
     """The file of a method, from a folder, or of one that comes with the package, as tensile_test finds it. Raises WrongInput."""
     shipped = [CONFIG] if os.sep in name else [CONFIG, os.path.join(CONFIG, "standards"), os.path.join(CONFIG, "validation")]

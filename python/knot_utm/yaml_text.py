@@ -4,7 +4,7 @@ import re
 
 import yaml
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 
 
 class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
@@ -16,8 +16,7 @@ class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
             key = self.construct_object(key_node, deep=True)
             if not isinstance(key, str):
                 raise WrongInput(f"line {key_node.start_mark.line + 1}: {key_node.value or 'this'} is no key: a key is a word")
-            if key in seen:
-                raise WrongInput(f"line {key_node.start_mark.line + 1}: {key} stands there twice")
+            refuse_if(key in seen, f"line {key_node.start_mark.line + 1}: {key} stands there twice")
             seen.add(key)
         return super().construct_mapping(node, deep)
 
@@ -74,8 +73,7 @@ def described(settings):
 
 def require(is_so, name, value, allowed):
     """Raises WrongInput, which names the value and what is allowed, where it is not so."""
-    if not is_so:
-        raise WrongInput(f"{name} is {text_of(value)}, but must be {allowed}")
+    refuse_if(not is_so, f"{name} is {text_of(value)}, but must be {allowed}")
 
 
 def is_whole(value, low, high):

@@ -13,6 +13,10 @@ constexpr double kTolerance = 1e-9;       // of an extension on a rigid frame [m
 constexpr double kFrameTolerance = 1e-3;  // of an extension on a compliant frame [of the motion in one period]
 constexpr double kRigid = 1.0 - 1e-6;     // gain from which a frame counts as rigid
 constexpr double kLeastGain = 1e-3;       // of a frame that is much softer than the specimen
+constexpr double kCreep = 0.01;           // of the highest speed
+// Least motion, over the longest one of a command, from which a slope is taken: over a shorter one, the residual of
+// Newton's method would decide it.
+constexpr double kCounts = 1e-5;
 
 }  // namespace
 
@@ -92,15 +96,6 @@ void CrossheadCourse::accept(const Command& command) {
   last_ = command;
   balance_next_ = false;
 }
-
-namespace {
-
-constexpr double kCreep = 0.01;  // of the highest speed
-// Least motion, over the longest one of a command, from which a slope is taken: over a shorter one, the residual of
-// Newton's method would decide it.
-constexpr double kCounts = 1e-5;
-
-}  // namespace
 
 void LoadControl::learn(const Sample& now, double counting_distance) {
   const double load = balanced_load(now), moved = now.displacement - last_displacement_;

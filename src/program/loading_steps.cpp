@@ -127,10 +127,6 @@ void HoldStep::steer(const Sample& now, CrossheadCourse& course) {
   if (hold_load) course.move(course.velocity_at_load(now, speed));
 }
 
-EndedBy HoldStep::ended(const Sample&, CrossheadCourse& course) {
-  return course.over(duration) ? EndedBy::kProgram : EndedBy::kNotYet;
-}
-
 void CycleStep::keys(fields::Fields& f, double) {
   f.low_high("extension", extension, {-100.0, 100.0, "m"});
   f.low_high("load", load, {-1e8, 1e8, "N"});
@@ -238,10 +234,6 @@ void FollowStep::check(const StepPlace& place) const {
 
 void FollowStep::steer(const Sample&, CrossheadCourse& course) {
   course.move((travel(course.time(1)) - travel(course.time())) / course.period());
-}
-
-EndedBy FollowStep::ended(const Sample&, CrossheadCourse& course) {
-  return course.over(recorded.back().time) ? EndedBy::kProgram : EndedBy::kNotYet;
 }
 
 double FollowStep::travel(double time) const {

@@ -1,5 +1,6 @@
 #include "knot_utm/program/program.hpp"
 
+#include "knot_utm/program/course.hpp"
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/program/preparing_steps.hpp"
@@ -36,6 +37,10 @@ std::optional<int> step_called(const Program& program, const std::string& name) 
     found = static_cast<int>(i);
   }
   return found;
+}
+
+EndedBy Step::ended(const Sample&, CrossheadCourse& course) {
+  return course.over(usual_duration(course)) ? EndedBy::kProgram : EndedBy::kNotYet;
 }
 
 std::string StepPlace::key() const { return "program." + std::to_string(index) + "." + program[index]->name(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
 
 #include "knot_utm/breaking/breaking_laws.hpp"
 #include "knot_utm/machine/load_cell.hpp"
@@ -20,26 +21,15 @@ using Number = std::optional<double>;
 using Count = std::optional<std::uint64_t>;
 using Flag = std::optional<bool>;
 
-// Where a member is read from, by the struct that it is a member of; null: the test has none.
-const Results* part(const Source& of, const Results*) { return &of.results; }
-const CurveReadings* part(const Source& of, const CurveReadings*) { return &of.results.curve; }
-const RateShares* part(const Source& of, const RateShares*) { return &of.results.rate; }
-const EnergyParts* part(const Source& of, const EnergyParts*) {
-  return of.results.energy ? &*of.results.energy : nullptr;
-}
-const Elongations* part(const Source& of, const Elongations*) {
-  return of.results.elongations ? &*of.results.elongations : nullptr;
-}
-const Relaxation* part(const Source& of, const Relaxation*) {
-  return of.results.relaxation ? &*of.results.relaxation : nullptr;
-}
-const SpecimenFacts* part(const Source& of, const SpecimenFacts*) { return &of.facts; }
-const RunFacts* part(const Source& of, const RunFacts*) { return &of.facts; }
-const ReadingErrors* part(const Source& of, const ReadingErrors*) { return &of.errors; }
-
+/// Where a member is read from, by the struct that it is a member of; null: the test has none.
 template <class Struct, class Value>
 const Struct* part(const Source& of, Value Struct::*) {
-  return part(of, static_cast<const Struct*>(nullptr));
+  const Results& results = of.results;
+  const SpecimenFacts& specimen = of.facts;
+  const auto if_any = [](const auto& optional) { return optional ? &*optional : nullptr; };
+  return std::get<const Struct*>(std::tuple{&results, &results.curve, &results.rate, if_any(results.energy),
+                                            if_any(results.elongations), if_any(results.relaxation), &specimen,
+                                            &of.facts, &of.errors});
 }
 
 /// What is a member of something is read by its name.

@@ -228,7 +228,7 @@ TEST_P(SavedState, GoesOnToTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
                          testing::Values(programmed_on_a_compliant_frame(), broken(),
                                          overhand("overhandWithTwist", "memory"),
-                                         overhand("overhandThatRolls", "memory", 1.0),
+                                         overhand("overhandThatRolls", "memory", 1.0), loop("loop"),
                                          with_fibres(loop("loopWithFibres")), rolling(loop("rolling"))),
                          [](const auto& scene) { return scene.param.name; });
 

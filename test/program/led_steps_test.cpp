@@ -18,15 +18,8 @@ using testing::HasSubstr;
 
 using namespace programs;
 
-PreloadStep preload(double load, bool balance = true) {
-  auto out = step<PreloadStep>(0.001);
-  out.load = load;
-  out.balance = balance;
-  return out;
-}
-
 TEST(LedSteps, PreloadMeetsItsLoadAndBalancesStandingStill) {
-  ProgramRunner program({preload(2.0), pull(0.01)}, 3.0, 0.1, {});
+  ProgramRunner program({preload(2.0, true), pull(0.01)}, 3.0, 0.1, {});
   const Answered result = run(FakeBench(), program);
   std::size_t first = 1;
   while (result.commands[first].phase == Phase::kPreload) ++first;
@@ -37,7 +30,7 @@ TEST(LedSteps, PreloadMeetsItsLoadAndBalancesStandingStill) {
   EXPECT_EQ(result.samples[first - 1].load, 0.0);
   EXPECT_NEAR(result.samples[first].load, 1000.0 * 0.0033 * program.period(), 1e-12);
 
-  ProgramRunner unbalanced({preload(2.0, false), pull(0.01)}, 3.0, 0.1, {});
+  ProgramRunner unbalanced({preload(2.0), pull(0.01)}, 3.0, 0.1, {});
   for (const Command& command : run(FakeBench(), unbalanced).commands) EXPECT_FALSE(command.balance);
 }
 
@@ -52,11 +45,8 @@ TEST(LedSteps, ErrorsOfTheCellLeadNothing) {
   auto hold = step<HoldStep>(0.0033, 3.0);
   hold.hold_load = true;
   hold.held_load = 7.0;
-  ProgramRunner program({preload(2.0, false), hold}, 3.0, 0.1, {});
-  WrongCell bench;
-  double last = 0.0;
-  run_test(bench, program, [&](const Command&, const Sample& sample) { last = sample.force_upper; });
-  EXPECT_NEAR(last, 7.0, 1e-9);
+  ProgramRunner program({preload(2.0), hold}, 3.0, 0.1, {});
+  EXPECT_NEAR(run(WrongCell(), program).samples.back().force_upper, 7.0, 1e-9);
 }
 
 TEST(LedSteps, PullsAtARateOfLoad) {

@@ -84,13 +84,6 @@ ProgramRunner parted_in_step(const Program& steps, int last) {
   return program;
 }
 
-PreloadStep preload(double load) {
-  PreloadStep out;
-  out.load = load;
-  out.balance = false;
-  return out;
-}
-
 TEST(ProgramRunner, ARodThatPartsBeforeItIsLoadedFailsTheTest) {
   const auto hold = step<HoldStep>(0.0033, 5.0);
   for (const Phase phase : {Phase::kTie, Phase::kRelease, Phase::kMount, Phase::kBalance, Phase::kHold}) {
@@ -125,32 +118,24 @@ TEST(ProgramRunner, ARodThatPartsUnderItsLoadFailsNoTest) {
 }
 
 TEST(ProgramRunner, EndsByBreakOverloadTravelAndSolver) {
-  FakeBench breaks;
+  const auto ended = [](const FakeBench& bench, const ProgramRunner::Limits& limits) {
+    ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
+    run(bench, program);
+    return program;
+  };
+  FakeBench breaks, fails;
   breaks.break_force = 3.0;
-  ProgramRunner by_break({pull(0.1)}, 3.0, 0.1, {});
-  run(breaks, by_break);
-  EXPECT_EQ(by_break.ended_by(), EndedBy::kBreak);
-  EXPECT_FALSE(by_break.failed());
-
-  ProgramRunner::Limits limits;
-  limits.load = 3.0;
-  ProgramRunner by_overload({pull(0.1)}, 3.0, 0.1, limits);
-  run(FakeBench(), by_overload);
-  EXPECT_EQ(by_overload.ended_by(), EndedBy::kLoad);
-  EXPECT_THAT(by_overload.reason(), HasSubstr("capacity"));
-
-  limits = {};
-  limits.travel = 0.02;
-  ProgramRunner by_travel({pull(0.1)}, 3.0, 0.1, limits);
-  run(FakeBench(), by_travel);
-  EXPECT_EQ(by_travel.ended_by(), EndedBy::kTravel);
-
-  FakeBench fails;
   fails.fail_time = 1.0;
-  ProgramRunner by_solver({pull(0.1)}, 3.0, 0.1, {});
-  run(fails, by_solver);
-  EXPECT_EQ(by_solver.ended_by(), EndedBy::kSolver);
-  EXPECT_THAT(by_solver.reason(), HasSubstr("converged"));
+  ProgramRunner::Limits load, travel;
+  load.load = 3.0;
+  travel.travel = 0.02;
+  EXPECT_EQ(ended(breaks, {}).ended_by(), EndedBy::kBreak);
+  EXPECT_FALSE(ended(breaks, {}).failed());
+  EXPECT_EQ(ended({}, load).ended_by(), EndedBy::kLoad);
+  EXPECT_THAT(ended({}, load).reason(), HasSubstr("capacity"));
+  EXPECT_EQ(ended({}, travel).ended_by(), EndedBy::kTravel);
+  EXPECT_EQ(ended(fails, {}).ended_by(), EndedBy::kSolver);
+  EXPECT_THAT(ended(fails, {}).reason(), HasSubstr("converged"));
 }
 
 /// FakeBench ties for half a second, releases for one, mounts for half a second.
@@ -218,8 +203,6 @@ TEST(ProgramRunner, APlateauThatIsSettledEndsTheTestAndFailsNone) {
   EXPECT_EQ(program.ended_by(), EndedBy::kPlateau) << "it had ended";
 }
 
-using namespace programs;
-
 constexpr double kLength = 0.25, kEdge = 0.005;
 constexpr const char* kFromFile = "a file of config/knots/";
 constexpr double kTwisted = kLength + kEdge;  // clamps hold the frames of edges, each of which lies in one
@@ -268,8 +251,7 @@ TestingMachine clamped_pair() {
 std::vector<Sample> answers(double extension, Program steps, TestingMachine machine = clamped_rod()) {
   steps.insert(steps.begin(), pull(extension, 1e-5));
   ProgramRunner program(steps, 6.0, 1.0, {});
-  std::vector<Sample> out;
-  run_test(machine, program, [&](const Command&, const Sample& sample) { out.push_back(sample); });
+  const std::vector<Sample> out = run(std::move(machine), program).samples;
   EXPECT_FALSE(program.failed()) << program.reason();
   return out;
 }
@@ -331,17 +313,6 @@ struct StoppingBench : FakeBench {
   double offset = 0.0;  // [N]
 };
 
-/// Until the program has ended, or waits for its operator.
-Answered run_to_stop(ProgramRunner& program, StoppingBench bench = {}) {
-  Answered result;
-  while (!program.ended() && !program.waits() && result.samples.size() < 5000) {
-    result.commands.push_back(program.last());
-    result.samples.push_back(bench.respond(program.last()));
-    program.next(result.samples.back());
-  }
-  return result;
-}
-
 TEST(ProgramRunner, EveryCommandThatMovesSaysAtWhichLoadItStops) {
   ProgramRunner::Limits limits;
   limits.load = 5.0;
@@ -350,7 +321,7 @@ TEST(ProgramRunner, EveryCommandThatMovesSaysAtWhichLoadItStops) {
   auto back = step<ReturnStep>(0.0033);
   back.load = 1.0;
   ProgramRunner program({BalanceStep(), to_load, back, pull(1.0)}, 3.0, 0.1, limits);
-  const Answered result = run_to_stop(program);
+  const Answered result = run(StoppingBench(), program);
   for (const Command& command : result.commands) {
     const double expected = command.velocity == 0.0 ? Sample::kNone : std::array{0.0, 3.0, 1.0, 5.0}[command.step];
     EXPECT_TRUE(command.stop_load == expected || std::isnan(expected)) << command.sequence;
@@ -367,7 +338,7 @@ TEST(ProgramRunner, GoesOnFromWhereTheCrossheadStopped) {
   StoppingBench bench;
   bench.stiffness = 1e6;
   ProgramRunner program({cycle}, 3.0, 0.1, {});
-  const Answered result = run_to_stop(program, bench);
+  const Answered result = run(bench, program);
   EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
   double least = 1e9, most = 0.0;
   for (std::size_t i = result.samples.size() / 2; i < result.samples.size(); ++i) {
@@ -381,7 +352,7 @@ TEST(ProgramRunner, GoesOnFromWhereTheCrossheadStopped) {
 TEST(ProgramRunner, LedByTheOperatorItPreparesTheSpecimenThenGoesThereAndWaits) {
   ProgramRunner program(paper_program(), 3.0, 0.1, {});
   program.lead({0.0, 20.0, 0.001});
-  const std::vector<Sample> samples = run_to_stop(program).samples;
+  const std::vector<Sample> samples = run(StoppingBench(), program).samples;
   EXPECT_EQ(program.led_by(), EndedBy::kLoad);
   EXPECT_NEAR(samples.back().load, 20.0, 0.02);
   std::vector<Phase> phases;
@@ -433,7 +404,7 @@ TEST(ProgramRunner, AMoveThatIsTakenBackBeforeItBeginsChangesNothing) {
   ProgramRunner program(paper_program(), 3.0, 0.1, {}), usual(paper_program(), 3.0, 0.1, {});
   program.lead({0.0, 20.0, 0.0});
   EXPECT_FALSE(program.stand());
-  EXPECT_EQ(run_to_stop(program).samples.size(), run_to_stop(usual).samples.size());
+  EXPECT_EQ(run(StoppingBench(), program).samples.size(), run(StoppingBench(), usual).samples.size());
   EXPECT_EQ(program.ended_by(), EndedBy::kExtension);
 }
 

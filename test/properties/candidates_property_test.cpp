@@ -68,19 +68,6 @@ struct Wandering {
   }
 };
 
-RC_GTEST_PROP(CandidatesAgainstEveryPair, AreAllWithinReachAndMargin, ()) {
-  const Wandering w;
-  Candidates candidates(w.rod, w.reach, w.margin, w.exclusion);
-  candidates.refresh(w.position);
-  const Pairs pairs = pairs_of(candidates);
-  w.expect_complete(pairs);
-  // A segment's neighbours have it for theirs.
-  Pairs both_ways = pairs;
-  for (const auto& [i, j] : pairs) both_ways.emplace_back(j, i);
-  std::sort(both_ways.begin(), both_ways.end());
-  RC_ASSERT(neighbours_of(candidates) == both_ways);
-}
-
 RC_GTEST_PROP(CandidatesAgainstEveryPair, StayValidWhileNodesMoveByHalfTheMargin, ()) {
   const Wandering w;
   Candidates candidates(w.rod, w.reach, w.margin, w.exclusion);
@@ -93,7 +80,7 @@ RC_GTEST_PROP(CandidatesAgainstEveryPair, StayValidWhileNodesMoveByHalfTheMargin
     RC_ASSERT(std::binary_search(listed.begin(), listed.end(), pair));
 }
 
-RC_GTEST_PROP(CandidatesAgainstEveryPair, DoNotDependOnFrameOrEnd, ()) {
+RC_GTEST_PROP(CandidatesAgainstEveryPair, AreAllWithinReachAndMarginInAnyFrameAndFromEitherEnd, ()) {
   const Wandering w;
   const Motion motion = random_motion(10.0);
   Candidates here(w.rod, w.reach, w.margin, w.exclusion), there = here;

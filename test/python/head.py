@@ -1,4 +1,4 @@
-"""The head of the tests of sweeps and fits: where things are, and what of them more than one test needs. A test is skipped, with exit
+"""The head of the tests in Python: where things are, and what of them more than one test needs. A test is skipped, with exit
 code 77, where a package that scripts/sweep installs is not there."""
 import os
 import sys

@@ -4,24 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <map>
 
 namespace knot_utm {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-std::vector<std::string> shipped_methods() {
-  const fs::path config = fs::path(KNOT_UTM_SOURCE_DIR) / "config";
-  std::vector<std::string> found;
-  for (const fs::path& folder : {config, config / "standards", config / "validation"})
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".yaml") found.push_back(entry.path().string());
-  return found;
-}
 
 TestWords launched(std::map<std::string, std::string> more = {}) {
   more.insert({{"method", "straight"},
@@ -59,15 +48,6 @@ TEST(Setup, WritesBelowOutUnlessAFolderIsAskedFor) {
   EXPECT_EQ(set_up(launched()).out, "/tmp/out/straight");
   EXPECT_EQ(set_up(launched()).method.material.name, "polypropylene");
   EXPECT_EQ(set_up(launched({{"out", "here"}})).out, "/tmp/here");
-}
-
-/// The recorder writes the method that the order has as text, and the physics steps it: to the last bit that of the
-/// machine.
-TEST(Order, HasTheWholeMethod) {
-  for (const std::string& file : shipped_methods()) {
-    const std::string text = method_yaml(load_method(file));
-    EXPECT_EQ(method_yaml(parse_method(text, file)), text) << file;
-  }
 }
 
 }  // namespace

@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <utility>
-
 #include "reference.hpp"
-#include "sim/capstan.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -85,24 +82,6 @@ TEST(R11Creep, MemoryFrictionDoesNot) {
   const double from = scene.place();
   scene.run(10.0, 0.05);
   hold_below("R11 friction with memory at r = 0.5: way in 10 s [m]", kRestTolerance, std::abs(scene.place() - from));
-}
-
-const std::pair<double, double> kReferences[] = {{2.0, 5.319}, {10.0, 6.305}, {50.0, 6.527}, {1000.0, 6.583}};
-
-/// Edges of rho/10; the error, second order in their length, passes 1 % at rho/5.
-TEST(R8Capstan, SlidesAtTheElasticRatio) {
-  for (const auto& [t1, expected] : kReferences) {
-    EXPECT_NEAR(elastic_capstan(t1, Capstan::kMu, 2.0 * M_PI), expected, 5e-4);
-    hold_against(formatted("R8 capstan, T1 rho^2/B = %g: T2/T1", t1), expected, Capstan(t1, {}).ratio(), 0.01);
-  }
-}
-
-/// Points of integration stand on the arc of the rod's own length, so that even a quarter of a radian an edge leaves no
-/// lever-arm error; points on the spline itself would be 2 % off.
-TEST(R8Capstan, CoarseEdgesKeepTheRatio) {
-  Capstan::Options options;
-  options.edges_a_turn = 24.0;
-  for (const auto& [t1, expected] : kReferences) EXPECT_NEAR(Capstan(t1, options).ratio(), expected, 0.005 * expected);
 }
 
 }  // namespace

@@ -16,7 +16,6 @@ namespace knot_utm {
 namespace {
 
 constexpr int kEdges = 40;
-constexpr int kLast = kEdges - 1;  // edge
 constexpr double kEdge = 1.0 / kEdges;
 
 /// A thin rod of unit length and bending stiffness along +x. Nothing touches.
@@ -64,26 +63,6 @@ struct Bare {
     EXPECT_TRUE(summary.accepted()) << summary.reason << ", residual " << summary.newton.residual;
   }
 };
-
-TEST(Twist, AClampThatTurnsStoresTheEnergyOfAShaft) {
-  Bare bare(0.6);
-  bare.hold(0);
-  bare.hold(1);
-  bare.hold(kEdges - 1);
-  bare.hold(kEdges);
-  bare.begin();
-  const double length = 1.0 - kEdge;  // from the middle of the first edge to that of the last
-  // Far beyond a turn: angles wind up, they do not jump.
-  for (const double angle : {0.1, 1.0, 2.5, 5.0, 7.5, 10.0}) {
-    bare.boundary.fixed_twists = {{0, 0.0}, {kLast, angle}};
-    bare.settings.drag = 0.0;
-    for (int k = 0; k < 20; ++k) bare.go(1.0);
-    EXPECT_NEAR(bare.step->readings().energies().twisting, 0.6 * angle * angle / (2.0 * length), 1e-6 * angle * angle);
-    EXPECT_NEAR(bare.step->readings().reaction_torque(kLast), 0.6 * angle / length, 1e-6 * angle);
-    EXPECT_NEAR(bare.step->readings().reaction_torque(0), -0.6 * angle / length, 1e-6 * angle);
-    EXPECT_LT(bare.step->readings().energies().bending, 1e-20);
-  }
-}
 
 /// A rod clamped at its first edge that is let go relaxes into its natural shape.
 TEST(Natural, ShapeIsTheRodAtRest) {

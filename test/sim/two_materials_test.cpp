@@ -205,7 +205,7 @@ TEST(TwoMaterials, ALimpCordOnAThickRopeIsACapstan) {
         span += dt;
       });
   ASSERT_EQ(gave_up, "");
-  // Edges of a tenth of rho: second order in their length, as R8Capstan.
+  // Edges of a tenth of rho: second order in their length.
   EXPECT_NEAR(sum / span / kTail, std::exp(kMu * M_PI), 0.01 * std::exp(kMu * M_PI));
 }
 

@@ -202,21 +202,6 @@ TEST_F(Batch, SpecimensThatFailAreRejectedAndTheirReadingsLeftOut) {
   EXPECT_EQ(statistics()["peak_force"]["n"].as<int>(), 0);
 }
 
-/// Under its weight, in a hold.
-TEST_F(Batch, ARodThatPartsBeforeItIsLoadedIsRejectedAndOneThatIsOnlyHeldCounts) {
-  const auto rejected = [&](const std::string& program) {
-    return run_batch(load_method(kConfig + "straight.yaml",
-                                 {"material.breaking_force=0.02", "physics.gravity=[0, 0, -9.81]",
-                                  "program=[" + program + "]", "specimens={count: 2, scatter: none}"}),
-                     options)
-        .rejected;
-  };
-  EXPECT_EQ(rejected("{hold: {duration: 1}}").size(), 0u);
-  const auto early = rejected("{hold: {duration: 1}}, {pull: {until: {extension: 0.01}}}");
-  ASSERT_EQ(early.size(), 2u);
-  EXPECT_THAT(early[0].reason, testing::EndsWith("before it was pulled"));
-}
-
 Method straight(const std::string& specimens) {
   return load_method(kConfig + "straight.yaml", {"specimens=" + specimens});
 }
@@ -271,19 +256,6 @@ TEST(Specimens, AreReadByOneCellWithNoiseOfItsOwnForEach) {
   EXPECT_EQ(cell(drawn[0]).seed, cell(drawn[1]).seed);
   EXPECT_NE(cell(drawn[0]).noise_run, cell(drawn[1]).noise_run);
   EXPECT_NE(cell(drawn[0]).noise_run, cell(others[0]).noise_run);
-}
-
-/// What a resumed batch reads is its own method.yaml.
-TEST(Specimens, AreThoseOfTheMethodThatIsWritten) {
-  const Method method = load_method(kConfig + "tighten.yaml", {"specimens.count=2"});
-  const Method again = parse_method(method_yaml(method), kConfig + "tighten.yaml");
-  const auto drawn = draw_specimens(method), redrawn = draw_specimens(again);
-  ASSERT_EQ(drawn.size(), redrawn.size());
-  ASSERT_GT(drawn[0].drawn.size(), 2u);
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    EXPECT_EQ(drawn[i].drawn, redrawn[i].drawn);
-    EXPECT_EQ(method_yaml(drawn[i].method), method_yaml(redrawn[i].method));
-  }
 }
 
 TEST(Specimens, AreRefusedBeforeAnyIsTested) {

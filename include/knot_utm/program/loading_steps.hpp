@@ -43,7 +43,6 @@ struct HoldStep : Step {
   bool loads() const override { return hold_load && held_load.value_or(0.0) > 0.0; }
   void begin(const Sample& now, CrossheadCourse& course) override;
   void steer(const Sample& now, CrossheadCourse& course) override;
-  EndedBy ended(const Sample& now, CrossheadCourse& course) override;
 };
 
 /// `cycle`: moves out to the upper turning point, in to the lower one, and so on at `speed`, until the last of `cycles`
@@ -119,7 +118,6 @@ struct FollowStep : Step {
   }
   void check(const StepPlace& place) const override;
   void steer(const Sample& now, CrossheadCourse& course) override;
-  EndedBy ended(const Sample& now, CrossheadCourse& course) override;
   double usual_duration(const CrossheadCourse&) const override { return recorded.empty() ? 0.0 : recorded.back().time; }
 
  private:

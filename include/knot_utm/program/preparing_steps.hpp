@@ -71,7 +71,6 @@ struct PreloadStep : Step {
 struct BalanceStep : Step {
   BalanceStep() : Step("balance", kPrepares, "at once, load and extension set to zero") {}
   void begin(const Sample& now, CrossheadCourse& course) override;
-  EndedBy ended(const Sample&, CrossheadCourse&) override { return EndedBy::kProgram; }
   double usual_duration(const CrossheadCourse& course) const override;
 };
 

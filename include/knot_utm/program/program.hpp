@@ -75,9 +75,9 @@ class Step {
   virtual void begin(const Sample& /*now*/, CrossheadCourse&) {}
   /// Before each of its commands.
   virtual void steer(const Sample& /*now*/, CrossheadCourse&) {}
-  /// After each of its commands; kNotYet: it goes on.
-  virtual EndedBy ended(const Sample& now, CrossheadCourse& course) = 0;
-  /// How long it takes, estimated [s].
+  /// After each of its commands; kNotYet: it goes on. Unless a step says otherwise it ends when its time is over.
+  virtual EndedBy ended(const Sample& now, CrossheadCourse& course);
+  /// How long it takes, estimated where it does not end by time [s].
   virtual double usual_duration(const CrossheadCourse&) const { return duration; }
 
  protected:

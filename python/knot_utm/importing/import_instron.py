@@ -13,7 +13,7 @@ if not __package__:  # called as a program: by its link beside the others, or as
 
 from knot_utm import tool
 from knot_utm.command_line import exit_code_of
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.importing.table import INVERT, parsed_columns, read_record, Reading
 from knot_utm.report.commands import OneLineParser, why_not
 
@@ -59,8 +59,7 @@ def reading_of(asked, needs_time):
     """What the options say. Raises WrongInput."""
     columns, units = (parsed_columns(text, option) if text is not None else ("", "", "")
                       for text, option in ((asked.columns, "--columns"), (asked.units, "--units")))
-    if asked.specimen is not None and asked.specimen < 1:
-        raise WrongInput(f"--specimen is {asked.specimen}, but must be a number from 1 on")
+    refuse_if(asked.specimen is not None and asked.specimen < 1, f"--specimen is {asked.specimen}, but must be a number from 1 on")
     if asked.rate is not None and not 0.0 < asked.rate < math.inf:
         raise WrongInput(f"--rate is {asked.rate:g}, but must be readings per second, above 0")
     return Reading(columns, units, asked.specimen or 0, asked.invert or "", needs_time, asked.join, asked.rate or 0.0)

@@ -16,7 +16,7 @@ import math
 import re
 from typing import NamedTuple
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 from knot_utm.importing.faults import spikes, spoilt, zero_set
 from knot_utm.importing.heads import EXTENSION, head_by_numbers, head_in, kind_of, LOAD, nearest_head, TIME, without_brackets, WORDS
 from knot_utm.importing.load_cell import load_cell_of
@@ -242,8 +242,7 @@ def _chosen(tests, reading, file):
         where = f"in tables that begin with rows {_listed([blocks[0] for blocks in tests])}" if len(tests) > 1 else "side by side"
         raise WrongInput(f"{shown(file)}: the file holds {count} specimens, {where}: choose one by --specimen 1 to {count}")
     all_ = [(blocks, place) for blocks in tests for place in range(blocks[0].head.specimens())]
-    if wanted > count:
-        raise WrongInput(f"{shown(file)}: --specimen is {wanted}, but the file holds {count} specimen{'s' if count > 1 else ''}")
+    refuse_if(wanted > count, f"{shown(file)}: --specimen is {wanted}, but the file holds {count} specimen{'s' if count > 1 else ''}")
     return all_[max(wanted - 1, 0)]
 
 
@@ -297,11 +296,9 @@ class _Table:
                 counts["rows left out that repeat the one before"] += 1
                 continue
             found.append((i, *row))
-        if not found:
-            raise WrongInput(f"{shown(self.file)}: no row of numbers follows the names")
+        refuse_if(not found, f"{shown(self.file)}: no row of numbers follows the names")
         if rate := self.reading.rate:
-            if self.columns[TIME]:
-                raise WrongInput(f"{shown(self.file)}: --rate is {rate:g}, but the file has times of its own")
+            refuse_if(self.columns[TIME], f"{shown(self.file)}: --rate is {rate:g}, but the file has times of its own")
             found = [(row, (row - found[0][0]) / rate, s, load) for row, _, s, load in found]
         return found, counts
 
@@ -356,13 +353,11 @@ class _Table:
     def _si(self, quantity, column):
         of, given, unit = QUANTITIES[quantity], self.reading.units[quantity], self._unit(quantity, column)
         key = f"{shown(self.file)}: the unit of {'column ' if column.label else ''}{shown(self._name(quantity))}"
-        if not unit:
-            raise WrongInput(f"{key} is missing: give {of.allowed}, by --units {of.name}=UNIT")
+        refuse_if(not unit, f"{key} is missing: give {of.allowed}, by --units {of.name}=UNIT")
         size, below = of.si(unit), self._below(column)
         if size is None:
             raise WrongInput(f"{f'--units is {of.name}={shown(unit)}' if given else f'{key} is {shown(unit)}'}, but must be {of.allowed}")
-        if math.isnan(size):
-            raise WrongInput(f"{key} is {shown(unit)}, which is {TONF}")
+        refuse_if(math.isnan(size), f"{key} is {shown(unit)}, which is {TONF}")
         if not given and below and of.si(below) != size:
             raise WrongInput(f"{key} is {shown(below)} below the name, but must be the same as in the name, {shown(unit)}")
         return size

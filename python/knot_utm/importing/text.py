@@ -3,7 +3,7 @@ import csv
 import re
 import unicodedata
 
-from knot_utm.errors import WrongInput
+from knot_utm.errors import refuse_if, WrongInput
 
 # Without a mark, and not UTF-8: the first of them in which a row names the columns.
 ENCODINGS = ("cp1252", "cp1250", "cp932", "gb18030")
@@ -52,8 +52,7 @@ def require_text(content, file):
         kind = "empty"
     elif len(content) > LARGEST:
         kind = "larger than 1 GiB, which is too large for a table of text"
-    if kind:
-        raise WrongInput(f"{shown(file)}: the file is {kind}")
+    refuse_if(kind, f"{shown(file)}: the file is {kind}")
     if content.count(b"\r") > 2 * content.count(b"\n") and content.find(b"\r") + 1 < len(content):
         raise WrongInput(f"{shown(file)}: the lines of the file end with a carriage return alone, as on old Macs: give it the usual line "
                          r"ends first, for example by tr '\r' '\n' <FILE >NEW_FILE")
@@ -109,8 +108,7 @@ def rows_of(text, file):
     rows = text.split("\n")
     if not rows[-1]:
         rows.pop()
-    if len(rows) > MOST_ROWS:
-        raise WrongInput(f"{shown(file)}: there are more than {MOST_ROWS} rows")
+    refuse_if(len(rows) > MOST_ROWS, f"{shown(file)}: there are more than {MOST_ROWS} rows")
     for i, row in enumerate(rows):
         if not _is_open(row):
             continue

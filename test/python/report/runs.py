@@ -7,16 +7,14 @@ import tempfile
 import unittest
 from unittest import mock
 
+from head import ROOT, TOOLS
+
 import numpy as np
 import yaml
 
 from knot_utm.report import run_page
 from knot_utm.report.quantities import Units
 from knot_utm.report.run import Curve, Run
-
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
-TOOLS = os.environ["KNOT_UTM_TOOLS_DIR"]
-os.environ["KNOT_UTM_NO_CACHE"] = "1"  # a test takes up nothing that another one has left
 
 STRAIGHT = ["config/straight.yaml", "--set", "physics.accuracy=draft", "--set", "material.breaking_force=none"]
 # Tied, slid and locked in a second or two.

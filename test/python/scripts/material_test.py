@@ -11,16 +11,15 @@ import subprocess
 import tempfile
 import unittest
 
+from head import ROOT, TOOLS
+
 import numpy as np
 import yaml
 from scipy import integrate, optimize
 
 from knot_utm import WrongInput, material
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
 EXAMPLE = os.path.join(ROOT, "examples/measure_a_rope.yaml")
-TOOLS = os.environ.get("KNOT_UTM_TOOLS_DIR", os.path.join(ROOT, "build/devel/lib/knot_utm"))
-os.environ["KNOT_UTM_NO_CACHE"] = "1"  # a test takes up nothing that another one has left
 GRAVITY = 9.81
 
 

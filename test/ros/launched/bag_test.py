@@ -3,12 +3,8 @@
 import os
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
-
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path[:0] = [os.path.join(HERE, '../../../bench'), os.path.join(HERE, '..'), os.path.join(HERE, '../../../python')]
 
 from knot_utm.panel.drawing import OURS
 from launched import METHOD, ROOT, Headless, free_port, wait_for

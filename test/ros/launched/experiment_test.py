@@ -4,11 +4,7 @@ curves."""
 import csv
 import os
 import subprocess
-import sys
 import unittest
-
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path[:0] = [os.path.join(HERE, '../../../bench'), os.path.join(HERE, '..'), os.path.join(HERE, '../../../python')]
 
 from knot_utm.panel.drawing import MEASURED, OURS
 from launched import TOOL, Launch, wait_for

@@ -4,12 +4,8 @@ its operator asks for, between two commands. Then what else the operator's hand 
 import os
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
-
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path[:0] = [os.path.join(HERE, '../../../bench'), os.path.join(HERE, '..')]
 
 from launched import ROOT, Launch, wait_for
 

@@ -3,10 +3,7 @@
 import os
 import signal
 import subprocess
-import sys
 import unittest
-
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
 from launched import METHOD, ROOT, TOOL, Headless, Launch
 

@@ -5,13 +5,9 @@ import math
 import os
 import signal
 import subprocess
-import sys
 import time
 import unittest
 import xml.etree.ElementTree
-
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path[:0] = [os.path.join(HERE, '../../../bench'), os.path.join(HERE, '..')]
 
 from launched import FILES, METHOD, ROOT, Headless, Launch, wait_for
 

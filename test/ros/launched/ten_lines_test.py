@@ -5,12 +5,9 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import tempfile
 import unittest
 import xmlrpc.client
-
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
 from launched import LAST_RESORT, ROOT, children, free_port, wait_for
 

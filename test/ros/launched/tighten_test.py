@@ -6,13 +6,10 @@ import shlex
 import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import yaml
-
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
 from launched import LAST_RESORT, METHOD, ROOT, TOOL, Launch, free_port, wait_for
 

@@ -4,13 +4,10 @@ leaves the master as it found it."""
 import os
 import signal
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import rosgraph
-
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
 from launched import FILES, LAST_RESORT, METHOD, ROOT, Launch, children, free_port, wait_for, words
 
