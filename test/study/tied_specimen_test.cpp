@@ -138,14 +138,8 @@ TEST_F(Tied, WhatIsDamagedOrForeignIsTiedAnewAndReplaced) {
     return restored;
   };
   EXPECT_TRUE(restores(*tied, method));
-  std::vector<std::string> damaged = {"", "something else", whole + "more", whole.substr(0, whole.size() - 1)};
-  for (const double part : {0.001, 0.2, 0.5, 0.99})
-    damaged.push_back(whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
-  for (std::size_t at = 3; at < whole.size(); at += whole.size() / 9) {
-    damaged.push_back(whole);
-    damaged.back()[at] = static_cast<char>(damaged.back()[at] ^ 0x10);
-  }
-  for (const std::string& bytes : damaged) {
+  // Archive.TellsEveryDamage has the others.
+  for (const std::string& bytes : {std::string(), std::string("something else"), whole.substr(0, whole.size() / 2)}) {
     write_whole(file, bytes);
     EXPECT_FALSE(restores(*tied, method)) << bytes.size();
   }
