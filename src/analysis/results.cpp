@@ -52,9 +52,7 @@ Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std:
 
 void read_pull(const Pull& pull, Results& results) {
   if (!results.break_extension) results.steady_force = steady_force(pull);
-  if (!results.never_in_tension) {
-    results.energy_to_peak = energy_to_peak(pull);
-  }
+  if (!results.never_in_tension) results.energy_to_peak = energy_to_peak(pull);
   if (results.break_extension) results.energy_to_break = energy(pull);
   results.chord_stiffness = chord_stiffness(pull);
   results.secant_stiffness = secant_stiffness(pull);

@@ -318,16 +318,5 @@ TEST(PlateauWatch, EndsNoTestWithoutAPlateau) {
   EXPECT_FALSE(ended_early(coarse.samples())) << "too few readings";
 }
 
-/// What only the rest of the pull would tell is left out, and what made the knots slide is not.
-TEST(PlateauWatch, LeavesReadingsOfTheRestOfThePullEmpty) {
-  const Results early = made_up::on_rollers(*ended_early(Curve().samples()), EndedBy::kPlateau);
-  EXPECT_EQ(early.motion_pattern, MotionPattern::kSliding);
-  EXPECT_TRUE(early.curve.no_plateau.empty());
-  EXPECT_TRUE(early.curve.breakaway_force && early.true_plateau_force && early.plateau_slope);
-  EXPECT_EQ(early.curve.no_lock_by_load, kEndedInPlateau);
-  EXPECT_FALSE(early.lock_extension || early.curve.locked_stiffness || early.curve.peak_force);
-  EXPECT_FALSE(early.curve.largest_drop || early.chord_stiffness || early.energy_to_peak);
-}
-
 }  // namespace
 }  // namespace knot_utm

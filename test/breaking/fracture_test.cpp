@@ -7,25 +7,20 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/breaking/break_watch.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/program/loading_steps.hpp"
-#include "knot_utm/program/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "machine/overhand_specimen.hpp"
+#include "program/programs.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
 namespace {
 
-constexpr double kLength = 0.25;  // [m]
+using programs::pull;
 
-PullStep pull(double extension) {
-  PullStep out;
-  out.until.extension = extension;
-  return out;
-}
+constexpr double kLength = 0.25;  // [m]
 
 struct Pulled {
   TestingMachine bench;

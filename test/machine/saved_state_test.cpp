@@ -10,17 +10,17 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/program/loading_steps.hpp"
-#include "knot_utm/program/preparing_steps.hpp"
-#include "knot_utm/program/program_runner.hpp"
-#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
+#include "program/programs.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
 namespace {
+
+using programs::pull;
+using programs::step;
 
 constexpr std::size_t kToTheEnd = std::numeric_limits<std::size_t>::max();
 
@@ -62,19 +62,6 @@ struct WholeTest {
   }
 };
 
-template <class Own>
-Own step(double duration = 0.0) {
-  Own out;
-  out.duration = duration;
-  return out;
-}
-
-PullStep pull(double extension) {
-  PullStep out;
-  out.until.extension = extension;
-  return out;
-}
-
 /// A whole test, and how many commands lie between two moments at which it is saved.
 struct Scene {
   std::string name;
@@ -110,7 +97,7 @@ Scene programmed_on_a_compliant_frame() {
   out.name = "programmedOnACompliantFrame";
   out.machine.stiffness = 1e5;
   PullStep by_load = pull(0.01);
-  auto held = step<HoldStep>(1.0);
+  auto held = step<HoldStep>(0.0033, 1.0);
   CycleStep cycle;
   by_load.load_rate = 100.0;
   by_load.until.load = 300.0;
@@ -130,7 +117,7 @@ Scene broken() {
 }
 
 Scene overhand(const std::string& name, const char* friction, double couple = 0.0) {
-  Scene out{name, {}, pink_vps(), {}, {}, {step<HoldStep>(1.0), BalanceStep(), pull(0.02)}, 4};
+  Scene out{name, {}, pink_vps(), {}, {}, {step<HoldStep>(0.0033, 1.0), BalanceStep(), pull(0.02)}, 4};
   out.specimen = overhand_specimen(0.4, 0.15, 0.006);
   out.material.friction_couple = couple;
   out.machine.grips = GripKind::kClamps;
@@ -144,7 +131,7 @@ Scene overhand(const std::string& name, const char* friction, double couple = 0.
 /// Tied, released, put onto rollers and pulled.
 Scene loop(const std::string& name) {
   Scene out{name, {}, polypropylene(),
-            {},   {}, {TieStep(), step<ReleaseStep>(1.0), MountStep(), BalanceStep(), pull(0.002)},
+            {},   {}, {TieStep(), step<ReleaseStep>(0.0033, 1.0), MountStep(), BalanceStep(), pull(0.002)},
             7};
   out.specimen.preload = 20.0;
   out.specimen.to_be_tied = true;

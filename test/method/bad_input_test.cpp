@@ -16,6 +16,7 @@
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "run/command.hpp"
+#include "run/own_folder.hpp"
 
 namespace knot_utm {
 namespace {
@@ -174,21 +175,17 @@ TEST(BadInput, IsNamedOnOneLineWithFileAndKey) {
   for (const Wrong& right : kRight) EXPECT_EQ(complaint(right), "") << right.settings;
 }
 
-class BadFile : public ::testing::Test {
+class BadFile : public MadeFolder {
  protected:
-  void SetUp() override { fs::create_directories(folder_ / "materials"); }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string write(const char* name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
+  static std::string write(const char* name, const std::string& text) {
+    std::ofstream(in(name)) << text;
+    return in(name);
   }
-  fs::path folder_ = fs::path(::testing::TempDir()) /
-                     (std::string("knot_utm_bad_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
   EXPECT_THAT(complaint("/nowhere/method.yaml"), Eq("cannot read /nowhere/method.yaml: no such file"));
-  EXPECT_THAT(complaint(folder_.string()), Eq("cannot read " + folder_.string() + ": is a directory"));
+  EXPECT_THAT(complaint(folder()), Eq("cannot read " + folder() + ": is a directory"));
   EXPECT_THAT(complaint(write("long.yaml", std::string(70000, '#'))), HasSubstr("longer than 65536 characters"));
   EXPECT_THAT(complaint(write("empty.yaml", "")), HasSubstr("empty.yaml: the file is empty, but must be a map"));
   EXPECT_THAT(complaint(write("list.yaml", "[1, 2]")), HasSubstr("list.yaml: the file is a list, but must be a map"));
@@ -208,6 +205,7 @@ TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
 }
 
 TEST_F(BadFile, AWrongMaterialFileIsNamedItself) {
+  fs::create_directories(in("materials"));
   write("materials/odd.yaml", "radius: 3.175");
   const std::string text = complaint(write("method.yaml", "material: odd\nprogram: [{hold: {duration: 1}}]"));
   EXPECT_THAT(text, AllOf(HasSubstr("odd.yaml: radius is 3.175"), HasSubstr("0.05 m")));
@@ -277,8 +275,7 @@ TEST(BadInput, EveryKeyOfAKnotIsRefusedOfTheOthers) {
 
 /// The command itself: exit code 2, one line, nothing written.
 TEST_F(BadFile, TheCommandSaysItInOneLineAndWritesNothing) {
-  const fs::path out = folder_ / "out";
-  const std::string file = "tighten";
+  const std::string out = in("out"), file = "tighten";
   // Refused as the method is read, as its records and its specification are, and as its specimen is made.
   const std::vector<std::string> lines{file + " --set specimen.turns=5",
                                        file + " --set 'program=[{follow: {record: nowhere.csv}}]'",
@@ -288,7 +285,7 @@ TEST_F(BadFile, TheCommandSaysItInOneLineAndWritesNothing) {
                                        "/nowhere/method.yaml",
                                        ""};
   for (const std::string& line : lines) {
-    const Answer answer = answer_of(tool("tensile_test", line + " --out '" + out.string() + "'"));
+    const Answer answer = answer_of(tool("tensile_test", line + " --out '" + out + "'"));
     EXPECT_EQ(answer.code, 2) << line;
     EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << line << "\n" << answer.text;
     EXPECT_FALSE(fs::exists(out)) << line;

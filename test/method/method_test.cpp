@@ -18,6 +18,7 @@
 #include "knot_utm/run/load_test.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
+#include "run/own_folder.hpp"
 
 namespace knot_utm {
 namespace {
@@ -90,7 +91,6 @@ TEST(Method, EveryStandardLoadsAndSaysWhatItIsAndWhatIsNotSimulated) {
 
 /// To the last bit, also where the nodes of ROS read it again.
 TEST(Method, WritesBackToTheSame) {
-  const std::string copy = ::testing::TempDir() + "knot_utm_round_trip.yaml";
   for (const char* folder : {"", "standards", "validation"})
     for (const auto& file : fs::directory_iterator(kConfig + folder)) {
       if (file.path().extension() != ".yaml") continue;
@@ -104,9 +104,7 @@ TEST(Method, WritesBackToTheSame) {
                  "program=[{preload: {load: 1}}, {hold: {duration: 2}}, {pull: {until: {load: 5, time: 3}}}]"}));
   EXPECT_THAT(odd, HasSubstr("max_step: 0.012345678901234567"));
   EXPECT_THAT(odd, HasSubstr("slip_tolerance: 1.0e-04"));
-  std::ofstream(copy) << odd;
-  EXPECT_EQ(method_yaml(load_method(copy)), odd);
-  fs::remove(copy);
+  EXPECT_EQ(method_yaml(parse_method(odd, kTighten)), odd);
 }
 
 /// What older methods wrote of another law, its plain value, is read and goes.
@@ -123,9 +121,6 @@ TEST(Method, HasTheKeysOfItsLawsAndOfNoOthers) {
 }
 
 TEST(Method, WhatAReportSaysAndWhatIsAskedOfATestWriteBackToTheSame) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "knot_utm_round_trip_report";
-  fs::create_directories(folder);
-  const std::string copy = (folder / "copy.yaml").string();
   const Method method = load_method(
       kTighten, {"report={specimen_id: \"0012\", standard: NO, conditioning: 'a: #b', terminations: 2026-11-23, "
                  "notes: \"two\\nlines\", units: {force: kN, length: in}}",
@@ -139,16 +134,15 @@ TEST(Method, WhatAReportSaysAndWhatIsAskedOfATestWriteBackToTheSame) {
   EXPECT_EQ(method.specification[0].max, std::nullopt);
   EXPECT_EQ(method.specification[1].key, "lock_extension");
   const std::string text = method_yaml(method);
-  std::ofstream(copy) << text;
-  EXPECT_EQ(method_yaml(load_method(copy)), text);
-  fs::remove_all(folder);
+  EXPECT_EQ(method_yaml(parse_method(text, kTighten)), text);
 }
 
 constexpr const char* kNames = "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n";
 
-TEST(Method, EveryStepWritesBackToTheSame) {
-  const std::string copy = ::testing::TempDir() + "knot_utm_round_trip_steps.yaml";
-  const std::string record = ::testing::TempDir() + "knot_utm_record.csv";
+using OwnMethod = MadeFolder;
+
+TEST_F(OwnMethod, WritesEveryStepBackToTheSame) {
+  const std::string copy = in("copy.yaml"), record = in("record.csv");
   std::ofstream(record) << kNames
                         << "5,0.001,0.5,nan,nan,nan,pull\n6,0.0025,1.5,nan,nan,nan,pull\n8,0.002,1,nan,nan,nan,pull\n";
   const Method method = load_test(
@@ -173,8 +167,6 @@ TEST(Method, EveryStepWritesBackToTheSame) {
   const std::string text = method_yaml(method);
   std::ofstream(copy) << text;
   EXPECT_EQ(method_yaml(load_test(copy)), text);
-  fs::remove(copy);
-  fs::remove(record);
 }
 
 TEST(Method, OverridesReachEveryKey) {
@@ -191,18 +183,16 @@ TEST(Method, OverridesReachEveryKey) {
   EXPECT_EQ(m.physics.contact_tolerance, 0.05);
 }
 
-TEST(Method, FilesBesideTheMethodComeFirst) {
-  const fs::path folder = fs::path(::testing::TempDir()) / "knot_utm_own";
-  fs::create_directories(folder / "methods");
-  fs::create_directories(folder / "config" / "materials");
-  fs::copy_file(kTighten, folder / "methods" / "mine.yaml", fs::copy_options::overwrite_existing);
-  std::ofstream(folder / "config" / "materials" / "nylon.yaml")
+TEST_F(OwnMethod, HasTheFilesBesideItBeforeTheShippedOnes) {
+  fs::create_directories(in("methods"));
+  fs::create_directories(in("config/materials"));
+  fs::copy_file(kTighten, in("methods/mine.yaml"));
+  std::ofstream(in("config/materials/nylon.yaml"))
       << "{radius: 0.003, density: 1000, stretching_stiffness: 9, bending_stiffness: 1.0e-5, twisting_stiffness: "
          "1.0e-5, friction_coefficient: 0.1}";
-  const Method m = load_method((folder / "methods" / "mine.yaml").string());
+  const Method m = load_method(in("methods/mine.yaml"));
   EXPECT_EQ(m.material.stretching_stiffness, 9.0);
   EXPECT_EQ(m.machine.load_cell.name, "auto");
-  fs::remove_all(folder);
 }
 
 /// They have plain values, which say what the test is not.

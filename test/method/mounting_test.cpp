@@ -29,7 +29,7 @@ TEST_F(Mounting, OfALoopThatLiesAcrossARollersPlaceHasNoLoad) {
           "stretching_stiffness: 9.794, breaking_force: 600, friction_coefficient: 0.3363, friction_couple: 0}' "
           "--set 'program=[{tie: {}}, {release: {duration: 3}}, {mount: {}}, {pull: {until: {extension: 0.001}}}]'"));
   EXPECT_EQ(answer.code, 0) << answer.text;
-  const YAML::Node result = YAML::LoadFile(folder() + "/result.yaml");
+  const YAML::Node result = YAML::LoadFile(in("result.yaml"));
   EXPECT_EQ(result["ended_by"].as<std::string>(), "extension");
   EXPECT_TRUE(result["knot_type_preserved"].as<bool>());
   EXPECT_TRUE(result["break_extension"].IsNull());
@@ -45,7 +45,7 @@ TEST_F(Mounting, SetsTheKnotsToTheirMarks) {
                                "--set 'program=[{tie: {}}, {release: {duration: 3}}, {mount: {}}, {balance: {}}, "
                                "{pull: {until: {extension: 0.001}}}]'"));
   EXPECT_EQ(answer.code, 0) << answer.text;
-  const YAML::Node result = YAML::LoadFile(folder() + "/result.yaml");
+  const YAML::Node result = YAML::LoadFile(in("result.yaml"));
   EXPECT_NEAR(result["knot_distance"].as<double>(), 0.15, 0.0015);
   EXPECT_NEAR(result["gauge_length"].as<double>(), 0.25, 0.0025);
   EXPECT_GT(result["tied_knot_distance"].as<double>(), 0.155) << "before";
@@ -61,7 +61,7 @@ TEST_F(Mounting, LeavesOpenCoilsWhereTheyAre) {
                                "{pull: {until: {extension: 0.001}}}]'"));
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text, testing::HasSubstr("as the pull begins, instead of 0.15 m (specimen.knot_distance)"));
-  EXPECT_LT(YAML::LoadFile(folder() + "/result.yaml")["true_peak_force"].as<double>(), 12.0) << "k_b/h^2 is 11.7 N";
+  EXPECT_LT(YAML::LoadFile(in("result.yaml"))["true_peak_force"].as<double>(), 12.0) << "k_b/h^2 is 11.7 N";
 }
 
 /// A loop that is tied, slides and locks in a second or two, with more to set.
@@ -73,7 +73,7 @@ class OneNumber : public OwnFolder {
     for (const std::string& key : more) arguments += " --set '" + key + "'";
     const Answer answer = answer_of(tool("tensile_test", arguments));
     EXPECT_EQ(answer.code, 0) << answer.text;
-    return YAML::LoadFile(folder() + "/result.yaml");
+    return YAML::LoadFile(in("result.yaml"));
   }
 
   static void expect_that_compare_says(const YAML::Node& result) {

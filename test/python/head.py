@@ -27,6 +27,6 @@ def write(path, text):
     return path
 
 
-def content(*path):
-    with open(os.path.join(*path), "rb") as file:
+def read(*path):
+    with open(os.path.join(*path), encoding="utf-8", newline="") as file:
         return file.read()

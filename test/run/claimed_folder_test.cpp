@@ -21,7 +21,6 @@ using testing::HasSubstr;
 
 class ClaimedFolderOf : public OwnFolder {
  protected:
-  static std::string in(const std::string& name) { return folder() + "/" + name; }
   static std::string claimed(const std::string& asked) { return ClaimedFolder::first_free(asked).path(); }
 };
 
@@ -97,20 +96,20 @@ TEST_F(ClaimedFolderOf, AMethodThatSomebodyWroteIsNotReplacedByItsRun) {
 class LatestLink : public OwnFolder {
  protected:
   static std::string made(const std::string& name) {
-    fs::create_directories(folder() + "/" + name);
-    return folder() + "/" + name;
+    fs::create_directories(in(name));
+    return in(name);
   }
-  static std::string latest() { return fs::read_symlink(folder() + "/out/latest").string(); }
+  static std::string latest() { return fs::read_symlink(in("out/latest")).string(); }
 };
 
 TEST_F(LatestLink, LeadsToTheLastOne) {
-  EXPECT_EQ(point_latest_to(made("out/tighten")), folder() + "/out/latest");
+  EXPECT_EQ(point_latest_to(made("out/tighten")), in("out/latest"));
   EXPECT_EQ(latest(), "tighten");
   point_latest_to(made("out/a b") + "/");
   EXPECT_EQ(latest(), "a b");
-  point_latest_to(folder() + "/out/latest");  // a run that went on by that name
+  point_latest_to(in("out/latest"));  // a run that went on by that name
   EXPECT_EQ(latest(), "a b");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder() + "/out"), fs::directory_iterator()), 3);
+  EXPECT_EQ(std::distance(fs::directory_iterator(in("out")), fs::directory_iterator()), 3);
 }
 
 class ReportIn : public MadeFolder {

@@ -184,7 +184,7 @@ TEST(ReadingText, HasThePrefixAndTheDigitsThatSuitIt) {
 
 class Summary : public MadeFolder {
  protected:
-  static void write(const std::string& name, const std::string& text) { write_whole(folder() + "/" + name, text); }
+  static void write(const std::string& name, const std::string& text) { write_whole(in(name), text); }
   static long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 };
 

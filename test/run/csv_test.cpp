@@ -3,33 +3,28 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
+#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "complaint.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/run/run_writer.hpp"
+#include "run/own_folder.hpp"
 
 namespace knot_utm {
 namespace {
 
 using testing::HasSubstr;
 
-class Csv : public ::testing::Test {
+class Csv : public MadeFolder {
  protected:
-  std::string text() const {
-    std::ostringstream all;
-    all << std::ifstream(path_).rdbuf();
-    return all.str();
-  }
   std::string complaint(const std::string& content) {
     std::ofstream(path_) << content;
     return complaint_of([&] { read_curve(path_); });
   }
-  void TearDown() override { std::remove(path_.c_str()); }
-  std::string path_ =
-      ::testing::TempDir() + "knot_utm_csv_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
+  const std::string path_ = in("curve.csv");
 };
 
 TEST_F(Csv, CurveIsExactlyAsPromised) {
@@ -44,7 +39,7 @@ TEST_F(Csv, CurveIsExactlyAsPromised) {
   sample.phase = Phase::kPull;
   writer.write(sample);
   // Read while the writer is still open: a killed run keeps its rows.
-  EXPECT_EQ(text(),
+  EXPECT_EQ(read_whole(path_),
             "time,extension,load,knot_distance,end_to_end,load_lower,phase,balance_offset\n"
             "s,m,N,m,m,N,-,N\n"
             "0.3333333333333333,0.01,2.5,nan,0.26,1.75,pull,0.25\n");
@@ -80,7 +75,7 @@ TEST_F(Csv, OfACompliantFrameTheTravelOfTheCrossheadIsTheLastColumn) {
   sample.phase = Phase::kPull;
   CurveWriter writer(path_, true);
   writer.write(sample);
-  EXPECT_EQ(text(),
+  EXPECT_EQ(read_whole(path_),
             "time,extension,load,knot_distance,end_to_end,load_lower,phase,balance_offset,crosshead_travel\n"
             "s,m,N,m,m,N,-,N,m\n"
             "0,0.01,0,nan,0,0,pull,0,0.0125\n");

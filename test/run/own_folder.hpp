@@ -19,6 +19,7 @@ class OwnFolder : public testing::Test {
     return testing::TempDir() + "knot_utm_" + test.test_suite_name() + "_" + test.name() + "_" +
            std::to_string(getpid());
   }
+  static std::string in(const std::string& name) { return folder() + "/" + name; }
 };
 
 /// The same, made before the test begins.
@@ -28,7 +29,6 @@ class MadeFolder : public OwnFolder {
     OwnFolder::SetUp();
     std::filesystem::create_directories(folder());
   }
-  static std::string in(const std::string& name) { return folder() + "/" + name; }
 };
 
 }  // namespace knot_utm

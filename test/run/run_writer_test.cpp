@@ -27,17 +27,17 @@ const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
 class RunFolder : public OwnFolder {
  protected:
   void begin(const Method& method) {
-    make_folder(folder_.string(), "--out");
-    begin_run_folder(folder_.string(), method);
+    make_folder(folder(), "--out");
+    begin_run_folder(folder(), method);
   }
 
   /// The files of some records, as if they were those of a whole test.
   RunFacts make(const Method& method, const std::vector<Record>& records, const TestEnd& end, const Points& shape) {
     begin(method);
-    SamplesWriter samples(folder_.string());
+    SamplesWriter samples(folder());
     for (const Record& record : records) samples.append(record);
     samples.end(end, shape);
-    return make_results(folder_.string(), method, {}).facts;
+    return make_results(folder(), method, {}).facts;
   }
 
   /// A whole run of the method with a spring for a knot.
@@ -51,9 +51,7 @@ class RunFolder : public OwnFolder {
     });
     make(method, records, {program.ended_by(), program.reason()}, Points::Zero(3, 4));
   }
-  YAML::Node result() const { return YAML::LoadFile((folder_ / "result.yaml").string()); }
-
-  const fs::path folder_ = folder();
+  YAML::Node result() const { return YAML::LoadFile(in("result.yaml")); }
 };
 
 /// Of the last shape, with the centreline by which its strands touch.
@@ -81,7 +79,7 @@ TEST_F(RunFolder, HoldsTheInnerDiameterOfAKnotThatIsWhole) {
 
 TEST_F(RunFolder, CurveHasTheSamplingInstantsAndTheFullCurveEveryStep) {
   run(load_method(kConfig + "tighten.yaml"));
-  std::vector<CurveRow> curve = read_curve((folder_ / "curve.csv").string());
+  std::vector<CurveRow> curve = read_curve(in("curve.csv"));
   curve.pop_back();  // the end of the pull, a reading wherever it lies
   std::size_t sampled = 0, balanced = 0;
   for (const CurveRow& row : curve) {
@@ -91,32 +89,32 @@ TEST_F(RunFolder, CurveHasTheSamplingInstantsAndTheFullCurveEveryStep) {
       EXPECT_EQ(row.time, static_cast<double>(sampled++ * 4) / 12.0);
   }
   EXPECT_EQ(balanced, 1u);
-  const std::vector<CurveRow> full = read_curve((folder_ / "curve_full.csv").string());
+  const std::vector<CurveRow> full = read_curve(in("curve_full.csv"));
   EXPECT_GE(full.size(), 8 * (sampled - 1) + 1);
   for (std::size_t i = 1; i < full.size(); ++i) EXPECT_GT(full[i].time, full[i - 1].time);
 }
 
 TEST_F(RunFolder, ItsMethodRunsAgainToTheSameBytes) {
   run(load_method(kConfig + "from_file.yaml"));
-  const std::string curve = read_whole((folder_ / "curve.csv").string());
-  const std::string method = read_whole((folder_ / "method.yaml").string());
+  const std::string curve = read_whole(in("curve.csv"));
+  const std::string method = read_whole(in("method.yaml"));
   EXPECT_THAT(method, HasSubstr("file: specimen.csv"));
-  run(load_method((folder_ / "method.yaml").string()));
-  EXPECT_EQ(read_whole((folder_ / "curve.csv").string()), curve);
-  EXPECT_EQ(read_whole((folder_ / "method.yaml").string()), method);
+  run(load_method(in("method.yaml")));
+  EXPECT_EQ(read_whole(in("curve.csv")), curve);
+  EXPECT_EQ(read_whole(in("method.yaml")), method);
 }
 
 TEST_F(RunFolder, KeepsTheKnotThatAUsersFileDescribes) {
-  fs::create_directories(folder_);
-  const std::string own = (folder_ / "mine.yaml").string();
+  fs::create_directories(folder());
+  const std::string own = in("mine.yaml");
   fs::copy_file(kConfig + "knots/reef.yaml", own);
-  begin_run_folder(folder_.string(), load_method(kConfig + "knot.yaml", {"specimen.knot=" + own}));
-  const std::string method = read_whole((folder_ / "method.yaml").string());
+  begin_run_folder(folder(), load_method(kConfig + "knot.yaml", {"specimen.knot=" + own}));
+  const std::string method = read_whole(in("method.yaml"));
   EXPECT_THAT(method, HasSubstr("knot: knot.yaml"));
-  EXPECT_EQ(read_whole((folder_ / "knot.yaml").string()), read_whole(own));
+  EXPECT_EQ(read_whole(in("knot.yaml")), read_whole(own));
   fs::remove(own);
-  begin_run_folder(folder_.string(), load_method((folder_ / "method.yaml").string()));
-  EXPECT_EQ(read_whole((folder_ / "method.yaml").string()), method);
+  begin_run_folder(folder(), load_method(in("method.yaml")));
+  EXPECT_EQ(read_whole(in("method.yaml")), method);
 }
 
 TEST_F(RunFolder, ARunThatGaveUpKeepsWhatItHadAndTheReason) {
@@ -126,27 +124,27 @@ TEST_F(RunFolder, ARunThatGaveUpKeepsWhatItHadAndTheReason) {
   const YAML::Node made = result();
   EXPECT_EQ(made["ended_by"].as<std::string>(), "solver");
   EXPECT_THAT(made["reason"].as<std::string>(), HasSubstr("converged"));
-  EXPECT_GT(read_curve((folder_ / "curve.csv").string()).size(), 20u);
+  EXPECT_GT(read_curve(in("curve.csv")).size(), 20u);
 }
 
 TEST_F(RunFolder, AnUnfinishedRunHasNoResultOfAnEarlierOne) {
   const Method method = load_method(kConfig + "straight.yaml");
   run(method);
-  EXPECT_TRUE(fs::exists(folder_ / "result.yaml"));
+  EXPECT_TRUE(fs::exists(in("result.yaml")));
   begin(method);
-  EXPECT_FALSE(fs::exists(folder_ / "result.yaml"));
-  EXPECT_FALSE(fs::exists(folder_ / "final_shape.csv"));
+  EXPECT_FALSE(fs::exists(in("result.yaml")));
+  EXPECT_FALSE(fs::exists(in("final_shape.csv")));
 }
 
 TEST_F(RunFolder, ARunMayTestTheShapeThatTheLastOneLeftThere) {
-  fs::create_directories(folder_);
+  fs::create_directories(folder());
   const std::string shape = "x,y,z\nm,m,m\n0,0,0\n0,0,0.1\n0,0,0.2\n0,0,0.3\n";
-  std::ofstream(folder_ / "final_shape.csv") << shape;
+  std::ofstream(in("final_shape.csv")) << shape;
   Method method = load_method(kConfig + "from_file.yaml");
-  method.specimen.file = (folder_ / "final_shape.csv").string();
+  method.specimen.file = in("final_shape.csv");
   begin(method);
-  EXPECT_EQ(read_whole((folder_ / "specimen.csv").string()), shape);
-  EXPECT_FALSE(fs::exists(folder_ / "final_shape.csv"));
+  EXPECT_EQ(read_whole(in("specimen.csv")), shape);
+  EXPECT_FALSE(fs::exists(in("final_shape.csv")));
 }
 
 }  // namespace

@@ -62,9 +62,8 @@ class Samples : public MadeFolder {
   Record record(std::uint64_t sequence) {
     Record out;
     out.wall_time = number();
-    out.command = {
-        sequence,     number(), number(), number(),          number(),         static_cast<int>(sequence % 5) - 1,
-        Phase::kPull, number(), number(), sequence % 2 == 0, sequence % 2 == 1};
+    out.command = {sequence,     number(), number(), number(), number(),          static_cast<int>(sequence % 5) - 1,
+                   Phase::kPull, number(), number(), number(), sequence % 2 == 0, sequence % 2 == 1};
     out.answer = sample(sequence);
     for (std::uint64_t k = 0; k < sequence % 4; ++k) out.steps.push_back(sample(sequence));
     if (sequence % 2 == 1) out.shape = Points::Random(3, 5);
@@ -82,7 +81,7 @@ class Samples : public MadeFolder {
     return archive.bytes();
   }
   static std::string rows() { return read_whole(samples_file(folder())); }
-  static std::string shapes() { return read_whole(folder() + "/shapes.bin"); }
+  static std::string shapes() { return read_whole(in("shapes.bin")); }
 
  private:
   std::mt19937_64 random_{41};
@@ -151,7 +150,7 @@ TEST_F(Samples, AnyBytesAreUnderstoodOrRefusedInOneLine) {
     for (std::size_t n = random() % 3; n > 0; --n)
       bad_shapes[random() % bad_shapes.size()] = static_cast<char>(random());
     write_whole(samples_file(folder()), bad_rows);
-    write_whole(folder() + "/shapes.bin", bad_shapes);
+    write_whole(in("shapes.bin"), bad_shapes);
     try {
       SamplesReader reader(folder());
       Record found;

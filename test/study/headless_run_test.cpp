@@ -29,7 +29,7 @@ using testing::HasSubstr;
 class HeadlessRun : public OwnFolder {
  protected:
   HeadlessRun() {
-    options.folder = folder() + "/run";
+    options.folder = in("run");
     options.interrupted = [] { return false; };
   }
   std::string curve() const { return read_whole(options.folder + "/curve.csv"); }
@@ -107,7 +107,7 @@ const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
 class Batch : public OwnFolder {
  protected:
   Batch() {
-    options.folder = folder() + "/batch";
+    options.folder = in("batch");
     options.interrupted = [] { return false; };
     options.notice = [&](const std::string& line) { said += line + "\n"; };
   }
@@ -125,7 +125,7 @@ class Batch : public OwnFolder {
 TEST_F(Batch, LeavesTheSameBytesHoweverManyAreTestedSideBySide) {
   std::vector<std::string> all;
   for (const int jobs : {1, 3, 8}) {
-    options.folder = folder() + "/jobs_" + std::to_string(jobs);
+    options.folder = in("jobs_" + std::to_string(jobs));
     options.jobs = jobs;
     const BatchOutcome outcome = run_batch(method, options);
     EXPECT_FALSE(outcome.interrupted);
@@ -183,7 +183,7 @@ TEST_F(Batch, AnotherOneGoesToAFolderOfItsOwn) {
   EXPECT_EQ(written("statistics.yaml"), first);
   EXPECT_THAT(said, HasSubstr("holds a run already"));
   // Also where there is but a specimen of one.
-  options.folder = folder() + "/other";
+  options.folder = in("other");
   fs::create_directories(specimen_folder(options.folder, 1));
   std::ofstream(specimen_folder(options.folder, 1) + "/result.yaml") << "ended_by: break\n";
   EXPECT_EQ(run_batch(method, options).folder, options.folder + "-2");

@@ -37,7 +37,6 @@ class OfThePlateau : public OwnFolder {
     options.readings = readings;
     return run_headless(method, options);
   }
-  std::string in(const std::string& name) const { return folder() + "/" + name; }
   std::string file(const std::string& name) const { return read_whole(in(name)); }
 
   HeadlessOptions options;

@@ -32,7 +32,7 @@ class Said : public OwnFolder {
                  more));
     EXPECT_EQ(answer.code, 0) << answer.text;
     said_ = answer.text;
-    return YAML::LoadFile(folder() + "/result.yaml");
+    return YAML::LoadFile(in("result.yaml"));
   }
   inline static std::string said_;
 };
@@ -66,7 +66,7 @@ TEST_F(Said, AfterAJumpThereIsNoLock) {
   for (const char* key : {"lock_extension", "lock_extension_error", "lock_extension_by_load", "locked_stiffness",
                           "locked_stiffness_error", "plateau_force"})
     EXPECT_TRUE(result[key].IsNull()) << key;
-  EXPECT_THAT(read_whole(folder() + "/result.yaml"), HasSubstr("locked_stiffness: null  # a knot jumped open at "));
+  EXPECT_THAT(read_whole(in("result.yaml")), HasSubstr("locked_stiffness: null  # a knot jumped open at "));
 }
 
 TEST_F(Said, TheSameWithAndWithoutABalance) {
@@ -100,7 +100,7 @@ class Untangled : public OwnFolder {
                                               "--set material.bending_law=elastic --set material.friction_couple=0 " +
                                               more));
   }
-  static std::string result() { return read_whole(folder() + "/result.yaml"); }
+  static std::string result() { return read_whole(in("result.yaml")); }
 };
 
 constexpr const char* kSlippery = "--set specimen.preload=20 --set material.friction_coefficient=0.05 ";
@@ -112,7 +112,7 @@ TEST_F(Untangled, BeforeItIsPulledItEndsTheTestAndSaysWhatWouldKeepIt) {
                                  HasSubstr("a higher material.friction_coefficient (now 0.05)")));
   EXPECT_THAT(result(), AllOf(HasSubstr("motion_pattern: untangling\n"), HasSubstr("ended_by: untangled\n"),
                               HasSubstr(": the knot came undone\"\n"), HasSubstr("knot_type_preserved: false\n")));
-  EXPECT_THAT(read_whole(folder() + "/curve.csv"), Not(HasSubstr("pull")));
+  EXPECT_THAT(read_whole(in("curve.csv")), Not(HasSubstr("pull")));
 }
 
 TEST_F(Untangled, NotWhatIsMountedAndPulledAsItWasTied) {

@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-from head import content, write
+from head import read, write
 
 import numpy as np
 import pandas as pd
@@ -188,7 +188,7 @@ class Fits(unittest.TestCase):
 
     def altered(self, name, file, **columns):
         """The same curve, with columns as functions of the table."""
-        lines, table = content(file).decode().splitlines(keepends=True)[:2], pd.read_csv(file, skiprows=[1])
+        lines, table = read(file).splitlines(keepends=True)[:2], pd.read_csv(file, skiprows=[1])
         table = table.assign(**columns)
         return write(self.path(name), "".join(lines) + table.to_csv(index=False, header=False))
 
@@ -217,13 +217,13 @@ class Fits(unittest.TestCase):
         method = load(self.path("fit/method.yaml"))
         self.assertEqual(method["material"]["stretching_stiffness"], told[STRETCH]["value"])
         self.assertEqual(method["machine"]["load_cell"]["noise"], 1.0, "the cell of the method")
-        page = content(self.path("fit/report.html")).decode()
+        page = read(self.path("fit/report.html"))
         for word in (f'data-key="{STRETCH}"', "The curve fits within the errors", f"{STRETCH}, record.force_offset", "profiles.csv"):
             self.assertIn(word, page)
         self.assertIn("fit.yaml exists already", self.command(*words, self.path("fit"), code=2))
         self.command(*words, self.path("same"), "--no-report", "--jobs", "3")
         for name in ("fit.yaml", "method.yaml", "curves.csv", "profiles.csv"):
-            self.assertEqual(content(self.path("fit", name)), content(self.path("same", name)), name)
+            self.assertEqual(read(self.path("fit", name)), read(self.path("same", name)), name)
         bent = self.altered("bent.csv", self.path("record/curve.csv"), load=lambda table: table["load"] * (0.5 + 60.0 * table["extension"]))
         said = self.command(bent, "straight", "--free", STRETCH, "--out", self.path("bent"), "--no-report", code=1)
         self.assertFalse(load(self.path("bent/fit.yaml"))["fits"])

@@ -75,7 +75,7 @@ class PageOfABatch(unittest.TestCase):
             folder = folders.changed(rods, "statistics.yaml", rejected=[{"specimen": number, "reason": why} for number in numbers])
             rows = read(folder, "specimens.csv").splitlines()
             rows[2:] = [row.replace(",false,", ",true,") if number in numbers else row for number, row in enumerate(rows[2:], 1)]
-            write("\n".join(rows) + "\n", folder, "specimens.csv")
+            write(os.path.join(folder, "specimens.csv"), "\n".join(rows) + "\n")
             html = html_of(folder)
             for one in (*words, "Specimen 2</td>", why):
                 self.assertIn(one, html)
@@ -130,7 +130,7 @@ class PageOfAComparison(unittest.TestCase):
 
     def test_takes_files_of_any_name(self):
         odd, out = os.path.join(folders.path, "a$b$ <c> it's_ä.csv"), os.path.join(folders.path, "odd")
-        write(read(single, "curve.csv"), odd)
+        write(odd, read(single, "curve.csv"))
         bytes_only = os.fsencode(folders.path) + b"/\xff"
         shutil.copytree(os.fsencode(single), bytes_only)
         self.assertEqual(tool("compare", bytes_only + b"/curve.csv", odd, "--report", out).stderr, "")

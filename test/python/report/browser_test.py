@@ -47,7 +47,7 @@ def setUpModule():
 class InABrowser(unittest.TestCase):
     def seen(self, folder, width, graphics):
         file = os.path.join(folders.path, "probed.html")
-        write(FRAME % (width, escape(read(folder, "report.html").replace("</body>", PROBE + "</body>"))), file)
+        write(file, FRAME % (width, escape(read(folder, "report.html").replace("</body>", PROBE + "</body>"))))
         with tempfile.TemporaryDirectory(prefix="knot_utm_browser_") as profile:
             done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", graphics,
                                    f"--user-data-dir={profile}", "--enable-logging=stderr", "--window-size=1350,1600", "--dump-dom",

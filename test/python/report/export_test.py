@@ -136,9 +136,9 @@ class Refused(unittest.TestCase):
     def test_in_one_line_with_nothing_written(self):
         os.makedirs(out("full"))
         os.symlink(os.path.join(broken, "result.yaml"), out("link.glb"))
-        write("", out("full/a.glb"))
+        write(out("full/a.glb"), "")
         damaged = folders.copy(broken)
-        write(read(damaged, "shapes.csv").replace("contact_force", "force", 1), damaged, "shapes.csv")
+        write(os.path.join(damaged, "shapes.csv"), read(damaged, "shapes.csv").replace("contact_force", "force", 1))
         for code, name, arguments, words in (
                 (2, "export", [broken], "--vtk"), (2, "export", [out("none"), "--vtk", out("x")], "none: no such folder"),
                 (2, "export", [out("full"), "--vtk", out("x")], "full: no test is there"),

@@ -117,7 +117,7 @@ class PageOfARun(unittest.TestCase):
             folder = folders.copy(straight)
             for name in ("curve.csv", "curve_full.csv"):
                 rows = [row for row in read(folder, name).splitlines() if ",pull," not in row]
-                write("\n".join(rows[:count]) + "\n", folder, name)
+                write(os.path.join(folder, name), "\n".join(rows[:count]) + "\n")
             html = without_data(run_page.report_on_run(folder, "", ""))
             self.assertIn("there is no curve", html)
             self.assertEqual(html.count(' src="data:image/'), pictures)
@@ -150,7 +150,8 @@ class NumbersOfThePage(unittest.TestCase):
         folder = folders.copy(fisherman)
         old = "knot_efficiency: null  # the rod did not break"
         self.assertIn(old, read(folder, "result.yaml"))
-        write(read(folder, "result.yaml").replace(old, "knot_efficiency: null  # not predicted: it was given"), folder, "result.yaml")
+        write(os.path.join(folder, "result.yaml"),
+              read(folder, "result.yaml").replace(old, "knot_efficiency: null  # not predicted: it was given"))
         self.assertEqual(row_of(html_of(folder), "knot_efficiency")[1], "not predicted")
 
 
@@ -172,7 +173,7 @@ class Failures(unittest.TestCase):
             if text is None:
                 os.remove(os.path.join(folder, name))
             else:
-                write(text, folder, name)
+                write(os.path.join(folder, name), text)
             with self.assertRaisesRegex(WrongInput, name):
                 html_of(folder)
 
@@ -298,7 +299,7 @@ class ACompliantFrame(unittest.TestCase):
         for name in ("curve.csv", "curve_full.csv"):
             rows = [row.split(",") for row in read(folder, name).splitlines()]
             rows = [rows[0] + ["crosshead_travel"], rows[1] + ["m"], *(row + [str(2.0 * float(row[1]))] for row in rows[2:])]
-            write("\n".join(map(",".join, rows)) + "\n", folder, name)
+            write(os.path.join(folder, name), "\n".join(map(",".join, rows)) + "\n")
         run = Run(folder)
         np.testing.assert_array_equal(run.curve["extension"], Run(straight).curve["extension"])
         np.testing.assert_array_equal(run.curve["crosshead_extension"], 2.0 * run.curve["extension"])

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from unittest import mock
 
-from head import ROOT, TOOLS
+from head import ROOT, TOOLS, read, write
 
 import numpy as np
 import yaml
@@ -29,16 +29,6 @@ def tool(name, *arguments):
 def script(name, *arguments):
     return subprocess.run([os.path.join(ROOT, "scripts", name), *arguments], cwd=ROOT, capture_output=True, text=True, check=False,
                           env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1"})
-
-
-def read(*parts):
-    with open(os.path.join(*parts), encoding="utf-8") as text:
-        return text.read()
-
-
-def write(text, *parts):
-    with open(os.path.join(*parts), "w", encoding="utf-8") as out:
-        out.write(text)
 
 
 def without_data(html):
@@ -117,5 +107,5 @@ class Folders:
     def changed(self, of, name, **values):
         """A copy of a run, of whose YAML file some keys have other values."""
         folder = self.copy(of)
-        write(yaml.safe_dump({**yaml.safe_load(read(folder, name)), **values}, sort_keys=False), folder, name)
+        write(os.path.join(folder, name), yaml.safe_dump({**yaml.safe_load(read(folder, name)), **values}, sort_keys=False))
         return folder

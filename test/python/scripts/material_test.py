@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import unittest
 
-from head import ROOT, TOOLS
+from head import ROOT, TOOLS, read, write
 
 import numpy as np
 import yaml
@@ -21,11 +21,6 @@ from knot_utm import WrongInput, material
 
 EXAMPLE = os.path.join(ROOT, "examples/measure_a_rope.yaml")
 GRAVITY = 9.81
-
-
-def content(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
 
 
 def solved(slopes, ends, s, y, p=None):
@@ -182,9 +177,7 @@ class Material(unittest.TestCase):
         return os.path.join(self.folder.name, name)
 
     def run_script(self, measured):
-        with open(self.path("measured.yaml"), "w", encoding="utf-8") as file:
-            yaml.safe_dump(measured, file)
-        return self.run_on(self.path("measured.yaml"), self.path("rope.yaml"), "--overwrite")
+        return self.run_on(write(self.path("measured.yaml"), yaml.safe_dump(measured)), self.path("rope.yaml"), "--overwrite")
 
     @staticmethod
     def run_on(measured, out, *more):
@@ -194,8 +187,7 @@ class Material(unittest.TestCase):
     def made(self, measured):
         done = self.run_script(measured)
         self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.path("rope.yaml"), encoding="utf-8") as file:
-            text = file.read()
+        text = read(self.path("rope.yaml"))
         uncertain = {line.split(":")[0]: float(line.split("+- ")[1].split(",")[0])
                      for line in text.splitlines() if "+-" in line}
         return yaml.safe_load(text), uncertain
@@ -216,7 +208,7 @@ class Material(unittest.TestCase):
     def test_a_strip_of_cloth_shows_what_peirce_s_formula_says(self):
         drop, reach = end_of_cantilever(1 / 8, 1.0, 1.0)
         self.assertAlmostEqual(math.degrees(math.atan(drop / reach)), 41.5, delta=0.02)
-        share = float(re.search(r"k_b = w l³/8:\s`overhang` is l, and `drop` is ([0-9.]+) l\.", content(os.path.join(ROOT, "doc/measure.md")))[1])
+        share = float(re.search(r"k_b = w l³/8:\s`overhang` is l, and `drop` is ([0-9.]+) l\.", read(ROOT, "doc/measure.md"))[1])
         self.assertAlmostEqual(material.cantilever_stiffness(1.0, 1.0, share), 1 / 8, delta=1e-3 / 8)
 
     def test_fibres_that_rub_come_back_within_their_uncertainty(self):
@@ -381,7 +373,7 @@ class Material(unittest.TestCase):
             self.assertAlmostEqual(here["twisting_stiffness"] / here["bending_stiffness"], share, places=12)
 
     def test_what_is_wrong_is_named(self):
-        good = yaml.safe_load(content(EXAMPLE))
+        good = yaml.safe_load(read(EXAMPLE))
         material.usable(*self.understood(good))
 
         def has(group, **changed):
@@ -439,7 +431,7 @@ class Material(unittest.TestCase):
 
 class Example(unittest.TestCase):
     def test_the_worked_example_gives_what_doc_measure_says(self):
-        page, measured, said = (content(os.path.join(ROOT, file)) for file in (
+        page, measured, said = (read(ROOT, file) for file in (
             "doc/measure.md", EXAMPLE, "test/python/scripts/measured_rope.yaml"))
         values, errors = material.read(measured)[1:]
         here = material.properties(values)
@@ -453,15 +445,13 @@ class Example(unittest.TestCase):
         with tempfile.TemporaryDirectory(prefix="knot_utm_material_") as folder:
             files = EXAMPLE, os.path.join(folder, "rope.yaml")
             subprocess.run([os.path.join(ROOT, "scripts/material"), files[0], "--out", files[1]], check=True)
-            with open(files[1], encoding="utf-8") as file:
-                self.assertEqual(file.read(), said)
+            self.assertEqual(read(files[1]), said)
             weight = 0.016 * GRAVITY
             self.assertAlmostEqual(material.cantilever_stiffness(weight, 0.2, 0.159) / yaml.safe_load(said)["bending_stiffness"], 2.6, delta=0.05)
             out = os.path.join(folder, "out")
             subprocess.run([os.path.join(TOOLS, "tensile_test"), os.path.join(ROOT, "config/tighten.yaml"), "--quiet", "--set",
                             f"material={files[1]}", "--set", "physics.accuracy=draft", "--out", out], check=True)
-            with open(os.path.join(out, "result.yaml"), encoding="utf-8") as file:
-                result = yaml.safe_load(file)
+            result = yaml.safe_load(read(out, "result.yaml"))
             self.assertEqual(result["motion_pattern"], "sliding")
             slides = float(re.search(r"slide at ([0-9.]+) N", page)[1])
             self.assertAlmostEqual(result["plateau_force"] / slides, 1.0, delta=0.2)

@@ -7,7 +7,7 @@ import os
 import tempfile
 import unittest
 
-from head import ROOT, write
+from head import ROOT, read, write
 
 import numpy as np
 from scipy import special, stats
@@ -163,8 +163,7 @@ class Designs(Studies):
 
 class Documented(unittest.TestCase):
     def test_every_key_and_draw(self):
-        with open(os.path.join(ROOT, "doc/studies.md"), encoding="utf-8") as file:
-            page = file.read()
+        page = read(ROOT, "doc/studies.md")
         for key in KEYS:
             self.assertIn(f"\n| `{key}` |", page)
         for name, parts in DRAWS.items():

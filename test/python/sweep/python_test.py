@@ -8,7 +8,7 @@ import subprocess
 import sys
 import unittest
 
-from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, content, rows, write
+from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, read, rows, write
 
 import matplotlib
 import numpy as np
@@ -40,7 +40,7 @@ class Package(Sweeps):
         self.assertEqual(run.method["specimen"]["length"], 0.2)
         self.assertEqual(run.results["peak_force"], load(os.path.join(out, "result.yaml"))["peak_force"])
         self.assertEqual(run.results.attrs["units"]["peak_force"], "N")
-        names, units, *values = rows(content(out, "curve.csv"))
+        names, units, *values = rows(read(out, "curve.csv"))
         self.assertEqual(run.curve.attrs["units"], dict(zip(names, units)))
         self.assertEqual(list(run.curve["load"]), [float(row[names.index("load")]) for row in values])
         with self.assertRaisesRegex(knot_utm.WrongInput, "holds a run already: choose another folder, or overwrite=True"):
@@ -82,8 +82,7 @@ class Package(Sweeps):
         self.assertEqual(knot_utm.read(self.path("undone"))["ended_by"], "untangled", "reading it raises nothing")
 
     def test_a_run_is_one_specimen_whatever_the_method_says(self):
-        with open(os.path.join(CONFIG, "straight.yaml"), encoding="utf-8") as file:
-            method = write(self.path("method.yaml"), file.read() + "specimens: {count: 3}\n")
+        method = write(self.path("method.yaml"), read(CONFIG, "straight.yaml") + "specimens: {count: 3}\n")
         run = knot_utm.run(method, self.path("run"), **DRAFT)
         alone = knot_utm.run("straight", self.path("alone"), **DRAFT)
         self.assertTrue(run.curve.equals(alone.curve))
@@ -115,8 +114,7 @@ class Package(Sweeps):
             self.assertIn(name, dir(knot_utm))
         with self.assertRaisesRegex(AttributeError, "no attribute 'pull'"):
             knot_utm.pull
-        with open(os.path.join(ROOT, "package.xml"), encoding="utf-8") as file:
-            self.assertIn(f"<version>{knot_utm.__version__}</version>", file.read())
+        self.assertIn(f"<version>{knot_utm.__version__}</version>", read(ROOT, "package.xml"))
         self.assertEqual(tool.version(), knot_utm.__version__)
 
     def test_a_sweep_gives_its_table(self):

@@ -13,8 +13,9 @@ import signal
 import subprocess
 import unittest
 
-from sweeps import CONFIG, LENGTHS, REAL, STRAIGHT, Sweeps, content, rows, write  # first: it finds the packages
+from sweeps import CONFIG, LENGTHS, REAL, STRAIGHT, Sweeps, read, rows, write  # first: it finds the packages
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 
@@ -40,7 +41,7 @@ class TheTable(Sweeps):
             alone = self.path("alone", run[1])
             subprocess.run([REAL, CONFIG + "/straight.yaml", "--quiet", "--out", alone, "--set", "physics.accuracy=draft",
                             "--set", "specimen.length=" + run[1]], check=True)
-            self.assertEqual(content(alone, "curve_full.csv"), content(self.path("out/runs"), run[-1], "curve_full.csv"))
+            self.assertEqual(read(alone, "curve_full.csv"), read(self.path("out/runs"), run[-1], "curve_full.csv"))
             result = load(os.path.join(alone, "result.yaml"))
             for name, shown in zip(names[4:-1], run[4:-1]):
                 value = result.get(name)
@@ -122,7 +123,7 @@ class OfThePlateauAlone(Sweeps):
         write(self.study, self.STUDY)
 
     def words(self):
-        return [line for line in content(self.log).decode().splitlines() if "--readings plateau" in line]
+        return [line for line in read(self.log).splitlines() if "--readings plateau" in line]
 
     def test_every_run_ends_with_it_and_the_table_goes_on_so(self):
         self.sweep("out", "--readings", "plateau")
@@ -151,7 +152,7 @@ class OfThePlateauAlone(Sweeps):
 class Plots(Sweeps):
     def test_are_written_beside_the_table(self):
         self.sweep("out", "--plot", "peak_force")
-        self.assertTrue(content(self.path("out/peak_force.png")).startswith(b"\x89PNG"))
+        self.assertEqual(plt.imread(self.path("out/peak_force.png")).ndim, 3)
 
     def test_of_what_is_no_number_are_refused(self):
         for name in ("reason", "peak"):
@@ -200,7 +201,7 @@ class CutShort(Sweeps):
 
     def test_by_a_full_disk_goes_on_when_there_is_room(self):
         self.sweep("out", "--jobs", "1")
-        write(self.study, content(self.study).decode().replace(str(LENGTHS[-1]), f"{LENGTHS[-1]}, 0.5"))
+        write(self.study, read(self.study).replace(str(LENGTHS[-1]), f"{LENGTHS[-1]}, 0.5"))
         # As large as a file may become: enough for the method, too little for what is measured.
         said = self.sweep("out", code=1, limit=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000)))
         self.assertRegex(said, r"cannot write \S+: file too large, with 4 of 5 runs done; the same command goes on")
@@ -224,7 +225,7 @@ class Repeated(Sweeps):
 
     def setUp(self):
         super().setUp()
-        method = content(CONFIG, "straight.yaml").decode().replace("extension: auto", "extension: 0.02")  # on to the break
+        method = read(CONFIG, "straight.yaml").replace("extension: auto", "extension: 0.02")  # on to the break
         write(self.path("method.yaml"), method + "specimens: {scatter: {material.breaking_force: {normal: 0.1}}}\n")
         write(self.study, self.SCATTERED)
 
@@ -266,23 +267,20 @@ class TiedOnce(Sweeps):
         self.assertEqual(len(os.listdir(self.path("out/runs/.tied"))), 1)
         self.sweep("alone")
         self.assertEqual(self.table("out"), self.table("alone"))
-        for run in self.whole_runs("alone"):
-            for name in ("curve.csv", "curve_full.csv", "final_shape.csv", "method.yaml"):
-                self.assertEqual(content(self.path("out/runs", run), name), content(self.path("alone/runs", run), name))
 
 
 class Content(Sweeps):
     def test_of_a_study_that_grows_is_kept(self):
         self.sweep("out", "--jobs", "1")
-        write(self.study, content(self.study).decode().replace("[0.1, ", "[0.25, 0.1, "))
+        write(self.study, read(self.study).replace("[0.1, ", "[0.25, 0.1, "))
         self.sweep("out")
         self.assertEqual(self.started(), LENGTHS + [0.25])
         self.assertEqual([run[1] for run in rows(self.table("out"))[2:]], [str(length) for length in [0.25] + LENGTHS])
 
     def test_that_changed_is_run_anew(self):
         os.mkdir(self.path("materials"))
-        method = content(CONFIG, "straight.yaml").decode().replace("material: nylon", "material: mine")
-        material = content(CONFIG, "materials/nylon.yaml").decode()
+        method = read(CONFIG, "straight.yaml").replace("material: nylon", "material: mine")
+        material = read(CONFIG, "materials/nylon.yaml")
         write(self.path("method.yaml"), method)
         write(self.path("materials/mine.yaml"), material)
         write(self.study, "method: method.yaml\nvary: {physics.accuracy: [draft], specimen.length: [0.2]}")
@@ -301,10 +299,9 @@ class Content(Sweeps):
         self.assertEqual(len({first, second, rows(self.table("out"))[2][-1]}), 3)
         self.assertEqual(len(self.whole_runs("out")), 3)
 
-
     def test_the_file_of_the_other_ropes_counts(self):
         os.mkdir(self.path("materials"))
-        write(self.path("method.yaml"), content(CONFIG, "knot.yaml").decode() + "\nother_material: mine\n")
+        write(self.path("method.yaml"), read(CONFIG, "knot.yaml") + "\nother_material: mine\n")
         names = set()
         for radius in (0.003, 0.002):
             write(self.path("materials/mine.yaml"), f"radius: {radius}\n")

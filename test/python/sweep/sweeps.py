@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from head import ROOT, TOOLS, content, write  # noqa: F401
+from head import ROOT, TOOLS, read, write  # noqa: F401
 
 REAL = os.path.join(TOOLS, "tensile_test")
 CONFIG = os.path.join(ROOT, "config")
@@ -37,7 +37,7 @@ exec "$REAL" "$@"
 
 
 def rows(text):
-    return list(csv.reader(io.StringIO(text.decode())))
+    return list(csv.reader(io.StringIO(text)))
 
 
 class Sweeps(unittest.TestCase):
@@ -81,11 +81,11 @@ class Sweeps(unittest.TestCase):
         """The lengths of the runs that were started, in order."""
         if not os.path.exists(self.log):
             return []
-        return [float(word.split("=")[1]) for line in content(self.log).decode().splitlines() for word in line.split()
+        return [float(word.split("=")[1]) for line in read(self.log).splitlines() for word in line.split()
                 if word.startswith("specimen.length=")]
 
     def table(self, out):
-        return content(self.path(out), "table.csv")
+        return read(self.path(out), "table.csv")
 
     def whole_runs(self, out):
         return [name for name in os.listdir(self.path(out, "runs")) if not name.startswith(".")]

@@ -12,7 +12,7 @@ import sys
 import unittest
 from collections import Counter
 
-from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, content, write
+from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, read, write
 
 WORKFLOW = os.path.join(ROOT, "python/knot_utm/workflow")
 COMMANDS = ("snakemake", "slurmctld", "slurmd", "sbatch")
@@ -99,7 +99,7 @@ class Workflow(Sweeps):
 
     def jobs(self):
         """Slurm's number of the job by which each run was made; empty of one that was made without."""
-        return re.findall(r"job=(\d*)$", content(self.log).decode(), re.MULTILINE)
+        return re.findall(r"job=(\d*)$", read(self.log), re.MULTILINE)
 
 
 class OnThisMachine(Workflow):
@@ -113,10 +113,10 @@ class OnThisMachine(Workflow):
 
     def test_goes_on_with_what_a_sweep_has_made(self):
         self.sweep("out")
-        write(self.study, content(self.study).decode().replace("[0.1, ", "[0.25, 0.1, "))
+        write(self.study, read(self.study).replace("[0.1, ", "[0.25, 0.1, "))
         self.snakemake("local", "out", KILL_AT="specimen.length=0.25")
         self.assertEqual(sorted(self.started()), sorted(LENGTHS + [0.25]))
-        self.assertIn("killed by SIGSEGV", self.table("out").decode().splitlines()[2])
+        self.assertIn("killed by SIGSEGV", self.table("out").splitlines()[2])
 
     def test_ends_each_run_with_its_plateau_where_asked(self):
         write(self.study, f"""
@@ -126,7 +126,7 @@ class OnThisMachine(Workflow):
         self.assertFalse(os.path.exists(self.log), "nothing was started")
         self.snakemake("local", "flow", "readings=plateau")
         self.sweep("alone", "--readings", "plateau")
-        self.assertEqual(content(self.log).decode().count("--readings plateau"), 4)
+        self.assertEqual(read(self.log).count("--readings plateau"), 4)
         self.assertEqual(self.table("flow"), self.table("alone"))
 
     def test_starts_nothing_of_a_study_that_would_be_refused(self):
@@ -149,7 +149,7 @@ class OnSlurm(Workflow):
         controller = self.daemon("slurmctld", "-D")
         while subprocess.run(["scontrol", "show", "config"], env=self.environment, check=False, stdout=subprocess.DEVNULL,
                              stderr=subprocess.DEVNULL).returncode:
-            self.assertIsNone(controller.poll(), content(folder, "slurmctld.log").decode())
+            self.assertIsNone(controller.poll(), read(folder, "slurmctld.log"))
         self.daemon("slurmd", "-D", "-N", "localhost")
         subprocess.run(["srun", "--quiet", "true"], env=self.environment, check=True)  # waits for the node
 
@@ -220,7 +220,7 @@ class OnSlurmOfScripts(Workflow):
             write(self.path("never"), "\n")
             alive.read()  # until the job, which goes on, has ended
         self.assertIn("cannot be locked", self.snakemake("slurm", "flow", code=1))
-        study = content(self.study).decode()
+        study = read(self.study)
         write(self.study, study + "nonsense: 1\n")
         self.snakemake("slurm", "flow", "--unlock")
         write(self.study, study)
