@@ -177,6 +177,12 @@ void FrameTerms::begin(const StepStart& step, bool) {
   }
 }
 
+void FrameTerms::mirror(const FrameTerms& half, const HalfTurn& image) {
+  const auto turn = [&](int j) { return half.angle_[at(j)] - start_->twist[j]; };
+  for (int j = 0; j < static_cast<int>(rod_.edges()); ++j)
+    if (!held(j)) angle_[at(j)] = start_->twist[j] + (j < image.half() ? turn(j) : -turn(image.image_of_edge(j)));
+}
+
 int FrameTerms::nodes_of(std::size_t group) const {
   return static_cast<int>(std::min<std::size_t>(4, held_.size() - 2 - 4 * group));
 }

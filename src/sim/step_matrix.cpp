@@ -3,12 +3,22 @@
 #include <string>
 
 #include "knot_utm/numeric/index.hpp"
+#include "knot_utm/sim/force_term.hpp"
 #include "surface_columns.hpp"
 
 namespace knot_utm {
 namespace {
 
 constexpr int kRoomNodes = 4;  // of the other strand: three of a segment, one that it may slide on to
+
+/// Columns of a node, by the changes of its image.
+std::array<SurfaceColumn, 4> by_image(const HalfTurn& image, const std::array<SurfaceColumn, 4>& columns) {
+  std::array<SurfaceColumn, 4> out;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) out[at(j)].add(image.turn(i, j), columns[at(i)]);
+  out[3] = SurfaceColumn(-1.0, columns[3]);
+  return out;
+}
 
 }  // namespace
 
@@ -21,14 +31,15 @@ bool StepMatrix<D>::find(const std::vector<ContactPoint>& contacts) {
   auto row = before_.cbegin();
   for (const ContactPoint& contact : contacts) {
     if (!contact.active()) continue;
+    const int b0 = b_of(contact);
     while (row != before_.cend() && row->a0 < contact.a0) ++row;
     auto same = row;
-    while (same != before_.cend() && same->a0 == contact.a0 && same->b0 != contact.b0) ++same;
+    while (same != before_.cend() && same->a0 == contact.a0 && same->b0 != b0) ++same;
     if (same != before_.cend() && same->a0 == contact.a0) {
       located.push_back(*same);
       continue;
     }
-    Located found = {contact.a0, contact.b0, {}};
+    Located found = {contact.a0, b0, {}};
     // The segment's points that come one after the other are often between the same nodes.
     if (!located.empty() && located.back().a0 == found.a0 && located.back().b0 == found.b0) {
       found = located.back();
@@ -56,14 +67,14 @@ template <int D>
 void StepMatrix<D>::find_rooms(const std::vector<ContactPoint>& contacts) {
   if (!rebuilt_) std::swap(present_, accepted_);
   rebuilt_ = true;
-  present_.rooms.clear();
+  clear_rooms();
   for (const ContactPoint& contact : contacts) {
     // Those that stay apart need no room; those about to touch soon would.
     if (!contact.active() && contact.overlap < 2.0 * contact.begins) continue;
     // A foot goes on as it slides; one that does not slide, to the segment that it is nearer to.
     const double slip = contact.slip.dot(contact.db);
-    const bool backwards = slip != 0.0 ? slip < 0.0 : contact.c[3] < contact.c[5];
-    const int first = contact.b0 - (backwards ? kRoomNodes - 3 : 0);
+    const bool backwards = (slip != 0.0 ? slip < 0.0 : contact.c[3] < contact.c[5]) != mirrored(contact);
+    const int first = b_of(contact) - (backwards ? kRoomNodes - 3 : 0);
     present_.rooms.push_back({contact.a0, std::max(first, 0), std::min(first + kRoomNodes, nodes_) - 1});
   }
 }
@@ -171,6 +182,69 @@ void StepMatrix<D>::set_zero_beyond_band() {
 }
 
 template <int D>
+void StepMatrix<D>::clear_rooms() {
+  present_.rooms.clear();
+  if (image_) present_.rooms.push_back({image_->half() - 4, image_->half(), image_->half() + 1});
+}
+
+template <int D>
+void StepMatrix<D>::tie(std::vector<Lanes>& right) {
+  for (int i = image_->half(); i < nodes_; ++i) {
+    matrix_.set_identity_row(i);
+    Block<D>& image = block(present_.blocks.index(i, image_->image(i)));
+    for (int k = 0; k < 3; ++k) image.column[k] -= image_->column(k);
+    if constexpr (D == 4) block(present_.blocks.index(i, image_->image_of_edge(i))).at(3, 3) += 1.0;
+    right[at(i)] = Lanes{};
+  }
+}
+
+template <int D>
+auto StepMatrix<D>::stored(const ContactPoint& contact, std::size_t n) -> Places {
+  Places out;
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) {
+      out[at(k)][at(l)] = &band(contact.a0, k, l);
+      if (contact.on_roller()) continue;
+      const std::pair<int, int>& across = contact_blocks(n)[at(3 * k + l)];
+      out[at(k)][at(3 + l)] = &block(across.first);
+      out[at(3 + l)][at(k)] = &block(across.second);
+      out[at(3 + k)][at(3 + l)] = &band(b_of(contact), k, l);
+    }
+  return out;
+}
+
+template <int D>
+auto StepMatrix<D>::places(const ContactPoint& contact, std::size_t n) -> Places {
+  if (!reaches_middle(contact)) return stored(contact, n);
+  Places out;
+  for (std::size_t i = 0; i < gathered_.size(); ++i) {
+    gathered_[i].set_zero();
+    out[i / 6][i % 6] = &gathered_[i];
+  }
+  return out;
+}
+
+/// A row of a node acts on the node, where that is on the half, and turned on its image, where that is.
+template <int D>
+void StepMatrix<D>::fold(const ContactPoint& contact, std::size_t n) {
+  if (!reaches_middle(contact)) return;
+  const Places to = stored(contact, n);
+  const Lanes moves = constant<Lanes>(1.0) - kSpin;
+  for (int k = 0; k < 6; ++k) {
+    const int strand = k - k % 3, first = strand == 0 ? contact.a0 : b_of(contact), node = first + k % 3;
+    const int image = image_->image(node), of_edge = image_->image_of_edge(node);
+    for (std::size_t l = 0; l < 6; ++l)
+      for (int j = 0; j < D; ++j) {
+        const Lanes& row = gathered_[at(6 * k) + l].column[j];
+        const auto at_node = [&](int i) -> Lanes& { return to[at(strand + i - first)][l]->column[j]; };
+        if (node < image_->half()) at_node(node) += row;
+        if (image < image_->half()) at_node(image) += moves * (*image_ * row);
+        if (D == 4 && k % 3 < 2 && of_edge < image_->half()) at_node(of_edge) -= kSpin * row;
+      }
+  }
+}
+
+template <int D>
 void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, std::size_t n) {
   // Kept here, as blocks written to might be a part of the model for all that is known of them.
   const Lanes still[3] = {model.still[0], model.still[1], model.still[2]};
@@ -184,45 +258,53 @@ void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, 
       }
     return;
   }
+  double beta[6];
+  std::copy_n(contact.beta, 6, beta);
+  const bool mirrored = this->mirrored(contact);
+  if (mirrored) {
+    std::swap(c[3], c[5]);
+    std::swap(beta[3], beta[5]);
+  }
+  const auto turned = [&](int k, const Lanes& v) { return mirrored && k >= 3 ? *image_ * v : v; };
+  Lanes by_b[3] = {still[0], still[1], still[2]};
+  if (mirrored)
+    for (int j = 0; j < 3; ++j)
+      by_b[j] = image_->turn(0, j) * still[0] + image_->turn(1, j) * still[1] + image_->turn(2, j) * still[2];
   Lanes pushed[6];  // beta_k g - c_k gamma
   Lanes du[6];      // du/dq_l
   const Lanes du_s = contact.inverse_g * to_lanes(contact.db), du_r = contact.inverse_g * to_lanes(contact.x);
   for (int k = 0; k < 6; ++k) {
-    pushed[k] = contact.beta[k] * model.force - c[k] * model.slide;
-    du[k] = c[k] * du_s + contact.beta[k] * du_r;
+    pushed[k] = turned(k, beta[k] * model.force - c[k] * model.slide);
+    du[k] = turned(k, c[k] * du_s + beta[k] * du_r);
   }
-  const auto add_pair = [&](Block<D>& block, int k, int l) {
-    const double both = c[k] * c[l];
-    for (int j = 0; j < 3; ++j) block.column[j] += both * still[j] + pushed[k] * du[l][j];
-  };
-  const ContactBlocks& blocks = contact_blocks(n);
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l) {
-      const std::pair<int, int>& across = blocks[at(3 * k + l)];
-      add_pair(band(contact.a0, k, l), k, l);
-      add_pair(block(across.first), k, 3 + l);
-      add_pair(block(across.second), 3 + l, k);
-      add_pair(band(contact.b0, k, l), 3 + k, 3 + l);
+  const Places to = places(contact, n);
+  for (int k = 0; k < 6; ++k)
+    for (int l = 0; l < 6; ++l) {
+      const double both = c[k] * c[l];
+      Block<D>& block = *to[at(k)][at(l)];
+      for (int j = 0; j < 3; ++j)
+        block.column[j] += both * turned(k, l < 3 ? still[j] : by_b[j]) + pushed[k] * du[l][j];
     }
+  fold(contact, n);
 }
 
 template <int D>
 void StepMatrix<D>::add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                         const SectionTurns& turns, std::size_t n) {
   if constexpr (D == 4) {
-    add_lengthening(contact.a0, surface.s_a, model.on_a[3], turns);
-    if (contact.on_roller()) return add_columns<false>(contact, surface, model, turns, n);
-    add_lengthening(contact.b0, surface.s_b, model.on_b[3], turns);
-    add_columns<true>(contact, surface, model, turns, n);
+    if (contact.on_roller()) return add_columns<false, false>(contact, surface, model, turns, n);
+    if (mirrored(contact)) return add_columns<true, true>(contact, surface, model, turns, n);
+    add_columns<true, false>(contact, surface, model, turns, n);
   }
 }
 
 template <int D>
-void StepMatrix<D>::add_lengthening(int first, const double* weights, double torque, const SectionTurns& turns) {
+void StepMatrix<D>::add_lengthening(const Places& to, int side, int first, const double* weights, double torque,
+                                    const SectionTurns& turns) {
   for (int j = 0; j < 2; ++j) {
     const auto edge = at(first + j);
     const Lanes pull = (-torque * weights[j] / turns.length[edge]) * turns.tangent[edge];
-    Block<D>&own = band(first, j, j), &next = band(first, j, j + 1);
+    Block<D>&own = *to[at(side + j)][at(side + j)], &next = *to[at(side + j)][at(side + j + 1)];
     for (int i = 0; i < 3; ++i) {
       own.column[i][3] -= pull[i];
       next.column[i][3] += pull[i];
@@ -231,46 +313,67 @@ void StepMatrix<D>::add_lengthening(int first, const double* weights, double tor
 }
 
 template <int D>
-template <bool kStrands>
+template <bool kStrands, bool kMirrored>
 void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                                 const SectionTurns& turns, std::size_t n) {
   constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
-  const double spins_a[3] = {surface.s_a[0], surface.s_a[1], 0.0}, spins_b[3] = {surface.s_b[0], surface.s_b[1], 0.0};
-  double c[6];
+  const auto turned = [&](const Lanes& v) {
+    if constexpr (kMirrored) return *image_ * v;
+    return v;
+  };
+  const auto in_order = [](int k, int last) { return at(kMirrored ? last - k : k); };
+  const double spins_a[3] = {surface.s_a[0], surface.s_a[1], 0.0};
+  double spins_b[3] = {surface.s_b[in_order(0, 1)], surface.s_b[in_order(1, 1)], 0.0};
+  double c[6], beta[3];
   std::copy_n(contact.c, 6, c);
+  std::copy_n(contact.beta + 3, 3, beta);
+  if constexpr (kMirrored) {
+    std::swap(c[3], c[5]);
+    std::swap(beta[0], beta[2]);
+  }
   Lanes rows_a[3], rows_b[3];  // weights of on_a and on_b in a node's row
   Lanes slides_b[3];           // what the motion of the foot does to it
   for (int k = 0; k < 3; ++k) {
-    const double d = surface.d_a[k], beta = contact.beta[3 + k], bends = kSecondDifference[k];
+    const double d = surface.d_a[k], b = beta[k], bends = kSecondDifference[k];
     rows_a[k] = Lanes{d, d, d, spins_a[k]};
-    rows_b[k] = Lanes{beta, beta, beta, spins_b[k]};
-    slides_b[k] = beta * model.force - Lanes{bends, bends, bends, k < 2 ? surface.s_slope_b[k] : 0.0} * model.on_b;
+    rows_b[k] = Lanes{b, b, b, spins_b[k]};
+    const double grows = k < 2 ? surface.s_slope_b[in_order(k, 1)] : 0.0;
+    slides_b[k] = turned(b * model.force - Lanes{bends, bends, bends, grows} * model.on_b);
   }
+  const Places to = places(contact, n);
   const auto add_node = [&](int l, const std::array<SurfaceColumn, 4>& columns) {
     for (int k = 0; k < 3; ++k) {
-      Block<D>& on_a = l < 3 ? band(contact.a0, k, l) : block(contact_blocks(n)[at(3 * k + l - 3)].first);
+      Block<D>& on_a = *to[at(k)][at(l)];
       for (int i = 0; i < 4; ++i) {
         const SurfaceColumn& column = columns[at(i)];
         on_a.column[i] += c[k] * column.force + rows_a[k] * column.on_a;
       }
       if constexpr (!kStrands) continue;
-      Block<D>& on_b = l < 3 ? block(contact_blocks(n)[at(3 * l + k)].second) : band(contact.b0, k, l - 3);
+      Block<D>& on_b = *to[at(3 + k)][at(l)];
       for (int i = 0; i < 4; ++i) {
         const SurfaceColumn& column = columns[at(i)];
-        on_b.column[i] += c[3 + k] * column.force + rows_b[k] * column.on_b + column.foot * slides_b[k];
+        on_b.column[i] += c[3 + k] * turned(column.force) + rows_b[k] * turned(column.on_b) + column.foot * slides_b[k];
       }
     }
   };
+  add_lengthening(to, 0, contact.a0, surface.s_a, model.on_a[3], turns);
+  if constexpr (kStrands) add_lengthening(to, 3, b_of(contact), spins_b, turned(model.on_b)[3], turns);
   const auto spin_a = spin_of_nodes(turns.pull, contact.a0, surface.s_a);
   for (int l = 0; l < 3; ++l)
     add_node(l, columns_of(model, SurfaceModel::kTurnA, SurfaceModel::kSpinA, c[l], surface.d_a[l], spin_a[at(l)],
                            spins_a[l]));
   if constexpr (kStrands) {
     const auto spin_b = spin_of_nodes(turns.pull, contact.b0, surface.s_b);
-    for (int l = 0; l < 3; ++l)
-      add_node(3 + l, columns_of(model, SurfaceModel::kTurnB, SurfaceModel::kSpinB, c[3 + l], contact.beta[3 + l],
-                                 spin_b[at(l)], spins_b[l]));
+    for (int l = 0; l < 3; ++l) {
+      const auto columns = columns_of(model, SurfaceModel::kTurnB, SurfaceModel::kSpinB, c[3 + l], beta[l],
+                                      spin_b[in_order(l, 2)], spins_b[l]);
+      if constexpr (kMirrored)
+        add_node(3 + l, by_image(*image_, columns));
+      else
+        add_node(3 + l, columns);
+    }
   }
+  fold(contact, n);
 }
 
 template class StepMatrix<3>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "knot_utm/contact/candidates.hpp"
@@ -83,6 +84,7 @@ class FootSearch {
   /// is a minimum no longer; then the feet are of no use.
   bool follow();
   const std::vector<Foot>& feet() const { return feet_; }
+  void take(std::vector<Foot> feet) { feet_ = std::move(feet); }
 
   const SegmentParabola& parabola(int segment) const { return parabola_[static_cast<std::size_t>(segment)]; }
 

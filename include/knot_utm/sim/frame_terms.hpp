@@ -7,6 +7,7 @@
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/half_turn.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/sim/force_term.hpp"
@@ -78,6 +79,9 @@ class FrameTerms : public ForceTerm {
   /// Begins a step, whose state must have frames. Held angles begin at their prescribed values, all others at a
   /// prediction from their rates.
   void begin(const StepStart& start, bool predicts);
+
+  /// The angles of a half of the rod, and of its images.
+  void mirror(const FrameTerms& half, const HalfTurn& image);
 
   /// Adds forces [N] (lanes 0 to 2 of every node) and torques [N m] (lane 3: of the edge behind the node) at trial
   /// positions. A stiffness that is read afterwards belongs to these positions.
