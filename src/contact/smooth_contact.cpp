@@ -90,18 +90,25 @@ void SmoothContact::mirror(const SmoothContact& half, const HalfTurn& image) {
     }
   }
   iterate_.begin[at(2 * own)] = static_cast<int>(iterate_.entries.size());
+  mirror_feet(half, image);
+}
+
+/// The feet of a half are those of its last evaluation, and as exact as they were found.
+void SmoothContact::mirror_feet(const SmoothContact& half, const HalfTurn& image) {
   const std::vector<int>& segments = candidates_->segments();
-  std::vector<FootSearch::Foot> feet;
+  const int last = 2 * static_cast<int>(segments.size()) - 1;
+  std::vector<FootSearch::Foot>& feet = search_.feet();
+  feet.clear();
   for (const FootSearch::Foot& foot : half.search_.feet())
     if (half.row_of(foot.point) < half.own_rows_) feet.push_back(foot);
-  const int last = 2 * static_cast<int>(segments.size()) - 1;
   for (std::size_t i = feet.size(); i-- > 0;) {
-    const FootSearch::Foot& foot = feet[i];
+    FootSearch::Foot foot = feet[i];
     if (segments[at((last - foot.point) / 2)] != image.image(segment_of(foot.point))) return;
-    feet.push_back({image * foot.x, 1.0 - foot.u, last - foot.point, image.image(foot.segment)});
-    feet.back().x[3] = foot.x[3];
+    const double distance = foot.x[3];
+    foot = {image * foot.x, 1.0 - foot.u, last - foot.point, image.image(foot.segment)};
+    foot.x[3] = distance;
+    feet.push_back(foot);
   }
-  search_.take(std::move(feet));
   has_feet_ = true;
 }
 

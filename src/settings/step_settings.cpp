@@ -148,8 +148,8 @@ Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& 
   mounting.roller_diameter = machine.roller_diameter;
   mounting.refinement = tolerances(physics, specimen, material).refinement;
   Centreline out = knot_of(specimen).centreline(specimen, material, mounting);
-  const bool straight = knot_of(specimen).about().straight;
-  if (physics.symmetry == Symmetry::kOff || straight || !out.cuts.empty()) return out;
+  const bool can_be_even = out.cuts.empty() && !knot_of(specimen).about().straight && specimen.natural_curvature == 0.0;
+  if (physics.symmetry == Symmetry::kOff || !can_be_even) return out;
   out.half_turn = HalfTurn::of(out.points, kUneven * material.radius);
   if (out.half_turn) out.half_turn->mirror(out.points);
   return out;

@@ -192,7 +192,7 @@ void StepMatrix<D>::tie(std::vector<Lanes>& right) {
   for (int i = image_->half(); i < nodes_; ++i) {
     matrix_.set_identity_row(i);
     Block<D>& image = block(present_.blocks.index(i, image_->image(i)));
-    for (int k = 0; k < 3; ++k) image.column[k] -= image_->column(k);
+    for (int k = 0; k < 3; ++k) image.column[k] -= image_->column[k];
     if constexpr (D == 4) block(present_.blocks.index(i, image_->image_of_edge(i))).at(3, 3) += 1.0;
     right[at(i)] = Lanes{};
   }
@@ -342,6 +342,16 @@ void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint&
   }
   const Places to = places(contact, n);
   const auto add_node = [&](int l, const std::array<SurfaceColumn, 4>& columns) {
+    std::array<SurfaceColumn, 4> on_image;
+    const std::array<SurfaceColumn, 4>* of_b = &columns;
+    if constexpr (kMirrored) {
+      of_b = &on_image;
+      for (std::size_t i = 0; i < 4; ++i) {
+        on_image[i].force = turned(columns[i].force);
+        on_image[i].on_b = turned(columns[i].on_b);
+        on_image[i].foot = columns[i].foot;
+      }
+    }
     for (int k = 0; k < 3; ++k) {
       Block<D>& on_a = *to[at(k)][at(l)];
       for (int i = 0; i < 4; ++i) {
@@ -351,8 +361,8 @@ void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint&
       if constexpr (!kStrands) continue;
       Block<D>& on_b = *to[at(3 + k)][at(l)];
       for (int i = 0; i < 4; ++i) {
-        const SurfaceColumn& column = columns[at(i)];
-        on_b.column[i] += c[3 + k] * turned(column.force) + rows_b[k] * turned(column.on_b) + column.foot * slides_b[k];
+        const SurfaceColumn& column = (*of_b)[at(i)];
+        on_b.column[i] += c[3 + k] * column.force + rows_b[k] * column.on_b + column.foot * slides_b[k];
       }
     }
   };

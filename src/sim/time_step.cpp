@@ -113,9 +113,8 @@ class ImplicitStep final : public TimeStep {
     StepSummary summary;
     WorstResidual worst;
     if (half_) summary.newton = solve_half(start, strategy, worst);
-    summary.by_half = summary.newton.iterations;
+    if (half_) summary.by_half = summary.newton.iterations;
     if (!half_) summary.newton = IncrementSolver<D>(equation_, start).solve(strategy, worst);
-    if (!half_) summary.newton.iterations += summary.by_half;
     Equation<D>& tried = half_ && !summary.newton.converged() ? half_->equation() : equation_;
     increment_.noalias() = tried.x - state_.position;
     const SolvedStep step{start, tried.x, increment_, tried.force, tried.held.nodes()};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "knot_utm/contact/candidates.hpp"
@@ -84,7 +83,7 @@ class FootSearch {
   /// is a minimum no longer; then the feet are of no use.
   bool follow();
   const std::vector<Foot>& feet() const { return feet_; }
-  void take(std::vector<Foot> feet) { feet_ = std::move(feet); }
+  std::vector<Foot>& feet() { return feet_; }
 
   const SegmentParabola& parabola(int segment) const { return parabola_[static_cast<std::size_t>(segment)]; }
 

@@ -147,6 +147,7 @@ class SmoothContact {
   void find_feet(const Points& position, const std::vector<int>& segments);
   /// False where a foot is lost (FootSearch::follow).
   bool follow_feet(const Points& position, const std::vector<int>& segments);
+  void mirror_feet(const SmoothContact& half, const HalfTurn& image);
   /// Whether no node has moved far since the last search.
   bool near_last_search() const;
 

@@ -18,6 +18,7 @@ namespace knot_utm {
 struct HalfTurn {
   int nodes = 0;              ///< n
   Mat3 turn = Mat3::Zero();   ///< R [-]
+  Lanes column[3] = {};       ///< of R
   Vec3 shift = Vec3::Zero();  ///< t [m]
 
   /// That of a shape, if no node is further than `tolerance` [m] from the image of another one.
@@ -26,13 +27,11 @@ struct HalfTurn {
   int half() const { return (nodes + 1) / 2; }
   int image(int node) const { return nodes - 1 - node; }
   int image_of_edge(int edge) const { return nodes - 2 - edge; }
-  Lanes column(int k) const { return Lanes{turn(0, k), turn(1, k), turn(2, k), 0.0}; }
 
   /// (R v, -s): what a node and an edge have, as their images have it.
   Lanes operator*(const Lanes& v) const {
-    Lanes out = v[0] * column(0) + v[1] * column(1) + v[2] * column(2);
-    out[3] = -v[3];
-    return out;
+    constexpr Lanes kSense = {0.0, 0.0, 0.0, -1.0};
+    return kSense * v + v[0] * column[0] + v[1] * column[1] + v[2] * column[2];
   }
 
   /// Places the second half as the image of the first one.
