@@ -21,6 +21,7 @@ std::optional<HalfTurn> HalfTurn::of(const Points& shape, double tolerance) {
   HalfTurn out;
   out.nodes = static_cast<int>(shape.cols());
   out.turn = 2.0 * axis * axis.transpose() - Mat3::Identity();
+  out.aligned = axis.cwiseAbs().maxCoeff() == 1.0;
   for (int k = 0; k < 3; ++k) out.column[k] = to_lanes(Vec3(out.turn.col(k)));
   out.shift = (image - out.turn * shape).rowwise().mean();
   const double off2 = ((image - out.turn * shape).colwise() - out.shift).colwise().squaredNorm().maxCoeff();

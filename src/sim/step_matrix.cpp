@@ -11,15 +11,6 @@ namespace {
 
 constexpr int kRoomNodes = 4;  // of the other strand: three of a segment, one that it may slide on to
 
-/// Columns of a node, by the changes of its image.
-std::array<SurfaceColumn, 4> by_image(const HalfTurn& image, const std::array<SurfaceColumn, 4>& columns) {
-  std::array<SurfaceColumn, 4> out;
-  for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) out[at(j)].add(image.turn(i, j), columns[at(i)]);
-  out[3] = SurfaceColumn(-1.0, columns[3]);
-  return out;
-}
-
 }  // namespace
 
 template <int D>
@@ -215,7 +206,7 @@ auto StepMatrix<D>::stored(const ContactPoint& contact, std::size_t n) -> Places
 
 template <int D>
 auto StepMatrix<D>::places(const ContactPoint& contact, std::size_t n) -> Places {
-  if (!reaches_middle(contact)) return stored(contact, n);
+  if (!is_gathered(contact)) return stored(contact, n);
   Places out;
   for (std::size_t i = 0; i < gathered_.size(); ++i) {
     gathered_[i].set_zero();
@@ -224,23 +215,37 @@ auto StepMatrix<D>::places(const ContactPoint& contact, std::size_t n) -> Places
   return out;
 }
 
-/// A row of a node acts on the node, where that is on the half, and turned on its image, where that is.
 template <int D>
 void StepMatrix<D>::fold(const ContactPoint& contact, std::size_t n) {
-  if (!reaches_middle(contact)) return;
   const Places to = stored(contact, n);
   const Lanes moves = constant<Lanes>(1.0) - kSpin;
   for (int k = 0; k < 6; ++k) {
-    const int strand = k - k % 3, first = strand == 0 ? contact.a0 : b_of(contact), node = first + k % 3;
-    const int image = image_->image(node), of_edge = image_->image_of_edge(node);
-    for (std::size_t l = 0; l < 6; ++l)
-      for (int j = 0; j < D; ++j) {
-        const Lanes& row = gathered_[at(6 * k) + l].column[j];
-        const auto at_node = [&](int i) -> Lanes& { return to[at(strand + i - first)][l]->column[j]; };
-        if (node < image_->half()) at_node(node) += row;
-        if (image < image_->half()) at_node(image) += moves * (*image_ * row);
-        if (D == 4 && k % 3 < 2 && of_edge < image_->half()) at_node(of_edge) -= kSpin * row;
-      }
+    Block<D>* row = &gathered_[at(6 * k)];
+    if (mirrored(contact)) turn_columns(row + 3);
+    const int strand = k - k % 3, node = (strand == 0 ? contact.a0 : contact.b0) + k % 3;
+    const int first = strand == 0 ? contact.a0 : b_of(contact);
+    const auto add = [&](int to_node, const auto& acts) {
+      if (to_node >= image_->half()) return;
+      for (std::size_t l = 0; l < 6; ++l)
+        for (int j = 0; j < D; ++j) to[at(strand + to_node - first)][l]->column[j] += acts(row[l].column[j]);
+    };
+    add(node, [](const Lanes& own) { return own; });
+    add(image_->image(node), [&](const Lanes& own) { return moves * (*image_ * own); });
+    if (D == 4 && k % 3 < 2) add(image_->image_of_edge(node), [](const Lanes& own) { return -kSpin * own; });
+  }
+}
+
+/// Of strand b on the other half: from columns of its nodes to those of their images, which run the other way.
+template <int D>
+void StepMatrix<D>::turn_columns(Block<D>* row) const {
+  const Block<D> b[3] = {row[0], row[1], row[2]};
+  for (int l = 0; l < 3; ++l) {
+    for (int j = 0; j < 3; ++j) {
+      row[l].column[j] = image_->turn(j, j) * b[2 - l].column[j];
+      if (image_->aligned) continue;
+      for (int i = 1; i < 3; ++i) row[l].column[j] += image_->turn((j + i) % 3, j) * b[2 - l].column[(j + i) % 3];
+    }
+    if constexpr (D == 4) row[l].column[3] = l < 2 ? -b[1 - l].column[3] : Lanes{};
   }
 }
 
@@ -258,53 +263,42 @@ void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, 
       }
     return;
   }
-  double beta[6];
-  std::copy_n(contact.beta, 6, beta);
-  const bool mirrored = this->mirrored(contact);
-  if (mirrored) {
-    std::swap(c[3], c[5]);
-    std::swap(beta[3], beta[5]);
-  }
-  const auto turned = [&](int k, const Lanes& v) { return mirrored && k >= 3 ? *image_ * v : v; };
-  Lanes by_b[3] = {still[0], still[1], still[2]};
-  if (mirrored)
-    for (int j = 0; j < 3; ++j)
-      by_b[j] = image_->turn(0, j) * still[0] + image_->turn(1, j) * still[1] + image_->turn(2, j) * still[2];
   Lanes pushed[6];  // beta_k g - c_k gamma
   Lanes du[6];      // du/dq_l
   const Lanes du_s = contact.inverse_g * to_lanes(contact.db), du_r = contact.inverse_g * to_lanes(contact.x);
   for (int k = 0; k < 6; ++k) {
-    pushed[k] = turned(k, beta[k] * model.force - c[k] * model.slide);
-    du[k] = turned(k, c[k] * du_s + beta[k] * du_r);
+    pushed[k] = contact.beta[k] * model.force - c[k] * model.slide;
+    du[k] = c[k] * du_s + contact.beta[k] * du_r;
   }
   const Places to = places(contact, n);
   for (int k = 0; k < 6; ++k)
     for (int l = 0; l < 6; ++l) {
       const double both = c[k] * c[l];
-      Block<D>& block = *to[at(k)][at(l)];
-      for (int j = 0; j < 3; ++j)
-        block.column[j] += both * turned(k, l < 3 ? still[j] : by_b[j]) + pushed[k] * du[l][j];
+      for (int j = 0; j < 3; ++j) to[at(k)][at(l)]->column[j] += both * still[j] + pushed[k] * du[l][j];
     }
-  fold(contact, n);
+  if (is_gathered(contact)) fold(contact, n);
 }
 
 template <int D>
 void StepMatrix<D>::add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                         const SectionTurns& turns, std::size_t n) {
   if constexpr (D == 4) {
-    if (contact.on_roller()) return add_columns<false, false>(contact, surface, model, turns, n);
-    if (mirrored(contact)) return add_columns<true, true>(contact, surface, model, turns, n);
-    add_columns<true, false>(contact, surface, model, turns, n);
+    const Places to = places(contact, n);
+    add_lengthening(to, 0, contact.a0, surface.s_a, model.on_a[3], turns);
+    if (contact.on_roller()) return add_columns<false>(contact, surface, model, turns, to);
+    add_lengthening(to, 3, contact.b0, surface.s_b, model.on_b[3], turns);
+    add_columns<true>(contact, surface, model, turns, to);
+    if (is_gathered(contact)) fold(contact, n);
   }
 }
 
 template <int D>
-void StepMatrix<D>::add_lengthening(const Places& to, int side, int first, const double* weights, double torque,
+void StepMatrix<D>::add_lengthening(const Places& to, int strand, int first, const double* weights, double torque,
                                     const SectionTurns& turns) {
   for (int j = 0; j < 2; ++j) {
     const auto edge = at(first + j);
     const Lanes pull = (-torque * weights[j] / turns.length[edge]) * turns.tangent[edge];
-    Block<D>&own = *to[at(side + j)][at(side + j)], &next = *to[at(side + j)][at(side + j + 1)];
+    Block<D>&own = *to[at(strand + j)][at(strand + j)], &next = *to[at(strand + j)][at(strand + j + 1)];
     for (int i = 0; i < 3; ++i) {
       own.column[i][3] -= pull[i];
       next.column[i][3] += pull[i];
@@ -313,45 +307,22 @@ void StepMatrix<D>::add_lengthening(const Places& to, int side, int first, const
 }
 
 template <int D>
-template <bool kStrands, bool kMirrored>
+template <bool kStrands>
 void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
-                                const SectionTurns& turns, std::size_t n) {
+                                const SectionTurns& turns, const Places& to) {
   constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
-  const auto turned = [&](const Lanes& v) {
-    if constexpr (kMirrored) return *image_ * v;
-    return v;
-  };
-  const auto in_order = [](int k, int last) { return at(kMirrored ? last - k : k); };
-  const double spins_a[3] = {surface.s_a[0], surface.s_a[1], 0.0};
-  double spins_b[3] = {surface.s_b[in_order(0, 1)], surface.s_b[in_order(1, 1)], 0.0};
-  double c[6], beta[3];
+  const double spins_a[3] = {surface.s_a[0], surface.s_a[1], 0.0}, spins_b[3] = {surface.s_b[0], surface.s_b[1], 0.0};
+  double c[6];
   std::copy_n(contact.c, 6, c);
-  std::copy_n(contact.beta + 3, 3, beta);
-  if constexpr (kMirrored) {
-    std::swap(c[3], c[5]);
-    std::swap(beta[0], beta[2]);
-  }
   Lanes rows_a[3], rows_b[3];  // weights of on_a and on_b in a node's row
   Lanes slides_b[3];           // what the motion of the foot does to it
   for (int k = 0; k < 3; ++k) {
-    const double d = surface.d_a[k], b = beta[k], bends = kSecondDifference[k];
+    const double d = surface.d_a[k], beta = contact.beta[3 + k], bends = kSecondDifference[k];
     rows_a[k] = Lanes{d, d, d, spins_a[k]};
-    rows_b[k] = Lanes{b, b, b, spins_b[k]};
-    const double grows = k < 2 ? surface.s_slope_b[in_order(k, 1)] : 0.0;
-    slides_b[k] = turned(b * model.force - Lanes{bends, bends, bends, grows} * model.on_b);
+    rows_b[k] = Lanes{beta, beta, beta, spins_b[k]};
+    slides_b[k] = beta * model.force - Lanes{bends, bends, bends, k < 2 ? surface.s_slope_b[k] : 0.0} * model.on_b;
   }
-  const Places to = places(contact, n);
   const auto add_node = [&](int l, const std::array<SurfaceColumn, 4>& columns) {
-    std::array<SurfaceColumn, 4> on_image;
-    const std::array<SurfaceColumn, 4>* of_b = &columns;
-    if constexpr (kMirrored) {
-      of_b = &on_image;
-      for (std::size_t i = 0; i < 4; ++i) {
-        on_image[i].force = turned(columns[i].force);
-        on_image[i].on_b = turned(columns[i].on_b);
-        on_image[i].foot = columns[i].foot;
-      }
-    }
     for (int k = 0; k < 3; ++k) {
       Block<D>& on_a = *to[at(k)][at(l)];
       for (int i = 0; i < 4; ++i) {
@@ -361,29 +332,21 @@ void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint&
       if constexpr (!kStrands) continue;
       Block<D>& on_b = *to[at(3 + k)][at(l)];
       for (int i = 0; i < 4; ++i) {
-        const SurfaceColumn& column = (*of_b)[at(i)];
+        const SurfaceColumn& column = columns[at(i)];
         on_b.column[i] += c[3 + k] * column.force + rows_b[k] * column.on_b + column.foot * slides_b[k];
       }
     }
   };
-  add_lengthening(to, 0, contact.a0, surface.s_a, model.on_a[3], turns);
-  if constexpr (kStrands) add_lengthening(to, 3, b_of(contact), spins_b, turned(model.on_b)[3], turns);
   const auto spin_a = spin_of_nodes(turns.pull, contact.a0, surface.s_a);
   for (int l = 0; l < 3; ++l)
     add_node(l, columns_of(model, SurfaceModel::kTurnA, SurfaceModel::kSpinA, c[l], surface.d_a[l], spin_a[at(l)],
                            spins_a[l]));
   if constexpr (kStrands) {
     const auto spin_b = spin_of_nodes(turns.pull, contact.b0, surface.s_b);
-    for (int l = 0; l < 3; ++l) {
-      const auto columns = columns_of(model, SurfaceModel::kTurnB, SurfaceModel::kSpinB, c[3 + l], beta[l],
-                                      spin_b[in_order(l, 2)], spins_b[l]);
-      if constexpr (kMirrored)
-        add_node(3 + l, by_image(*image_, columns));
-      else
-        add_node(3 + l, columns);
-    }
+    for (int l = 0; l < 3; ++l)
+      add_node(3 + l, columns_of(model, SurfaceModel::kTurnB, SurfaceModel::kSpinB, c[3 + l], contact.beta[3 + l],
+                                 spin_b[at(l)], spins_b[l]));
   }
-  fold(contact, n);
 }
 
 template class StepMatrix<3>;

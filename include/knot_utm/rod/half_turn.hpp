@@ -19,6 +19,7 @@ struct HalfTurn {
   int nodes = 0;              ///< n
   Mat3 turn = Mat3::Zero();   ///< R [-]
   Lanes column[3] = {};       ///< of R
+  bool aligned = false;       ///< k is a coordinate axis, and R diagonal
   Vec3 shift = Vec3::Zero();  ///< t [m]
 
   /// That of a shape, if no node is further than `tolerance` [m] from the image of another one.
@@ -31,6 +32,7 @@ struct HalfTurn {
   /// (R v, -s): what a node and an edge have, as their images have it.
   Lanes operator*(const Lanes& v) const {
     constexpr Lanes kSense = {0.0, 0.0, 0.0, -1.0};
+    if (aligned) return (kSense + column[0] + column[1] + column[2]) * v;
     return kSense * v + v[0] * column[0] + v[1] * column[1] + v[2] * column[2];
   }
 

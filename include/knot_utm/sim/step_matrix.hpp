@@ -118,23 +118,23 @@ class StepMatrix {
   int b_of(const ContactPoint& contact) const {
     return mirrored(contact) ? image_->nodes - 3 - contact.b0 : contact.b0;
   }
-  /// Whether some of three nodes are images of others of them.
-  bool reaches_middle(int first) const { return image_ && first + 2 >= image_->nodes - image_->half(); }
-  bool reaches_middle(const ContactPoint& contact) const {
-    return !contact.on_roller() && (reaches_middle(contact.a0) || reaches_middle(b_of(contact)));
+  /// Whether its stiffness is gathered first and then folded onto the half: one with the other half, or near the
+  /// middle.
+  bool is_gathered(const ContactPoint& contact) const {
+    return image_ && !contact.on_roller() && std::max(contact.a0, contact.b0) + 2 >= image_->nodes - image_->half();
   }
   Places stored(const ContactPoint& contact, std::size_t n);
-  /// Where to add the stiffness of a contact. Of one that reaches the middle it is gathered first, and then folded.
-  Places places(const ContactPoint& contact, std::size_t n);
+  Places places(const ContactPoint& contact, std::size_t n);  ///< where to add its stiffness
   void fold(const ContactPoint& contact, std::size_t n);
+  void turn_columns(Block<D>* row) const;
 
   /// Adds the change of a spin's lever with the length of its edge.
-  void add_lengthening(const Places& to, int side, int first, const double* weights, double torque,
+  void add_lengthening(const Places& to, int strand, int first, const double* weights, double torque,
                        const SectionTurns& turns);
-  /// `kStrands`: between strands, where a foot slides as the contact moves; else on a roller. `kMirrored`: mirrored().
-  template <bool kStrands, bool kMirrored>
+  /// `kStrands`: between strands, where a foot slides as the contact moves; else on a roller.
+  template <bool kStrands>
   void add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
-                   const SectionTurns& turns, std::size_t n);
+                   const SectionTurns& turns, const Places& to);
   bool find(const std::vector<ContactPoint>& contacts);
   bool look_up(Located& contact) const;
   void find_rooms(const std::vector<ContactPoint>& contacts);
