@@ -159,7 +159,7 @@ class ResidualNorm {
 
 /// Takes the place of FrameTerms where the scene does not solve for twist.
 struct NoFrames : ForceTerm {
-  NoFrames(const RodProperties&, const StepSettings&) {}
+  NoFrames(const RodProperties&, const StepSettings&, const HalfTurn*) {}
   void add_forces(const StepStart&, const Points&, std::vector<Lanes>&) {}
   void add_stiffness(LinearSystem<3>&) const {}
   void account(const SolvedStep&, StepAccount&) const {}
@@ -186,7 +186,7 @@ struct Equation {
         settings(settings_),
         motion(rod, settings),
         centreline(rod, !state.curved_at_rest()),
-        frames(rod, settings),
+        frames(rod, settings, image),
         strands(SmoothContact(whole, settings.pressure_law, settings.friction, settings.candidate_margin,
                               settings.weighting_time)),
         rollers(RollerContact(whole, rod.material.is_soft() ? settings.pressure_law.on_rigid() : settings.pressure_law,
@@ -209,33 +209,15 @@ struct Equation {
           rolling.of[2] = settings.others->rolling_own;
         }
         const bool soft = rod.material.is_soft();
-        if (image)
-          turns = {std::vector<double>(of_strands.size()), std::vector<double>(of_strands.size()),
-                   std::vector<Lanes>(of_strands.size()), std::vector<Lanes>(of_strands.size())};
-        const SectionTurns& spins = image ? turns : frames.turns();
         if (soft || settings.friction.on() || (settings.others && strands_of_others_rub(*settings.others)))
-          strands.contacts().act_at_surface(settings.friction_couple, spins, rolling);
+          strands.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
         if (soft || settings.roller_friction.on() || (settings.others && settings.others->on_rollers.friction.on()))
-          rollers.contacts().act_at_surface(settings.friction_couple, spins, rolling);
+          rollers.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
         if (soft) {
           strands.contacts().soften(whole.rest_length);
           rollers.contacts().soften(whole.rest_length);
         }
       }
-  }
-
-  /// Sets the spins of all edges from those of the half, where friction acts at the surface.
-  void image_turns() {
-    if (turns.turn.empty()) return;
-    const SectionTurns& own = frames.turns();
-    for (int j = 0; j + 1 < image->nodes; ++j) {
-      const bool here = j < image->half();
-      const std::size_t of = at(here ? j : image->image_of_edge(j));
-      turns.turn[at(j)] = here ? own.turn[of] : -own.turn[of];
-      turns.length[at(j)] = own.length[of];
-      turns.tangent[at(j)] = here ? own.tangent[of] : -(*image * own.tangent[of]);
-      turns.pull[at(j)] = here ? own.pull[of] : *image * own.pull[of];
-    }
   }
 
   /// Calls act(term) for every force term, in the order in which forces are added.
@@ -263,9 +245,7 @@ struct Equation {
   StepMatrix<D> matrix;
   Points x;                          // trial positions [m]
   std::vector<Lanes> force, change;  // forces on the unknowns, and changes of the unknowns
-  // What contacts with the other half need: forces or changes of all nodes, and spins of all edges.
-  std::vector<Lanes> of_strands;
-  SectionTurns turns;
+  std::vector<Lanes> of_strands;     // what they exert on all nodes of a rod of which this is half, or how these move
 
  private:
   static bool strands_of_others_rub(const StepSettings::OtherLaws& others) {
@@ -301,11 +281,7 @@ class Increment {
   double residual() {
     std::fill(eq_.force.begin(), eq_.force.end(), Lanes{0.0, 0.0, 0.0, 0.0});
     eq_.for_each_term([this](auto& term) {
-      if constexpr (is_strands<decltype(term)>)
-        return fold(eq_.force, [&](std::vector<Lanes>& to) { term.add_forces(start_, eq_.x, to); });
-      term.add_forces(start_, eq_.x, eq_.force);
-      if constexpr (std::is_same_v<decltype(term), FrameTerms&>)
-        if (eq_.image) eq_.image_turns();
+      fold(term, eq_.force, [&](std::vector<Lanes>& to) { term.add_forces(start_, eq_.x, to); });
     });
     worst_ = worst();
     return worst_.residual;
@@ -324,13 +300,11 @@ class Increment {
     LinearSystem<D> system{start_, eq_.x, eq_.matrix, eq_.change, {of_friction, predicts_}, spins()};
     eq_.centreline.add_stiffness(system);  // overwrites its blocks, to which the others add
     eq_.for_each_term([&](auto& term) {
-      if constexpr (is_strands<decltype(term)>)
-        fold(eq_.change, [&](std::vector<Lanes>& to) {
-          LinearSystem<D> of_strands{system.start, system.x, system.matrix, to, system.how, system.spins};
-          term.add_stiffness(of_strands);
+      if constexpr (!std::is_same_v<decltype(term), CentrelineTerms&>)
+        fold(term, eq_.change, [&](std::vector<Lanes>& to) {
+          LinearSystem<D> part{start_, eq_.x, eq_.matrix, to, system.how, system.spins};
+          term.add_stiffness(part);
         });
-      else if constexpr (!std::is_same_v<decltype(term), CentrelineTerms&>)
-        term.add_stiffness(system);
     });
     if constexpr (D == 4)
       eq_.held.prescribe(eq_.frames, eq_.matrix, eq_.change);
@@ -381,10 +355,10 @@ class Increment {
   template <typename Term>
   static constexpr bool is_strands = std::is_same_v<Term, ContactTerm<D, SmoothContact>&>;
 
-  /// Calls add(forces). Of a half, what it adds to the other half is folded back.
-  template <typename Add>
-  void fold(std::vector<Lanes>& to, const Add& add) {
-    if (!eq_.image) return add(to);
+  /// Calls add(forces) of a term. What strands of a half exert on the other half is folded back.
+  template <typename Term, typename Add>
+  void fold(const Term&, std::vector<Lanes>& to, const Add& add) {
+    if (!is_strands<Term&> || !eq_.image) return add(to);
     std::fill(eq_.of_strands.begin(), eq_.of_strands.end(), Lanes{});
     add(eq_.of_strands);
     eq_.image->fold(eq_.of_strands, to);
@@ -392,7 +366,7 @@ class Increment {
 
   const SectionTurns* spins() const {
     if constexpr (D == 4)
-      return eq_.image ? &eq_.turns : &eq_.frames.turns();
+      return &eq_.frames.turns();
     else
       return nullptr;
   }

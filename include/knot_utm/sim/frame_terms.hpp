@@ -67,8 +67,8 @@ class FrameTerms : public ForceTerm {
     Vec3 lean;    ///< dtheta = ds - lean . de [1/m]
   };
 
-  /// `rod` must outlive this.
-  FrameTerms(const RodProperties& rod, const StepSettings& settings);
+  /// `rod` must outlive this. Of the half of a rod which is its own `image`, turns() are those of all edges.
+  FrameTerms(const RodProperties& rod, const StepSettings& settings, const HalfTurn* image = nullptr);
 
   /// From now on the rod is cut at this edge, too: at its ends nothing twists or bends.
   void part(int edge);
@@ -149,6 +149,7 @@ class FrameTerms : public ForceTerm {
   void add_elastic_forces(std::vector<Lanes>& force);
   int nodes_of(std::size_t group) const;  // how many of the four there are
   void set_turn(std::size_t edge, double turned);
+  void turn_images();
 
   /// Stiffnesses of inner node i are zero where it ends a cut edge.
   TwistingInput twisting_input(int i) const;
@@ -163,6 +164,7 @@ class FrameTerms : public ForceTerm {
   bool curved_ = false;      // at rest, as the step begins
   std::vector<int> cuts_;    // edges
   bool rolls_;               // turns_ are asked for
+  const HalfTurn* image_;
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N
