@@ -317,6 +317,8 @@ void read_end(const Sample& last, Results& results) {
   results.steps = last.steps;
   results.rejected_steps = last.rejected_steps;
   results.newton_iterations = last.newton_iterations;
+  if (last.newton_iterations > 0)
+    results.solved_by_half = static_cast<double>(last.half_iterations) / static_cast<double>(last.newton_iterations);
   results.simulated_time = last.time;
   results.final_excess_length = last.excess_length;
 }

@@ -33,7 +33,8 @@ RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, 
       first_of_other_(static_cast<int>(rod.first_of_other())),
       radius_{rod.material.radius, rod.other_material.value_or(rod.material).radius},
       farthest_(farthest),
-      voronoi_(rod.voronoi_length) {}
+      voronoi_(rod.voronoi_length),
+      nodes_(static_cast<int>(rod.nodes())) {}
 
 std::size_t RollerContact::index_of(const ContactPoint& contact) const {
   return memory_index(voronoi_.size(), static_cast<std::size_t>(contact.roller), contact.a0 + 1, contact.point);
@@ -79,7 +80,7 @@ double RollerContact::limit(const Roller& roller, int segment) const {
 void RollerContact::find_near_segments(const std::vector<Roller>& rollers, const Points& start) {
   near_.clear();
   for (std::size_t roller = 0; roller < rollers.size(); ++roller)
-    for (int segment = 1; segment + 1 < static_cast<int>(start.cols()); ++segment) {
+    for (int segment = 1; segment + 1 < nodes_; ++segment) {
       if (reaches_into_cut(segment)) continue;
       if (segment < rollers[roller].first_node || segment > rollers[roller].last_node) continue;
       if (beside(rollers[roller], start.col(segment)).x.norm() <= limit(rollers[roller], segment) + farthest_)

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
@@ -52,7 +54,8 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
       reach_((2.0 + kReachMargin) * std::max(radius_[0], radius_[1])),
       arclength_(rod.arclength()),
       voronoi_(rod.voronoi_length),
-      candidates_(rod, reach_, margin, least_loop(rod.material.radius)),
+      own_rows_(2 * static_cast<std::size_t>(rod.nodes())),
+      candidates_(std::make_shared<Candidates>(rod, reach_, margin, least_loop(rod.material.radius))),
       search_(rod.nodes(), reach_),
       catch_up_time_(catch_up) {
   const Eigen::Index nodes = rod.nodes();
@@ -61,8 +64,56 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   moved_.resize(static_cast<std::size_t>(nodes));
 }
 
+void SmoothContact::halve(const SmoothContact& whole) {
+  own_rows_ = static_cast<std::size_t>(whole.arclength_.size());
+  candidates_ = whole.candidates_;
+  fraction_ = whole.fraction_;
+  accepted_ = whole.accepted_;
+  first_step_ = whole.first_step_;
+}
+
+void SmoothContact::mirror(const SmoothContact& half, const HalfTurn& image) {
+  half.remember(nullptr, iterate_);
+  const double length = arclength_[arclength_.size() - 1];
+  const auto own = static_cast<int>(half.own_rows_);
+  for (int row = own; row < 2 * own; ++row) {
+    const std::size_t of = at(2 * own - 1 - row);
+    iterate_.begin[at(row)] = static_cast<int>(iterate_.entries.size());
+    for (int m = iterate_.begin[of + 1]; m-- > iterate_.begin[of];) {
+      Memory memory = iterate_.entries[at(m)];
+      memory.arclength_b = length - memory.arclength_b;
+      memory.friction.slip = image.turn * memory.friction.slip;
+      memory.friction.rolled *= -1.0;
+      memory.z = image.turn * memory.z;
+      memory.zeta *= -1.0;
+      iterate_.entries.push_back(memory);
+    }
+  }
+  iterate_.begin[at(2 * own)] = static_cast<int>(iterate_.entries.size());
+  mirror_feet(half, image);
+}
+
+/// The feet of a half are those of its last evaluation, and as exact as they were found.
+void SmoothContact::mirror_feet(const SmoothContact& half, const HalfTurn& image) {
+  const std::vector<int>& segments = candidates_->segments();
+  const int last = 2 * static_cast<int>(segments.size()) - 1;
+  std::vector<FootSearch::Foot>& feet = search_.feet();
+  feet.clear();
+  for (const FootSearch::Foot& foot : half.search_.feet())
+    if (half.row_of(foot.point) < half.own_rows_) feet.push_back(foot);
+  for (std::size_t i = feet.size(); i-- > 0;) {
+    FootSearch::Foot foot = feet[i];
+    if (segments[at((last - foot.point) / 2)] != image.image(segment_of(foot.point))) return;
+    const double distance = foot.x[3];
+    foot = {image * foot.x, 1.0 - foot.u, last - foot.point, image.image(foot.segment)};
+    foot.x[3] = distance;
+    feet.push_back(foot);
+  }
+  has_feet_ = true;
+}
+
 void SmoothContact::begin(const Points& start) {
-  candidates_.refresh(start);
+  candidates_->refresh(start);
   iterate_ = accepted_;
   for (Memory& memory : iterate_.entries) memory.pressed = memory.pressure > 0.0;
   first_evaluation_ = true;
@@ -79,7 +130,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   recalled_.assign(iterate_.entries.size(), 0);
   dt_ = dt;
   catch_up_ = dt / (dt + catch_up_time_);
-  const std::vector<int>& segments = candidates_.segments();
+  const std::vector<int>& segments = candidates_->segments();
   if (segments.empty()) return;
   for (std::size_t i = 0; i < moved_.size(); ++i) {
     const auto node = static_cast<Eigen::Index>(i);
@@ -116,12 +167,13 @@ bool SmoothContact::near_last_search() const {
 }
 
 void SmoothContact::find_feet(const Points& position, const std::vector<int>& segments) {
-  if (near_last_search() && follow_feet(position, segments)) return;
+  if ((has_feet_ || near_last_search()) && follow_feet(position, segments)) return;
   searched_ = moved_;
   search_.begin(position, segments);
   for (const int segment : segments) {
+    if (2 * at(segment) >= own_rows_) break;
     const PointsOfSegment points = points_of(segment);
-    search_.look(points[0], points[1], candidates_.begin(segment), candidates_.end(segment));
+    search_.look(points[0], points[1], candidates_->begin(segment), candidates_->end(segment));
   }
   search_.find();
 }
@@ -129,10 +181,11 @@ void SmoothContact::find_feet(const Points& position, const std::vector<int>& se
 bool SmoothContact::follow_feet(const Points& position, const std::vector<int>& segments) {
   search_.begin_to_follow(position, segments);
   for (const int segment : segments) {
+    if (2 * at(segment) >= own_rows_) break;
     const PointsOfSegment points = points_of(segment);
     search_.add(points[0], points[1]);
   }
-  return search_.follow();
+  return std::exchange(has_feet_, false) || search_.follow();
 }
 
 SmoothContact::PointsOfSegment SmoothContact::points_of(int segment) const {
@@ -146,10 +199,11 @@ std::size_t SmoothContact::follow(std::size_t foot) {
   const std::vector<FootSearch::Foot>& feet = search_.feet();
   const int point = feet[foot].point;
   const double arclength_a = arclength_at(arclength_, segment_of(point), kIntegrationPoints[point % 2]);
-  const double exclusion = candidates_.exclusion(segment_of(point));
+  const double exclusion = candidates_->exclusion(segment_of(point));
   const int mine = is_other(segment_of(point));
   const std::size_t first = tracked_.size();
   for (; foot < feet.size() && feet[foot].point == point; ++foot) {
+    if (row_of(point) >= own_rows_) continue;
     const double arclength_b = arclength_at(arclength_, feet[foot].segment, feet[foot].u);
     if (std::abs(arclength_a - arclength_b) < exclusion) continue;
     Tracked& tracked = tracked_.emplace_back();
@@ -441,7 +495,7 @@ void SmoothContact::state(Archive& archive) {
   archive.list(fraction_);
   const bool of_this_rod = fraction_.size() == 0 || fraction_.size() == arclength_.size();
   archive.require(of_this_rod, "fractions of points outwards", "of " + std::to_string(fraction_.size()) + " nodes");
-  archive(candidates_, accepted_, first_step_);
+  archive(*candidates_, accepted_, first_step_);
   if (!rolling_.on()) return;
   archive.section("ROL2");  // before there was none, and a vector for each
   for (Memory& memory : accepted_.entries) archive(memory.friction.rolled);

@@ -41,7 +41,11 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     SpringHold middle;
     middle.node = centreline.nearest_node(0.5 * (centreline.loop.far_begin + centreline.loop.far_end));
     middle.stiffness(2, 2) = held;
-    far_middle_ = middle;
+    const int image = centreline.half_turn ? centreline.half_turn->image(middle.node) : middle.node;
+    if (image != middle.node) middle.stiffness *= 0.5;
+    far_middle_ = {middle};
+    middle.node = image;
+    if (image != far_middle_[0].node) far_middle_.push_back(middle);
     holds_far_side_ = !specimen.to_be_tied;
     return;
   }
@@ -122,10 +126,8 @@ void Grips::set(double displacement, double left, Boundary& boundary) const {
   }
   boundary.forces = supports_.loads;
   boundary.holds.clear();
-  if (holds_far_side_) {
-    boundary.holds.push_back(*far_middle_);
-    boundary.holds.back().place[2] += half_way(displacement);
-  }
+  if (holds_far_side_) boundary.holds = far_middle_;
+  for (SpringHold& hold : boundary.holds) hold.place[2] += half_way(displacement);
   boundary.fixed_twists = held_frames_;
   boundary.fixed_nodes = lower_nodes_;
   for (FixedNode node : upper_nodes_) {
@@ -157,9 +159,8 @@ void Grips::follow_slipping(const Points& position, double displacement, double 
 double Grips::half_way(double displacement) const { return 0.5 * (lower()[2] + upper(displacement)[2]); }
 
 void Grips::hold_far_side(const Points& position, double displacement) {
-  if (!far_middle_) return;
-  far_middle_->place[2] = position(2, far_middle_->node) - half_way(displacement);
-  holds_far_side_ = true;
+  for (SpringHold& hold : far_middle_) hold.place[2] = position(2, hold.node) - half_way(displacement);
+  holds_far_side_ = !far_middle_.empty();
 }
 
 /// Narrows rollers to pins. In a sketched loop the near side stays where it will be on the rollers, and the half
@@ -283,7 +284,7 @@ void Grips::state(Archive& archive) {
   archive.list(pins_);
   archive.require(pins_.empty() || pins_.size() == rollers_.size(), "pins of the rollers",
                   std::to_string(pins_.size()));
-  if (far_middle_) archive(far_middle_->place);
+  for (SpringHold& hold : far_middle_) archive(hold.place);
   for (Roller& roller : rollers_) archive(roller);
   for (FixedNode& node : upper_nodes_) archive(node.position);
   archive.list(slipping_);

@@ -115,6 +115,7 @@ struct TestingMachine::Impl {
     Eigen::VectorXd rest(nodes - 1);
     for (Eigen::Index i = 0; i + 1 < nodes; ++i)
       rest[i] = (centreline.points.col(i + 1) - centreline.points.col(i)).norm();
+    if (centreline.half_turn) rest = (0.5 * (rest + rest.reverse())).eval();
     RodState state;
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
@@ -126,6 +127,7 @@ struct TestingMachine::Impl {
     StepSettings settings = step_settings(specimen, scaled, machine, physics);
     // The weight is that of the rod's own mass, not of the accelerated one.
     gravity = settings.gravity = physics.gravity / inertia_factor(material, physics, slack_of(specimen, centreline));
+    settings.half_turn = centreline.half_turn;
     stepper = TimeStep::make(rod, state, settings);
     double bending_time = specimen_scales(scaled).own_time;
     if (scaled.other) bending_time = std::min(bending_time, specimen_scales(*scaled.other).own_time);
@@ -359,6 +361,7 @@ struct TestingMachine::Impl {
     s.steps = control.counters().steps;
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
+    s.half_iterations = control.counters().by_half;
     if (watch) s.knot_type = watch->type();
     if (parted()) s.break_arclength = break_arclength(*stepper, parted_edge);
     s.break_place = break_place;
@@ -368,7 +371,8 @@ struct TestingMachine::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCO");  // "BNCN" let parted ends recoil, "BNCM" had no turn of the upper clamp
+    archive.section("BNCP");  // "BNCO" counted no iterations by half, "BNCN" let parted ends recoil, "BNCM" had no turn
+                              // of the upper clamp
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
     if (breaks) archive(*breaks);

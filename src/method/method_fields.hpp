@@ -196,6 +196,8 @@ inline void physics(Fields& f, PhysicsOptions& o) {
         .optional_number("tolerance", o.contact_tolerance, Range{1e-3, 0.5, "of the radius"}, "auto");
   });
   f.choice("twist", o.twist, std::array{"auto", "on", "off"});
+  f.says("symmetry; `auto` solves one half of [symmetric rods](model.md#the-half-of-a-rod)")
+      .choice("symmetry", o.symmetry, std::array{"auto", "off"});
   f.choice("accuracy", o.accuracy, std::array{"draft", "normal", "fine"});
   f.says("drag; per length of rod",
          "3/s times the accelerated mass per length, another for [light loops](model.md#3-the-implicit-step); "

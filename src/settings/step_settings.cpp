@@ -20,6 +20,7 @@ constexpr double kNewtonCap = 0.2;           // farthest that an iteration moves
 constexpr double kMotionLimit = 0.8;         // farthest that a step may move one: then no strand passes another [h]
 constexpr double kOverlapLimit = 0.5;        // deepest contact of round sections that a step may begin or end with [h]
 constexpr double kCandidateMargin = 1.0;     // gap up to which pairs of segments are watched between searches [h]
+constexpr double kUneven = 1e-6;             // by which a sketch may miss its image, before it is made even [h]
 constexpr int kMostIterations = 12;          // of Newton's method in a step
 // Way over which a rolling contact springs before it bears all of its couple [mu_r h]. Where the half that is left
 // behind bears nothing, mu_r h is 4/(3 pi) of the half width a. The contact moves by half of the way, so that it has
@@ -146,7 +147,12 @@ Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& 
   mounting.clamps = clamps_hold(specimen, machine);
   mounting.roller_diameter = machine.roller_diameter;
   mounting.refinement = tolerances(physics, specimen, material).refinement;
-  return knot_of(specimen).centreline(specimen, material, mounting);
+  Centreline out = knot_of(specimen).centreline(specimen, material, mounting);
+  const bool can_be_even = out.cuts.empty() && !knot_of(specimen).about().straight && specimen.natural_curvature == 0.0;
+  if (physics.symmetry == Symmetry::kOff || !can_be_even) return out;
+  out.half_turn = HalfTurn::of(out.points, kUneven * material.radius);
+  if (out.half_turn) out.half_turn->mirror(out.points);
+  return out;
 }
 
 double slack_of(const SpecimenOptions& specimen, const Centreline& centreline) {

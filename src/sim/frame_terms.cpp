@@ -88,18 +88,18 @@ void straighten_cuts(const std::vector<int>& cuts, std::vector<FourPairs>& pairs
 
 }  // namespace
 
-FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
+FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings, const HalfTurn* image)
     : rod_(rod),
       bending_(rod),
       rolls_(settings.friction_couple > 0.0),
+      image_(image),
       held_(static_cast<std::size_t>(rod.nodes()), 0),
       start_tangent_(held_.size() + 3, Lanes{1.0, 0.0, 0.0, 0.0}),
       edge_(start_tangent_),
       tangent_(start_tangent_),
       inverse_length_(start_tangent_.size(), 1.0),
       lean_(start_tangent_.size()),
-      turns_{std::vector<double>(start_tangent_.size()), std::vector<double>(start_tangent_.size()),
-             std::vector<Lanes>(start_tangent_.size()), std::vector<Lanes>(start_tangent_.size())},
+      turns_(image ? at(image->nodes) : start_tangent_.size()),
       stiffness_(start_tangent_.size(), 0.0),
       angle_(start_tangent_.size(), 0.0),
       spin_(start_tangent_.size(), 0.0),
@@ -175,6 +175,12 @@ void FrameTerms::begin(const StepStart& step, bool) {
     held_[at(fixed.edge)] = 1;
     angle_[at(fixed.edge)] = fixed.angle;
   }
+}
+
+void FrameTerms::mirror(const FrameTerms& half, const HalfTurn& image) {
+  const auto turn = [&](int j) { return half.angle_[at(j)] - start_->twist[j]; };
+  for (int j = 0; j < static_cast<int>(rod_.edges()); ++j)
+    if (!held(j)) angle_[at(j)] = start_->twist[j] + (j < image.half() ? turn(j) : -turn(image.image_of_edge(j)));
 }
 
 int FrameTerms::nodes_of(std::size_t group) const {
@@ -268,6 +274,17 @@ void FrameTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes
     const double turned = angle_[at(j)] - start_->twist[j];
     if (rolls_) set_turn(at(j), turned);
     force[at(j)][3] -= spin_[at(j)] * turned - kept_spin_[at(j)];
+  }
+  if (rolls_ && image_) turn_images();
+}
+
+void FrameTerms::turn_images() {
+  for (int j = image_->half(); j + 1 < image_->nodes; ++j) {
+    const std::size_t there = at(j), own = at(image_->image_of_edge(j));
+    turns_.turn[there] = -turns_.turn[own];
+    turns_.length[there] = turns_.length[own];
+    turns_.tangent[there] = -(*image_ * turns_.tangent[own]);
+    turns_.pull[there] = *image_ * turns_.pull[own];
   }
 }
 

@@ -21,11 +21,13 @@ namespace knot_utm {
 /// FrameTerms). Their rows in the linear system state that they do not change.
 class HeldUnknowns {
  public:
-  explicit HeldUnknowns(std::size_t nodes) : held_(nodes, 0) {}
+  /// Nodes from `solved` on are images of others (StepMatrix::tie).
+  HeldUnknowns(std::size_t nodes, int solved) : held_(nodes, 0), solved_(solved) {}
 
   /// Moves the held nodes of a prediction to their prescribed positions.
   void begin(const StepStart& start, Points& x) {
     std::fill(held_.begin(), held_.end(), 0);
+    std::fill(held_.begin() + solved_, held_.end(), 1);
     for (const FixedNode& fixed : start.boundary.fixed_nodes) {
       held_[static_cast<std::size_t>(fixed.node)] = 1;
       x.col(fixed.node) = fixed.position;
@@ -68,6 +70,7 @@ class HeldUnknowns {
   }
 
   std::vector<char> held_;
+  int solved_;
 };
 
 /// The largest residual of a trial, and its node: that of an edge is the node before it.
@@ -132,9 +135,9 @@ class ResidualNorm {
   /// The same for the torques, divided by `radius`, on edges whose frames are not held. Returns `worst` where none is
   /// larger.
   template <typename Frames>
-  static WorstResidual worst_of_spins(const std::vector<Lanes>& force, const Frames& frames, double radius,
+  static WorstResidual worst_of_spins(const std::vector<Lanes>& force, const Frames& frames, double radius, int edges,
                                       WorstResidual worst) {
-    for (int i = 0; i + 1 < static_cast<int>(force.size()); ++i) {
+    for (int i = 0; i < edges; ++i) {
       if (frames.held(i)) continue;
       const double size = std::abs(force[static_cast<std::size_t>(i)][3]) / radius;
       if (!std::isfinite(size)) return {size, i};
@@ -156,7 +159,7 @@ class ResidualNorm {
 
 /// Takes the place of FrameTerms where the scene does not solve for twist.
 struct NoFrames : ForceTerm {
-  NoFrames(const RodProperties&, const StepSettings&) {}
+  NoFrames(const RodProperties&, const StepSettings&, const HalfTurn*) {}
   void add_forces(const StepStart&, const Points&, std::vector<Lanes>&) {}
   void add_stiffness(LinearSystem<3>&) const {}
   void account(const SolvedStep&, StepAccount&) const {}
@@ -174,20 +177,26 @@ struct Equation {
   using Frames = std::conditional_t<D == 4, FrameTerms, NoFrames>;
 
   Equation(const RodProperties& rod_, const RodState& state, const StepSettings& settings_)
+      : Equation(rod_, rod_, nullptr, state, settings_) {}
+  /// That of the first half of a `whole` rod which is its own `image` (HalfRod); `rod_` ends behind the half.
+  Equation(const RodProperties& rod_, const RodProperties& whole, const HalfTurn* image_, const RodState& state,
+           const StepSettings& settings_)
       : rod(rod_),
+        image(image_),
         settings(settings_),
         motion(rod, settings),
         centreline(rod, !state.curved_at_rest()),
-        frames(rod, settings),
-        strands(SmoothContact(rod, settings.pressure_law, settings.friction, settings.candidate_margin,
+        frames(rod, settings, image),
+        strands(SmoothContact(whole, settings.pressure_law, settings.friction, settings.candidate_margin,
                               settings.weighting_time)),
-        rollers(RollerContact(rod, rod.material.is_soft() ? settings.pressure_law.on_rigid() : settings.pressure_law,
+        rollers(RollerContact(whole, rod.material.is_soft() ? settings.pressure_law.on_rigid() : settings.pressure_law,
                               settings.roller_friction, settings.motion_limit)),
-        held(static_cast<std::size_t>(rod.nodes())),
+        held(static_cast<std::size_t>(rod.nodes()), image ? image->half() : static_cast<int>(rod.nodes())),
         norm(settings),
-        matrix(static_cast<int>(rod.nodes())),
+        matrix(static_cast<int>(rod.nodes()), image),
         force(static_cast<std::size_t>(rod.nodes())),
-        change(force.size()) {
+        change(force.size()),
+        of_strands(static_cast<std::size_t>(whole.nodes())) {
     if (settings.others) {
       strands.contacts().tell_apart(settings.others->between, settings.others->own);
       rollers.contacts().tell_apart(settings.others->on_rollers);
@@ -205,8 +214,8 @@ struct Equation {
         if (soft || settings.roller_friction.on() || (settings.others && settings.others->on_rollers.friction.on()))
           rollers.contacts().act_at_surface(settings.friction_couple, frames.turns(), rolling);
         if (soft) {
-          strands.contacts().soften(rod.rest_length);
-          rollers.contacts().soften(rod.rest_length);
+          strands.contacts().soften(whole.rest_length);
+          rollers.contacts().soften(whole.rest_length);
         }
       }
   }
@@ -223,6 +232,7 @@ struct Equation {
   }
 
   const RodProperties& rod;
+  const HalfTurn* image;  // null: this is the equation of a whole rod
   const StepSettings& settings;
   MotionTerm motion;
   CentrelineTerms centreline;
@@ -235,6 +245,7 @@ struct Equation {
   StepMatrix<D> matrix;
   Points x;                          // trial positions [m]
   std::vector<Lanes> force, change;  // forces on the unknowns, and changes of the unknowns
+  std::vector<Lanes> of_strands;     // what they exert on all nodes of a rod of which this is half, or how these move
 
  private:
   static bool strands_of_others_rub(const StepSettings::OtherLaws& others) {
@@ -260,13 +271,18 @@ class Increment {
     eq_.for_each_term([&](auto& term) { term.begin(start, predicts); });
     eq_.matrix.begin();
     eq_.x = start.state.position + start.dt * start.state.velocity;
+    if (start.middle_moves != start.dt * start.middle_velocity)
+      eq_.x.colwise() += start.middle_moves - start.dt * start.middle_velocity;
     eq_.held.begin(start, eq_.x);
+    if (eq_.image) eq_.image->mirror(eq_.x);
   }
 
   /// Computes f(x), and returns its norm [N].
   double residual() {
     std::fill(eq_.force.begin(), eq_.force.end(), Lanes{0.0, 0.0, 0.0, 0.0});
-    eq_.for_each_term([this](auto& term) { term.add_forces(start_, eq_.x, eq_.force); });
+    eq_.for_each_term([this](auto& term) {
+      fold(term, eq_.force, [&](std::vector<Lanes>& to) { term.add_forces(start_, eq_.x, to); });
+    });
     worst_ = worst();
     return worst_.residual;
   }
@@ -284,12 +300,17 @@ class Increment {
     LinearSystem<D> system{start_, eq_.x, eq_.matrix, eq_.change, {of_friction, predicts_}, spins()};
     eq_.centreline.add_stiffness(system);  // overwrites its blocks, to which the others add
     eq_.for_each_term([&](auto& term) {
-      if constexpr (!std::is_same_v<decltype(term), CentrelineTerms&>) term.add_stiffness(system);
+      if constexpr (!std::is_same_v<decltype(term), CentrelineTerms&>)
+        fold(term, eq_.change, [&](std::vector<Lanes>& to) {
+          LinearSystem<D> part{start_, eq_.x, eq_.matrix, to, system.how, system.spins};
+          term.add_stiffness(part);
+        });
     });
     if constexpr (D == 4)
       eq_.held.prescribe(eq_.frames, eq_.matrix, eq_.change);
     else
       eq_.held.prescribe(eq_.matrix, eq_.change);
+    if (eq_.image) eq_.matrix.tie(eq_.change);
     return eq_.matrix.values().solve(eq_.change);
   }
 
@@ -306,7 +327,13 @@ class Increment {
     factor_ = std::min(factor_, wanted * eq_.frames.largest_factor(eq_.change));
     eq_.frames.move(eq_.change, factor_);
     for (int i = 0; i < nodes(); ++i) eq_.x.col(i) += factor_ * to_vec3(eq_.change[static_cast<std::size_t>(i)]);
-    eq_.for_each_term([this](auto& term) { term.predict(eq_.change, factor_); });
+    if (eq_.image) {
+      eq_.image->mirror(eq_.x);
+      eq_.image->spread(eq_.change, eq_.of_strands);
+    }
+    eq_.for_each_term([this](auto& term) {
+      term.predict(is_strands<decltype(term)> && eq_.image ? eq_.of_strands : eq_.change, factor_);
+    });
     motion_ = factor_ * longest;
   }
 
@@ -323,6 +350,19 @@ class Increment {
 
  private:
   int nodes() const { return static_cast<int>(eq_.force.size()); }
+  int edges() const { return eq_.image ? eq_.image->half() : nodes() - 1; }
+
+  template <typename Term>
+  static constexpr bool is_strands = std::is_same_v<Term, ContactTerm<D, SmoothContact>&>;
+
+  /// Calls add(forces) of a term. What strands of a half exert on the other half is folded back.
+  template <typename Term, typename Add>
+  void fold(const Term&, std::vector<Lanes>& to, const Add& add) {
+    if (!is_strands<Term&> || !eq_.image) return add(to);
+    std::fill(eq_.of_strands.begin(), eq_.of_strands.end(), Lanes{});
+    add(eq_.of_strands);
+    eq_.image->fold(eq_.of_strands, to);
+  }
 
   const SectionTurns* spins() const {
     if constexpr (D == 4)
@@ -334,7 +374,7 @@ class Increment {
   WorstResidual worst() const {
     WorstResidual out = eq_.norm.worst_of_nodes(eq_.force, eq_.centreline, tolerance(), eq_.held);
     if (!std::isfinite(out.residual)) return out;
-    if constexpr (D == 4) out = ResidualNorm::worst_of_spins(eq_.force, eq_.frames, eq_.rod.thinnest(), out);
+    if constexpr (D == 4) out = ResidualNorm::worst_of_spins(eq_.force, eq_.frames, eq_.rod.thinnest(), edges(), out);
     return out;
   }
 

@@ -24,10 +24,10 @@ constexpr double kLeastHeadway = 1e-5;  // [longest step]
 StepSummary StepControl::step(TimeStep& stepper, const Boundary& boundary, double dt, bool in_need) {
   StepSummary summary =
       stepper.step(boundary, dt, in_need ? SolveStrategy::kTangents : SolveStrategy::kTangentsAbandonedEarly);
-  counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
+  count(summary);
   if (!summary.accepted() && !summary.newton.converged() && in_need) {
     summary = stepper.step(boundary, dt, SolveStrategy::kSecants);
-    counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
+    count(summary);
   }
   return summary;
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "knot_utm/numeric/index.hpp"
+#include "knot_utm/sim/force_term.hpp"
 #include "surface_columns.hpp"
 
 namespace knot_utm {
@@ -21,14 +22,15 @@ bool StepMatrix<D>::find(const std::vector<ContactPoint>& contacts) {
   auto row = before_.cbegin();
   for (const ContactPoint& contact : contacts) {
     if (!contact.active()) continue;
+    const int b0 = b_of(contact);
     while (row != before_.cend() && row->a0 < contact.a0) ++row;
     auto same = row;
-    while (same != before_.cend() && same->a0 == contact.a0 && same->b0 != contact.b0) ++same;
+    while (same != before_.cend() && same->a0 == contact.a0 && same->b0 != b0) ++same;
     if (same != before_.cend() && same->a0 == contact.a0) {
       located.push_back(*same);
       continue;
     }
-    Located found = {contact.a0, contact.b0, {}};
+    Located found = {contact.a0, b0, {}};
     // The segment's points that come one after the other are often between the same nodes.
     if (!located.empty() && located.back().a0 == found.a0 && located.back().b0 == found.b0) {
       found = located.back();
@@ -56,14 +58,14 @@ template <int D>
 void StepMatrix<D>::find_rooms(const std::vector<ContactPoint>& contacts) {
   if (!rebuilt_) std::swap(present_, accepted_);
   rebuilt_ = true;
-  present_.rooms.clear();
+  clear_rooms();
   for (const ContactPoint& contact : contacts) {
     // Those that stay apart need no room; those about to touch soon would.
     if (!contact.active() && contact.overlap < 2.0 * contact.begins) continue;
     // A foot goes on as it slides; one that does not slide, to the segment that it is nearer to.
     const double slip = contact.slip.dot(contact.db);
-    const bool backwards = slip != 0.0 ? slip < 0.0 : contact.c[3] < contact.c[5];
-    const int first = contact.b0 - (backwards ? kRoomNodes - 3 : 0);
+    const bool backwards = (slip != 0.0 ? slip < 0.0 : contact.c[3] < contact.c[5]) != mirrored(contact);
+    const int first = b_of(contact) - (backwards ? kRoomNodes - 3 : 0);
     present_.rooms.push_back({contact.a0, std::max(first, 0), std::min(first + kRoomNodes, nodes_) - 1});
   }
 }
@@ -171,6 +173,83 @@ void StepMatrix<D>::set_zero_beyond_band() {
 }
 
 template <int D>
+void StepMatrix<D>::clear_rooms() {
+  present_.rooms.clear();
+  if (image_) present_.rooms.push_back({image_->half() - 4, image_->half(), image_->half() + 1});
+}
+
+template <int D>
+void StepMatrix<D>::tie(std::vector<Lanes>& right) {
+  for (int i = image_->half(); i < nodes_; ++i) {
+    matrix_.set_identity_row(i);
+    Block<D>& image = block(present_.blocks.index(i, image_->image(i)));
+    for (int k = 0; k < 3; ++k) image.column[k] -= image_->column[k];
+    if constexpr (D == 4) block(present_.blocks.index(i, image_->image_of_edge(i))).at(3, 3) += 1.0;
+    right[at(i)] = Lanes{};
+  }
+}
+
+template <int D>
+auto StepMatrix<D>::stored(const ContactPoint& contact, std::size_t n) -> Places {
+  Places out;
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) {
+      out[at(k)][at(l)] = &band(contact.a0, k, l);
+      if (contact.on_roller()) continue;
+      const std::pair<int, int>& across = contact_blocks(n)[at(3 * k + l)];
+      out[at(k)][at(3 + l)] = &block(across.first);
+      out[at(3 + l)][at(k)] = &block(across.second);
+      out[at(3 + k)][at(3 + l)] = &band(b_of(contact), k, l);
+    }
+  return out;
+}
+
+template <int D>
+auto StepMatrix<D>::places(const ContactPoint& contact, std::size_t n) -> Places {
+  if (!is_gathered(contact)) return stored(contact, n);
+  Places out;
+  for (std::size_t i = 0; i < gathered_.size(); ++i) {
+    gathered_[i].set_zero();
+    out[i / 6][i % 6] = &gathered_[i];
+  }
+  return out;
+}
+
+template <int D>
+void StepMatrix<D>::fold(const ContactPoint& contact, std::size_t n) {
+  const Places to = stored(contact, n);
+  const Lanes moves = constant<Lanes>(1.0) - kSpin;
+  for (int k = 0; k < 6; ++k) {
+    Block<D>* row = &gathered_[at(6 * k)];
+    if (mirrored(contact)) turn_columns(row + 3);
+    const int strand = k - k % 3, node = (strand == 0 ? contact.a0 : contact.b0) + k % 3;
+    const int first = strand == 0 ? contact.a0 : b_of(contact);
+    const auto add = [&](int to_node, const auto& acts) {
+      if (to_node >= image_->half()) return;
+      for (std::size_t l = 0; l < 6; ++l)
+        for (int j = 0; j < D; ++j) to[at(strand + to_node - first)][l]->column[j] += acts(row[l].column[j]);
+    };
+    add(node, [](const Lanes& own) { return own; });
+    add(image_->image(node), [&](const Lanes& own) { return moves * (*image_ * own); });
+    if (D == 4 && k % 3 < 2) add(image_->image_of_edge(node), [](const Lanes& own) { return -kSpin * own; });
+  }
+}
+
+/// Of strand b on the other half: from columns of its nodes to those of their images, which run the other way.
+template <int D>
+void StepMatrix<D>::turn_columns(Block<D>* row) const {
+  const Block<D> b[3] = {row[0], row[1], row[2]};
+  for (int l = 0; l < 3; ++l) {
+    for (int j = 0; j < 3; ++j) {
+      row[l].column[j] = image_->turn(j, j) * b[2 - l].column[j];
+      if (image_->aligned) continue;
+      for (int i = 1; i < 3; ++i) row[l].column[j] += image_->turn((j + i) % 3, j) * b[2 - l].column[(j + i) % 3];
+    }
+    if constexpr (D == 4) row[l].column[3] = l < 2 ? -b[1 - l].column[3] : Lanes{};
+  }
+}
+
+template <int D>
 void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, std::size_t n) {
   // Kept here, as blocks written to might be a part of the model for all that is known of them.
   const Lanes still[3] = {model.still[0], model.still[1], model.still[2]};
@@ -191,38 +270,35 @@ void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, 
     pushed[k] = contact.beta[k] * model.force - c[k] * model.slide;
     du[k] = c[k] * du_s + contact.beta[k] * du_r;
   }
-  const auto add_pair = [&](Block<D>& block, int k, int l) {
-    const double both = c[k] * c[l];
-    for (int j = 0; j < 3; ++j) block.column[j] += both * still[j] + pushed[k] * du[l][j];
-  };
-  const ContactBlocks& blocks = contact_blocks(n);
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l) {
-      const std::pair<int, int>& across = blocks[at(3 * k + l)];
-      add_pair(band(contact.a0, k, l), k, l);
-      add_pair(block(across.first), k, 3 + l);
-      add_pair(block(across.second), 3 + l, k);
-      add_pair(band(contact.b0, k, l), 3 + k, 3 + l);
+  const Places to = places(contact, n);
+  for (int k = 0; k < 6; ++k)
+    for (int l = 0; l < 6; ++l) {
+      const double both = c[k] * c[l];
+      for (int j = 0; j < 3; ++j) to[at(k)][at(l)]->column[j] += both * still[j] + pushed[k] * du[l][j];
     }
+  if (is_gathered(contact)) fold(contact, n);
 }
 
 template <int D>
 void StepMatrix<D>::add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                         const SectionTurns& turns, std::size_t n) {
   if constexpr (D == 4) {
-    add_lengthening(contact.a0, surface.s_a, model.on_a[3], turns);
-    if (contact.on_roller()) return add_columns<false>(contact, surface, model, turns, n);
-    add_lengthening(contact.b0, surface.s_b, model.on_b[3], turns);
-    add_columns<true>(contact, surface, model, turns, n);
+    const Places to = places(contact, n);
+    add_lengthening(to, 0, contact.a0, surface.s_a, model.on_a[3], turns);
+    if (contact.on_roller()) return add_columns<false>(contact, surface, model, turns, to);
+    add_lengthening(to, 3, contact.b0, surface.s_b, model.on_b[3], turns);
+    add_columns<true>(contact, surface, model, turns, to);
+    if (is_gathered(contact)) fold(contact, n);
   }
 }
 
 template <int D>
-void StepMatrix<D>::add_lengthening(int first, const double* weights, double torque, const SectionTurns& turns) {
+void StepMatrix<D>::add_lengthening(const Places& to, int strand, int first, const double* weights, double torque,
+                                    const SectionTurns& turns) {
   for (int j = 0; j < 2; ++j) {
     const auto edge = at(first + j);
     const Lanes pull = (-torque * weights[j] / turns.length[edge]) * turns.tangent[edge];
-    Block<D>&own = band(first, j, j), &next = band(first, j, j + 1);
+    Block<D>&own = *to[at(strand + j)][at(strand + j)], &next = *to[at(strand + j)][at(strand + j + 1)];
     for (int i = 0; i < 3; ++i) {
       own.column[i][3] -= pull[i];
       next.column[i][3] += pull[i];
@@ -233,7 +309,7 @@ void StepMatrix<D>::add_lengthening(int first, const double* weights, double tor
 template <int D>
 template <bool kStrands>
 void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
-                                const SectionTurns& turns, std::size_t n) {
+                                const SectionTurns& turns, const Places& to) {
   constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
   const double spins_a[3] = {surface.s_a[0], surface.s_a[1], 0.0}, spins_b[3] = {surface.s_b[0], surface.s_b[1], 0.0};
   double c[6];
@@ -248,13 +324,13 @@ void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint&
   }
   const auto add_node = [&](int l, const std::array<SurfaceColumn, 4>& columns) {
     for (int k = 0; k < 3; ++k) {
-      Block<D>& on_a = l < 3 ? band(contact.a0, k, l) : block(contact_blocks(n)[at(3 * k + l - 3)].first);
+      Block<D>& on_a = *to[at(k)][at(l)];
       for (int i = 0; i < 4; ++i) {
         const SurfaceColumn& column = columns[at(i)];
         on_a.column[i] += c[k] * column.force + rows_a[k] * column.on_a;
       }
       if constexpr (!kStrands) continue;
-      Block<D>& on_b = l < 3 ? block(contact_blocks(n)[at(3 * l + k)].second) : band(contact.b0, k, l - 3);
+      Block<D>& on_b = *to[at(3 + k)][at(l)];
       for (int i = 0; i < 4; ++i) {
         const SurfaceColumn& column = columns[at(i)];
         on_b.column[i] += c[3 + k] * column.force + rows_b[k] * column.on_b + column.foot * slides_b[k];

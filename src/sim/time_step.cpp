@@ -1,6 +1,7 @@
 #include "knot_utm/sim/time_step.hpp"
 
 #include "diagnose_step.hpp"
+#include "half_rod.hpp"
 #include "increment.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
 #include "knot_utm/rod/bending.hpp"
@@ -104,21 +105,25 @@ class ImplicitStep final : public TimeStep {
                   equation_.rollers.contacts()),
         increment_(3, rod.nodes()) {
     for (const int edge : rod_.cuts) cut(edge);
+    if (settings_.half_turn) half_.emplace(*settings_.half_turn, rod_, state_, settings_);
   }
 
   StepSummary step(const Boundary& boundary, double dt, SolveStrategy strategy) override {
-    const StepStart start{state_, boundary, dt};
+    StepStart start{state_, boundary, dt};
     StepSummary summary;
     WorstResidual worst;
-    summary.newton = IncrementSolver<D>(equation_, start).solve(strategy, worst);
-    increment_.noalias() = equation_.x - state_.position;
-    const SolvedStep step{start, equation_.x, increment_, equation_.force, equation_.held.nodes()};
+    if (half_) summary.newton = solve_half(start, strategy, worst);
+    if (half_) summary.by_half = summary.newton.iterations;
+    if (!half_) summary.newton = IncrementSolver<D>(equation_, start).solve(strategy, worst);
+    Equation<D>& tried = half_ && !summary.newton.converged() ? half_->equation() : equation_;
+    increment_.noalias() = tried.x - state_.position;
+    const SolvedStep step{start, tried.x, increment_, tried.force, tried.held.nodes()};
     if (!summary.newton.converged()) {
       summary.reason = summary.newton.reason();
-      if (worst.node >= 0) summary.diagnosis = diagnose(rod_, step, worst.node, worst.residual, contacts());
+      if (worst.node >= 0) summary.diagnosis = diagnose(rod_, step, worst.node, worst.residual, contacts(tried));
       return summary;
     }
-    examine(rod_, settings_, step, contacts(), tunnelling_, summary);
+    examine(rod_, settings_, step, contacts(equation_), tunnelling_, summary);
     if (summary.accepted() && judge_) summary.reason = judge_(step.end, dt);
     if (summary.accepted())
       commit(step);
@@ -136,11 +141,15 @@ class ImplicitStep final : public TimeStep {
     archive.same("nodes", static_cast<int>(rod_.nodes()));
     TimeStep::state(archive);
     archive(equation_.strands.contacts(), equation_.rollers.contacts(), equation_.matrix, readings_);
+    if (!archive.optional_section("HALF", half_.has_value())) return half_.reset();
+    archive.require(half_.has_value(), "half of the rod", "one of a rod that has none");
+    archive(*half_);
   }
 
  private:
   void take_lengths() override {
     equation_.for_each_term([](auto& term) { term.take_lengths(); });
+    if (half_) half_->take_lengths(rod_);
   }
 
   void cut(int edge) {
@@ -152,6 +161,7 @@ class ImplicitStep final : public TimeStep {
     account(step);
     equation_.for_each_term([&](auto& term) { term.commit(step); });
     equation_.matrix.commit();
+    if (half_) half_->commit(step);
     state_.velocity = step.increment / step.dt;
     equation_.frames.write(equation_.centreline.tensions(), state_);
     state_.position = step.end;
@@ -170,12 +180,30 @@ class ImplicitStep final : public TimeStep {
     const double scaling = equation_.norm.scaling(equation_.centreline.largest_tension_at(node), tolerance);
     const double residual =
         equation_.held.holds(node) ? 0.0 : to_vec3(step.force[static_cast<std::size_t>(node)]).norm() / scaling;
-    return diagnose(rod_, step, node, residual, contacts());
+    return diagnose(rod_, step, node, residual, contacts(equation_));
   }
 
-  ContactLists contacts() const { return {equation_.strands.points(), equation_.rollers.points()}; }
+  static ContactLists contacts(const Equation<D>& of) { return {of.strands.points(), of.rollers.points()}; }
+
+  /// Solves the step on the half of the rod, and places the image of its solution. Where the whole rod is then not as
+  /// well solved, its state or something around it is not symmetric: from now on there is no half.
+  NewtonSummary solve_half(StepStart& start, SolveStrategy strategy, WorstResidual& worst) {
+    const StepStart of_half = half_->begin(start, equation_);
+    const NewtonSummary out = IncrementSolver<D>(half_->equation(), of_half).solve(strategy, worst);
+    if (!out.converged()) return out;
+    Increment<D> whole(equation_, start, false);
+    half_->place(equation_);
+    equation_.held.begin(start, equation_.x);
+    if (whole.residual() <= std::max(whole.tolerance(), kRounding * out.residual)) return out;
+    half_.reset();
+    start.middle_moves = start.middle_velocity = Vec3::Zero();
+    return out;
+  }
+
+  static constexpr double kRounding = 1.01;  // residual of both halves over that of one, at most
 
   Equation<D> equation_;
+  std::optional<HalfRod<D>> half_;  // while the rod is its own image under a half-turn
   TunnellingSearch tunnelling_;
   StepReadings readings_;
   Points increment_;  // of the step that is accepted or diagnosed [m]

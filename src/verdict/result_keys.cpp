@@ -489,6 +489,8 @@ constexpr ResultKey kKeys[] = {
      kNoReason},
     {"newton_iterations", "-", kComputation, "Iterations of Newton's method", counted<&R::newton_iterations>,
      kNoReason},
+    {"solved_by_half", "-", kComputation, "Share of these that solved one half of a symmetric rod",
+     read<&R::solved_by_half>, kNoReason},
     {"simulated_time", "s", kComputation, "Duration of the test", read<&R::simulated_time>, kNoReason},
     {"wall_time", "s", kComputation, "Duration of the computation", read<&F::wall_time>, kNoReason},
     {"real_time_factor", "-", kComputation, "Duration of the test over that of the computation", real_time_factor,

@@ -47,15 +47,16 @@ TEST(SampleFields, HaveARowForEveryMember) {
 TEST(SampleFields, StandInTheOrderOfTheJournal) {
   std::vector<std::string> names;
   visit_sample_fields([&](const auto& field) { names.emplace_back(field.name); });
-  EXPECT_THAT(names, ElementsAre("sequence", "time", "phase", "displacement", "extension", "end_to_end",
-                                 "knot_distance", "load", "balance_offset", "force_upper", "force_lower", "tail_force",
-                                 "excess_length", "tail_length", "max_penetration", "normal_force", "contacts",
-                                 "fastest_node", "stretching_energy", "bending_energy", "twisting_energy",
-                                 "contact_energy", "kinetic_energy", "grip_work", "dissipation", "friction_loss",
-                                 "plastic_loss", "numerical_dissipation", "reweighting_loss", "moment_imbalance",
-                                 "steps", "rejected_steps", "newton_iterations", "knot_type", "status", "message",
-                                 "highest_load", "lowest_load", "break_arclength", "break_place", "knots_force",
-                                 "knot_on_roller", "raw_extension", "turn", "torque", "knot_readings"));
+  EXPECT_THAT(
+      names,
+      ElementsAre("sequence", "time", "phase", "displacement", "extension", "end_to_end", "knot_distance", "load",
+                  "balance_offset", "force_upper", "force_lower", "tail_force", "excess_length", "tail_length",
+                  "max_penetration", "normal_force", "contacts", "fastest_node", "stretching_energy", "bending_energy",
+                  "twisting_energy", "contact_energy", "kinetic_energy", "grip_work", "dissipation", "friction_loss",
+                  "plastic_loss", "numerical_dissipation", "reweighting_loss", "moment_imbalance", "steps",
+                  "rejected_steps", "newton_iterations", "knot_type", "status", "message", "highest_load",
+                  "lowest_load", "break_arclength", "break_place", "knots_force", "knot_on_roller", "raw_extension",
+                  "turn", "torque", "knot_readings", "half_iterations"));
 }
 
 TEST(PerKnot, IsLoadedWithItsLength) {

@@ -158,6 +158,7 @@ struct Results {
   std::uint64_t steps = 0;
   std::uint64_t rejected_steps = 0;
   std::uint64_t newton_iterations = 0;
+  double solved_by_half = 0.0;  ///< share of these that solved one half of a symmetric rod [-]
   double simulated_time = 0.0;  ///< [s]
 };
 

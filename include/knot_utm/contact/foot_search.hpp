@@ -83,6 +83,7 @@ class FootSearch {
   /// is a minimum no longer; then the feet are of no use.
   bool follow();
   const std::vector<Foot>& feet() const { return feet_; }
+  std::vector<Foot>& feet() { return feet_; }
 
   const SegmentParabola& parabola(int segment) const { return parabola_[static_cast<std::size_t>(segment)]; }
 

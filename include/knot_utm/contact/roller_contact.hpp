@@ -65,6 +65,14 @@ class RollerContact {
   void soften(const Eigen::VectorXd& rest_length) { rest_length_ = &rest_length; }
   bool soft() const { return rest_length_ != nullptr; }
 
+  /// From now on only the first `nodes` of the rod touch, on what `whole` left of the last accepted step.
+  void halve(const RollerContact& whole, int nodes) {
+    nodes_ = nodes;
+    start_ = whole.start_;
+    committed_prediction_ = whole.committed_prediction_;
+    memory_ = whole.memory_;
+  }
+
   /// Begins a step from `start`, at whose end the rollers stand as `rollers` says: the predicted pressures are those of
   /// the last accepted step.
   void begin(const std::vector<Roller>& rollers, const Points& start);
@@ -133,6 +141,7 @@ class RollerContact {
   std::vector<Near> near_;  // of this step
   std::vector<int> cuts_;   // edges
   Eigen::VectorXd voronoi_;
+  int nodes_;  // those that touch
   std::vector<Roller> start_;
   std::vector<ContactPoint> contacts_;
   double couple_ = 0.0;                  // eta: fraction of friction's couple that a section transmits

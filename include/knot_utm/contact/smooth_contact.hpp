@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "knot_utm/contact/candidates.hpp"
@@ -9,6 +10,7 @@
 #include "knot_utm/contact/foot_search.hpp"
 #include "knot_utm/contact/soft_section.hpp"
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/half_turn.hpp"
 
 namespace knot_utm {
 
@@ -60,7 +62,13 @@ class SmoothContact {
   bool soft() const { return rest_length_ != nullptr; }
 
   /// From now on the rod is cut at this edge, too.
-  void part(int edge) { candidates_.part(edge); }
+  void part(int edge) { candidates_->part(edge); }
+
+  /// From now on only points of integration on the half are evaluated (HalfTurn), on what `whole` left of the last
+  /// accepted step.
+  void halve(const SmoothContact& whole);
+  /// Goes on with the step that `half` has solved: what its feet carry, and their images.
+  void mirror(const SmoothContact& half, const HalfTurn& image);
 
   /// Begins a step from `start`: the search for candidates is repeated where a node has moved far enough, and the
   /// predicted pressures are those of the last accepted step.
@@ -139,11 +147,12 @@ class SmoothContact {
   void find_feet(const Points& position, const std::vector<int>& segments);
   /// False where a foot is lost (FootSearch::follow).
   bool follow_feet(const Points& position, const std::vector<int>& segments);
+  void mirror_feet(const SmoothContact& half, const HalfTurn& image);
   /// Whether no node has moved far since the last search.
   bool near_last_search() const;
 
   /// The segment of an integration point, which goes by its number in search_.
-  int segment_of(int point) const { return candidates_.segments()[static_cast<std::size_t>(point / 2)]; }
+  int segment_of(int point) const { return candidates_->segments()[static_cast<std::size_t>(point / 2)]; }
   std::size_t row_of(int point) const { return static_cast<std::size_t>(2 * segment_of(point) + point % 2); }
 
   /// Tracks this foot and the others of its point, except those too near along the rod. Returns the first foot of the
@@ -191,7 +200,8 @@ class SmoothContact {
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
   Eigen::VectorXd fraction_;  // fraction of the second difference by which a segment stands outwards; at first empty
-  Candidates candidates_;
+  std::size_t own_rows_;      // points of integration that are evaluated: rows before this one
+  std::shared_ptr<Candidates> candidates_;  // the half's are those of the whole rod
   FootSearch search_;
   std::vector<Tracked> tracked_;
   std::vector<ContactPoint> contacts_;
@@ -208,6 +218,7 @@ class SmoothContact {
   std::vector<Lanes> searched_;  // the same at the last search; empty before the first one
   double catch_up_time_;
   double catch_up_ = 1.0;  // fraction by which omega and o relax in this step
+  bool has_feet_ = false;  // those of the next evaluation are known
   bool first_evaluation_ = true;
   bool first_step_ = true;  // none was accepted yet
 };

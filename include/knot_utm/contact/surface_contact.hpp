@@ -17,6 +17,9 @@ struct SectionTurns {
   std::vector<double> length;  ///< |e| of every edge [m]
   std::vector<Lanes> tangent;  ///< t of every edge
   std::vector<Lanes> pull;     ///< lean - psi t/|e| of every edge [1/m]
+
+  SectionTurns() = default;
+  explicit SectionTurns(std::size_t edges) : turn(edges), length(edges), tangent(edges), pull(edges) {}
 };
 
 /// The part of a contact beyond its ContactPoint where friction acts at the surfaces of the strands.

@@ -126,8 +126,8 @@ class Grips {
   std::vector<Roller> rollers_;       // lower, upper
   Supports supports_;
   std::vector<NodeForce> weights_;
-  double hung_ = 0.0;                     // fraction of the weights in the last accepted step
-  std::optional<SpringHold> far_middle_;  // keeps the loop from turning on the rollers; relative to half-way
+  double hung_ = 0.0;                   // fraction of the weights in the last accepted step
+  std::vector<SpringHold> far_middle_;  // keep the loop from turning on the rollers; relative to half-way
   bool holds_far_side_ = false;
 };
 

@@ -70,6 +70,7 @@ struct Sample {
   double turn = 0.0;
   double torque = kNone;
   PerKnot knot_readings;
+  std::uint64_t half_iterations = 0;
 
   void state(Archive& archive);
 };

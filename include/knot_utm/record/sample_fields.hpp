@@ -97,7 +97,9 @@ inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(torque, "N m",
                    "of the upper clamp on the rod in this sense; NaN: the rod has no twist, or not one strand is held"),
     KNOT_UTM_FIELD(knot_readings, "m",
-                   "of an answer: what the knot's file reads of it, in its order; NaN: there is no such loop"));
+                   "of an answer: what the knot's file reads of it, in its order; NaN: there is no such loop"),
+    KNOT_UTM_FIELD(half_iterations, "-",
+                   "those iterations of Newton's method that solved one half of a symmetric rod"));
 
 #undef KNOT_UTM_FIELD
 

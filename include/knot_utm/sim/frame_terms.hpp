@@ -7,6 +7,7 @@
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/half_turn.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/sim/force_term.hpp"
@@ -66,8 +67,8 @@ class FrameTerms : public ForceTerm {
     Vec3 lean;    ///< dtheta = ds - lean . de [1/m]
   };
 
-  /// `rod` must outlive this.
-  FrameTerms(const RodProperties& rod, const StepSettings& settings);
+  /// `rod` must outlive this. Of the half of a rod which is its own `image`, turns() are those of all edges.
+  FrameTerms(const RodProperties& rod, const StepSettings& settings, const HalfTurn* image = nullptr);
 
   /// From now on the rod is cut at this edge, too: at its ends nothing twists or bends.
   void part(int edge);
@@ -78,6 +79,9 @@ class FrameTerms : public ForceTerm {
   /// Begins a step, whose state must have frames. Held angles begin at their prescribed values, all others at a
   /// prediction from their rates.
   void begin(const StepStart& start, bool predicts);
+
+  /// The angles of a half of the rod, and of its images.
+  void mirror(const FrameTerms& half, const HalfTurn& image);
 
   /// Adds forces [N] (lanes 0 to 2 of every node) and torques [N m] (lane 3: of the edge behind the node) at trial
   /// positions. A stiffness that is read afterwards belongs to these positions.
@@ -145,6 +149,7 @@ class FrameTerms : public ForceTerm {
   void add_elastic_forces(std::vector<Lanes>& force);
   int nodes_of(std::size_t group) const;  // how many of the four there are
   void set_turn(std::size_t edge, double turned);
+  void turn_images();
 
   /// Stiffnesses of inner node i are zero where it ends a cut edge.
   TwistingInput twisting_input(int i) const;
@@ -159,6 +164,7 @@ class FrameTerms : public ForceTerm {
   bool curved_ = false;      // at rest, as the step begins
   std::vector<int> cuts_;    // edges
   bool rolls_;               // turns_ are asked for
+  const HalfTurn* image_;
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N

@@ -10,6 +10,7 @@ namespace knot_utm {
 
 enum class TwistMode { kAuto, kOn, kOff };
 enum class FrictionAt { kSurface, kCentreline };
+enum class Symmetry { kAuto, kOff };
 enum class Accuracy { kDraft, kNormal, kFine };
 /// What the friction between ropes of two materials is of their coefficients: the smaller one, the mean, the product
 /// (as in Bullet), or its root, the geometric mean (as in Jolt and Box2D).
@@ -24,7 +25,8 @@ struct PhysicsOptions {
   PairRule pair_rule = PairRule::kSmaller;            ///< friction.pair: smaller | mean | product | root_of_product
   std::optional<double> pair_friction;                ///< friction.pair as a number, which goes before the rule [-]
   TwistMode twist = TwistMode::kAuto;                 ///< twist: auto (where the scene can twist) | on | off
-  Accuracy accuracy = Accuracy::kNormal;              ///< accuracy: draft | normal | fine
+  Symmetry symmetry = Symmetry::kAuto;    ///< symmetry: auto (one half is solved where it stands for both) | off
+  Accuracy accuracy = Accuracy::kNormal;  ///< accuracy: draft | normal | fine
   std::optional<double> drag;  ///< viscous drag per length of rod [N s/m^2]; unset: what brings it to rest (scales.hpp)
   std::optional<double> inertia;            ///< mass that is accelerated, over the rod's own [-]; unset: see scales.hpp
   std::optional<double> contact_tolerance;  ///< contact.tolerance delta [fraction of radius]

@@ -5,6 +5,7 @@
 
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/half_turn.hpp"
 #include "knot_utm/sim/options.hpp"
 
 namespace knot_utm {
@@ -93,6 +94,9 @@ struct StepSettings {
   double overlap_limit = 0.0;               ///< deepest overlap of a step that may be accepted [m]
   double candidate_margin = 0.0;            ///< of the contact search [m]
   int max_iterations = 20;
+  /// The half-turn that maps the rod onto itself as it begins. As long as it does, one half is solved at half the cost
+  /// (half_rod.hpp). Empty: the whole rod is solved.
+  std::optional<HalfTurn> half_turn;
 };
 
 }  // namespace knot_utm

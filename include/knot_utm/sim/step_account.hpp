@@ -17,6 +17,10 @@ struct StepStart {
   const RodState& state;     ///< x_n, v_n and the frames
   const Boundary& boundary;  ///< as it stands at the end of the step
   double dt;                 ///< [s]
+  /// Where half of a rod is solved, inertia and drag are those relative to the middle between the grips: how far it
+  /// moves in this step, and its velocity in the last one. Else zero.
+  Vec3 middle_moves = Vec3::Zero();     ///< [m]
+  Vec3 middle_velocity = Vec3::Zero();  ///< [m/s]
 };
 
 /// A step whose equations are solved, before the state is advanced.

@@ -27,7 +27,7 @@ class StepControl {
     int hard_iterations = 10;                               ///< from here on it is shorter
   };
   struct Counters {
-    std::uint64_t steps = 0, rejected = 0, iterations = 0;
+    std::uint64_t steps = 0, rejected = 0, iterations = 0, by_half = 0;
   };
 
   explicit StepControl(const Options& options) : options_(options), next_(options.first) {}
@@ -50,12 +50,16 @@ class StepControl {
   const Counters& counters() const { return counters_; }
 
   void state(Archive& archive) {
-    archive(next_, counters_.steps, counters_.rejected, counters_.iterations, watched_from_.time,
+    archive(next_, counters_.steps, counters_.rejected, counters_.iterations, counters_.by_half, watched_from_.time,
             watched_from_.iterations);
   }
 
  private:
   StepSummary step(TimeStep& stepper, const Boundary& boundary, double dt, bool in_need);
+  void count(const StepSummary& summary) {
+    counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
+    counters_.by_half += static_cast<std::uint64_t>(summary.by_half);
+  }
   double next_after(double dt, const StepSummary& summary) const;
   std::string no_headway(double time);
 

@@ -8,6 +8,7 @@
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/half_turn.hpp"
 #include "knot_utm/solver/block_matrix.hpp"
 
 namespace knot_utm {
@@ -32,7 +33,11 @@ class StepMatrix {
   /// Stored indices of blocks (a0 + k, b0 + l) and their mirrors (b0 + l, a0 + k), as [3 k + l].
   using ContactBlocks = std::array<std::pair<int, int>, 9>;
 
-  explicit StepMatrix(int nodes) : nodes_(nodes) { build(); }
+  /// Of a whole rod, or of the half of one that is its own `image` (HalfRod).
+  explicit StepMatrix(int nodes, const HalfTurn* image = nullptr) : nodes_(nodes), image_(image) {
+    clear_rooms();
+    build();
+  }
 
   /// Begins a step: the pattern is that of the last accepted one.
   void begin();
@@ -53,6 +58,9 @@ class StepMatrix {
 
   /// Zeros all blocks except those of the stencils, which CentrelineTerms::add_stiffness overwrites.
   void set_zero_beyond_band();
+
+  /// Of half a rod: the nodes behind the half move as the images that they are.
+  void tie(std::vector<Lanes>& right);
 
   BlockMatrix<D>& values() { return matrix_; }
   Block<D>& block(int stored_index) { return matrix_.block(stored_index); }
@@ -101,12 +109,32 @@ class StepMatrix {
     }
   };
 
+  /// Blocks (k, l) of a contact's nodes a0..a0+2 and b0..b0+2.
+  using Places = std::array<std::array<Block<D>*, 6>, 6>;
+
+  void clear_rooms();
+  /// Whether strand b lies on the other half. Its image then stands for it, whose nodes run the other way.
+  bool mirrored(const ContactPoint& contact) const { return image_ && contact.b0 + 1 >= image_->half(); }
+  int b_of(const ContactPoint& contact) const {
+    return mirrored(contact) ? image_->nodes - 3 - contact.b0 : contact.b0;
+  }
+  /// Whether its stiffness is gathered first and then folded onto the half: one with the other half, or near the
+  /// middle.
+  bool is_gathered(const ContactPoint& contact) const {
+    return image_ && !contact.on_roller() && std::max(contact.a0, contact.b0) + 2 >= image_->nodes - image_->half();
+  }
+  Places stored(const ContactPoint& contact, std::size_t n);
+  Places places(const ContactPoint& contact, std::size_t n);  ///< where to add its stiffness
+  void fold(const ContactPoint& contact, std::size_t n);
+  void turn_columns(Block<D>* row) const;
+
   /// Adds the change of a spin's lever with the length of its edge.
-  void add_lengthening(int first, const double* weights, double torque, const SectionTurns& turns);
+  void add_lengthening(const Places& to, int strand, int first, const double* weights, double torque,
+                       const SectionTurns& turns);
   /// `kStrands`: between strands, where a foot slides as the contact moves; else on a roller.
   template <bool kStrands>
   void add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
-                   const SectionTurns& turns, std::size_t n);
+                   const SectionTurns& turns, const Places& to);
   bool find(const std::vector<ContactPoint>& contacts);
   bool look_up(Located& contact) const;
   void find_rooms(const std::vector<ContactPoint>& contacts);
@@ -115,12 +143,14 @@ class StepMatrix {
   void find_stencils();  // and the blocks beyond the band
 
   int nodes_;
+  const HalfTurn* image_;
   Pattern present_, accepted_;  // accepted_: of the last accepted step, where the pattern was rebuilt since
   BlockMatrix<D> matrix_;
   std::vector<Located> before_;  // what Pattern::located was at the last look
   SortedRooms by_a_, by_first_;
   SortingSet row_;
   Neighbours neighbours_;
+  std::array<Block<D>, 36> gathered_;
   bool rebuilt_ = false;  // since the last accepted step
 };
 

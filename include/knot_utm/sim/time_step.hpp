@@ -39,6 +39,7 @@ enum class SolveStrategy { kTangents, kTangentsAbandonedEarly, kSecants };
 /// How one time step went.
 struct StepSummary {
   NewtonSummary newton;
+  int by_half = 0;  ///< iterations that solved one half of a rod that is symmetric (StepSettings::half_turn)
   double largest_motion = 0.0;   ///< of a node [m]
   double largest_slip = 0.0;     ///< of the two points of a contact, touching or nearly, against each other [m]
   double largest_overlap = 0.0;  ///< of two strands, or of strand and roller [m]

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/half_turn.hpp"
 
 namespace knot_utm {
 
@@ -80,6 +82,9 @@ struct Centreline {
   std::vector<std::vector<PulledEnd>> pull_groups;  ///< ends that are pulled together to tie the knot, in order
   std::vector<HungWeight> weights;
   std::vector<KnotReading> readings;  ///< of a knot from a file, in the order of the file
+
+  /// That maps it onto itself, if one half of it may be solved for both (StepSettings::half_turn).
+  std::optional<HalfTurn> half_turn;
 
   double length() const;                     ///< [m]
   int nearest_node(double arclength) const;  ///< to an arclength [m]
