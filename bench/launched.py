@@ -177,7 +177,7 @@ class Headless:
 
     def __init__(self, method, *overrides):
         self.folder = tempfile.mkdtemp(prefix='knot_utm_')
-        command = [TOOL, method, '--quiet', '--out', self.folder]
+        command = [TOOL, method, '--quiet', '--bag', '--out', self.folder]
         for override in overrides:
             command += ['--set', override]
         subprocess.run(command, check=True)

@@ -226,8 +226,6 @@ class RowReader {
   bool filled_ = true, at_end_ = false;
 };
 
-std::string shapes_file(const std::string& folder) { return (fs::path(folder) / "shapes.bin").string(); }
-
 }  // namespace
 
 void RodReadings::state(Archive& archive) {
@@ -266,6 +264,7 @@ void CellReadings::end(const Take& take) {
 }
 
 std::string samples_file(const std::string& folder) { return (fs::path(folder) / "samples.csv").string(); }
+std::string shapes_file(const std::string& folder) { return (fs::path(folder) / "shapes.bin").string(); }
 
 void SamplesReader::Shape::state(Archive& archive) {
   archive(sequence);
@@ -368,22 +367,23 @@ void SamplesWriter::File::cut(std::uint64_t bytes) {
   size = bytes;
 }
 
-SamplesWriter::SamplesWriter(const std::string& folder)
-    : rows_(samples_file(folder), "abxe"), shapes_(shapes_file(folder), "abxe") {
+SamplesWriter::SamplesWriter(const std::string& folder, bool shapes) : rows_(samples_file(folder), "abxe") {
+  if (shapes) shapes_.emplace(shapes_file(folder), "abxe");
   rows_.append(head());
 }
 
 void SamplesWriter::append(const SamplesReader::Shape& shape) {
+  if (!shapes_ || shape.points.cols() == 0) return;
   buffer_.assign(sizeof(std::uint64_t), '\0');
   Archive::to(buffer_).save(shape);
   const std::uint64_t length = htole64(buffer_.size() - sizeof(length));
   std::memcpy(buffer_.data(), &length, sizeof(length));
-  shapes_.append(buffer_);
+  shapes_->append(buffer_);
 }
 
 void SamplesWriter::append(const Record& record) {
   // Before its row: a row that is there has its shape.
-  if (record.shape.cols() > 0) append({record.command.sequence, record.shape, record.tension, record.readings});
+  append({record.command.sequence, record.shape, record.tension, record.readings});
   buffer_.clear();
   for (const Sample& step : record.steps) append_row({RowKind::kStep, 0.0, {}, step, {}}, buffer_);
   append_row({RowKind::kAnswer, record.wall_time, record.command, record.answer, {}}, buffer_);
@@ -392,7 +392,7 @@ void SamplesWriter::append(const Record& record) {
 }
 
 void SamplesWriter::end(const TestEnd& end, const Points& final_shape) {
-  if (final_shape.cols() > 0) append({SamplesReader::kFinal, final_shape, {}, {}});
+  append({SamplesReader::kFinal, final_shape, {}, {}});
   buffer_.clear();
   append_row({RowKind::kEnd, 0.0, {}, last_, end}, buffer_);
   rows_.append(buffer_);
