@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class RowKind { kStep, kAnswer, kEnd };
+enum class RowKind { kStep, kAnswer, kAnsweredStep, kEnd };
 
 /// All that a row can have.
 struct Row {
@@ -39,7 +39,9 @@ struct Row {
 constexpr RowKind last_of(RowKind) { return RowKind::kEnd; }
 constexpr EndedBy last_of(EndedBy) { return EndedBy::kPlateau; }
 
-const char* name_of(RowKind kind) { return std::array{"step", "answer", "end"}[static_cast<std::size_t>(kind)]; }
+const char* name_of(RowKind kind) {
+  return std::array{"step", "answer", "answered step", "end"}[static_cast<std::size_t>(kind)];
+}
 const char* name_of(EndedBy end) { return ended_by_name(end); }
 const char* name_of(Phase phase) { return phase_name(phase); }
 const char* name_of(BreakPlace place) { return break_place_name(place); }
@@ -53,7 +55,7 @@ const char* name_of(BenchStatus status) {
 template <class Visitor>
 void visit_row(Row& row, Visitor& visit) {
   visit("row", "-", row.kind);
-  visit.fill(row.kind == RowKind::kAnswer);
+  visit.fill(row.kind == RowKind::kAnswer || row.kind == RowKind::kAnsweredStep);
   Command& command = row.command;
   visit("wall_time", "s", row.wall_time);
   visit("command_sequence", "-", command.sequence);
@@ -330,6 +332,7 @@ bool SamplesReader::next(Record& record) {
     }
     record.wall_time = row.wall_time;
     record.command = row.command;
+    if (row.kind == RowKind::kAnsweredStep) record.steps.push_back(row.sample);
     record.answer = std::move(row.sample);
     const bool shape = take_shape(record.command.sequence);
     record.shape = shape ? shape_.points : Points();
@@ -385,8 +388,17 @@ void SamplesWriter::append(const Record& record) {
   // Before its row: a row that is there has its shape.
   append({record.command.sequence, record.shape, record.tension, record.readings});
   buffer_.clear();
-  for (const Sample& step : record.steps) append_row({RowKind::kStep, 0.0, {}, step, {}}, buffer_);
-  append_row({RowKind::kAnswer, record.wall_time, record.command, record.answer, {}}, buffer_);
+  std::size_t last = 0;  // where the last step begins
+  for (const Sample& step : record.steps) {
+    last = buffer_.size();
+    append_row({RowKind::kStep, 0.0, {}, step, {}}, buffer_);
+  }
+  std::string answer;
+  append_row({RowKind::kStep, 0.0, {}, record.answer, {}}, answer);
+  const bool again = !record.steps.empty() && buffer_.compare(last, std::string::npos, answer) == 0;
+  if (again) buffer_.resize(last);
+  append_row({again ? RowKind::kAnsweredStep : RowKind::kAnswer, record.wall_time, record.command, record.answer, {}},
+             buffer_);
   rows_.append(buffer_);
   last_ = record.answer;
 }

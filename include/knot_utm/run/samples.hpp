@@ -71,9 +71,9 @@ struct TestEnd {
 /// The samples of a run, from which all its other files are made (run_writer.hpp):
 ///
 ///   samples.csv   row 1 has the names of the columns and row 2 their units. A row of the kind `step` is a time step, a
-///                 row `answer` is a command with its answer, and the row `end`, which repeats the last answer, says
-///                 how the test ended. A cell is empty where its row has no such value. Every number reads back to the
-///                 same bits.
+///                 row `answer` is a command with its answer, a row `answered step` is both, and the row `end`, which
+///                 repeats the last answer, says how the test ended. A cell is empty where its row has no such
+///                 value. Every number reads back to the same bits.
 ///   shapes.bin    the rod at each reading of the load cell, which fits no row, where a file is to be made of it: for
 ///                 each shape the length of what follows [8 bytes, little-endian], then the shape as a bare Archive
 ///                 saves it.
