@@ -23,7 +23,7 @@ def answers(run):
     if run.exit_code != 0:
         return []
     with open(os.path.join(run.folder, "samples.csv"), encoding="utf-8", newline="") as text:
-        return [row for row in csv.DictReader(text) if row["row"] == "answer"]
+        return [row for row in csv.DictReader(text) if row["row"].startswith("answer")]
 
 
 # ---- Capstan -----------------------------------------------------------------------------------------------------------

@@ -71,7 +71,7 @@ def reading_times(folder):
     except (OSError, ValueError):
         return []
     read, time_ = names.index('command_read_cell'), names.index('command_time')
-    return [float(row[time_]) for row in rows if row[0] == 'answer' and row[read] == '1']
+    return [float(row[time_]) for row in rows if row[0].startswith('answer') and row[read] == '1']
 
 
 class Launch:
@@ -177,7 +177,7 @@ class Headless:
 
     def __init__(self, method, *overrides):
         self.folder = tempfile.mkdtemp(prefix='knot_utm_')
-        command = [TOOL, method, '--quiet', '--out', self.folder]
+        command = [TOOL, method, '--quiet', '--bag', '--out', self.folder]
         for override in overrides:
             command += ['--set', override]
         subprocess.run(command, check=True)

@@ -123,7 +123,7 @@ if(catkin_FOUND)
   file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
   knot_utm_tests(ros_tests quick ${ros_test_sources})
   target_link_libraries(ros_tests PRIVATE knot_utm_ros)
-  add_dependencies(ros_tests write_curve_bag)
+  add_dependencies(ros_tests tensile_test write_curve_bag)
 
   # The whole system, launched as a user does it: with the scripts, which take what stands in build/.
   set(launched_tests)

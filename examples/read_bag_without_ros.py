@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Reading test.bag without ROS, by Python alone. Prints load over extension from the topic knot/state (msg/KnotState.msg).
-Run:  build/devel/lib/knot_utm/tensile_test tighten --out out/tighten
+Run:  build/devel/lib/knot_utm/tensile_test tighten --bag --out out/tighten
       python3 examples/read_bag_without_ros.py out/tighten/test.bag
-Test: build/devel/lib/knot_utm/tensile_test straight --set physics.accuracy=draft --quiet --out out/straight &&
+Test: build/devel/lib/knot_utm/tensile_test straight --set physics.accuracy=draft --quiet --bag --out out/straight &&
       python3 examples/read_bag_without_ros.py out/straight/test.bag
 Prints: time,phase,extension,load\\ns,-,m,N\\n(.*\\n)*.*,pull,0[.]00\\d+,[\\d.]+\\n"""
 import sys

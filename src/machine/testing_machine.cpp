@@ -481,6 +481,7 @@ TestingMachine& TestingMachine::operator=(TestingMachine&&) noexcept = default;
 
 Sample TestingMachine::respond(const Command& command) { return impl_->respond(command); }
 const std::vector<Sample>& TestingMachine::substeps() const { return impl_->substeps; }
+const Centreline& TestingMachine::drawn() const { return impl_->centreline; }
 const RodProperties& TestingMachine::rod() const { return impl_->stepper->rod(); }
 const RodState& TestingMachine::state() const { return impl_->stepper->state(); }
 Vec3 TestingMachine::lower_grip() const { return impl_->grips.lower(); }

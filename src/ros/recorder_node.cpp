@@ -9,7 +9,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -199,18 +198,13 @@ class RecorderNode {
     run.complete = true;
   }
 
-  void make_files(const std::string& bag_name, ResultsOptions options) {
+  void make_files(const std::string& bag_name, const ResultsOptions& options) {
     Run& run = *run_;
-    std::unique_ptr<RunBag> bag;
-    options.further = [&](const std::string& folder, const Method& method) {
-      bag = std::make_unique<RunBag>(folder + "/" + bag_name, method);
-      return FurtherWriter{[&](const Record& record) { bag->add(record); },
-                           [&](const TestEnd& end) { bag->close(end); }};
-    };
-    const MadeResults made = make_results(run.folder.path(), run.method, options);
+    const std::string folder = run.folder.path();
+    run.bag_messages = write_run_bag(folder + "/" + bag_name, folder, run.method);
+    const MadeResults made = make_results(folder, run.method, options);
     run.rows = made.rows;
     run.full_rows = made.full_rows;
-    run.bag_messages = bag->messages();
   }
 
   void fail(const std::string& why) {

@@ -139,4 +139,13 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   bag_.write(names::kMarkers, stamp, picture_.draw({record.shape, record.tension, {}, upper_grip, sample, stamp}));
 }
 
+std::uint64_t write_run_bag(const std::string& file, const std::string& folder, const Method& method) {
+  SamplesReader samples(folder);
+  RunBag bag(file, method);
+  Record record;
+  while (samples.next(record)) bag.add(record);
+  bag.close(samples.end().value_or(TestEnd()));
+  return bag.messages();
+}
+
 }  // namespace knot_utm

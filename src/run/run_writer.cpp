@@ -53,18 +53,14 @@ bool holds_its_knot(const Results& results) {
   return results.break_place == BreakPlace::kNone && results.knot_type == KnotType::kKept;
 }
 
-/// Mean mass per length of ropes of two materials over that of the first one.
-double mass_over_that_of_the_first(const Material& material, const Centreline& drawn) {
-  double first = 0.0, all = 0.0;
-  const std::vector<Piece> ropes = pieces_between(drawn.points.cols(), drawn.cuts);
-  for (const Piece& rope : ropes) {
-    const Points x = drawn.points.middleCols(rope.begin, rope.nodes());
-    const double length = length_of_pieces(x, {});
-    if (&rope == &ropes.front()) first = length;
-    all += length;
+/// Mass of all ropes [kg].
+double mass_of(const Material& first, const Centreline& drawn) {
+  double mass = 0.0;
+  for (const Piece& rope : pieces_between(drawn.points.cols(), drawn.cuts)) {
+    const RodMaterial& material = rope.begin > 0 && first.other ? *first.other : first;
+    mass += specimen_scales(material).mass * length_of_pieces(drawn.points.middleCols(rope.begin, rope.nodes()), {});
   }
-  const double heavier = specimen_scales(*material.other).mass / specimen_scales(material).mass;
-  return (first + heavier * (all - first)) / all;
+  return mass;
 }
 
 SpecimenFacts facts_of(const Method& method, const Centreline& drawn) {
@@ -143,11 +139,6 @@ void ShapeSeries::write(const Shape& shape, std::string& text) const {
   }
 }
 
-RunWriter::RunWriter(const std::string& folder, const Method& method, const MakeFurther& further)
-    : RunWriter(folder, method, specimen_centreline(method.specimen, method.material, method.machine, method.physics)) {
-  if (further) further_ = further(folder, method);
-}
-
 RunWriter::RunWriter(const std::string& folder, const Method& method, const Centreline& drawn)
     : folder_(folder),
       cuts_(drawn.cuts),
@@ -157,22 +148,15 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, const Cent
   static_cast<SpecimenFacts&>(known_) = facts_of(method, drawn);
   known_.warnings = speed_warnings(method);
   known_.version = version();
+  known_.weight = method.physics.gravity.norm() * mass_of(method.material, drawn);
   hung_ = hung_weight(method.specimen, method.material);
-  weight_per_length_ =
-      method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
-  if (method.material.other) weight_per_length_ *= mass_over_that_of_the_first(method.material, drawn);
   if (rollers_hold(method.specimen, method.machine)) radius_on_rollers_ = method.material.radius;
   far_side_held_ = method.machine.far_side == FarSide::kHeld;
 }
 
 void RunWriter::add(const Record& record) {
-  add_to_files(record);
-  if (further_.add) further_.add(record);
-  wall_time_ = record.wall_time;
-}
-
-void RunWriter::add_to_files(const Record& record) {
   const Sample& sample = record.answer;
+  wall_time_ = record.wall_time;
   for (const Sample& step : record.steps) {
     // A bench that has failed answers with the last good step again.
     if (!samples_.empty() && step.time <= samples_.back().time) continue;
@@ -185,7 +169,6 @@ void RunWriter::add_to_files(const Record& record) {
   const bool mounted = sample.phase != Phase::kIdle && !forms(sample.phase);
   const bool whole = sample.status != BenchStatus::kBroken;
   if (mounted && record.shape.cols() > 0 && whole) turn_.add(record.shape);
-  if (record.shape.cols() > 1 && whole) length_ = length_of_pieces(record.shape, cuts_);
   shapes_.add(record);
   cell_readings_.add(record, [this](const Sample& reading) { add_reading(reading); });
   if (samples_.empty() || sample.time > samples_.back().time) {
@@ -220,7 +203,6 @@ std::vector<std::string> RunWriter::warnings_of_turn(double weight) const {
 }
 
 MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, const ResultsOptions& options) {
-  if (further_.close) further_.close(end);
   cell_readings_.end([this](const Sample& reading) { add_reading(reading); });
   const Results results = analyse(samples_, readings_, end.ended_by, radius_on_rollers_.has_value(), hung_,
                                   known_.knot_distance, program_steps_);
@@ -228,7 +210,6 @@ MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, con
   facts.reason = end.reason;
   facts.wall_time = wall_time_;
   facts.peak_memory = options.ran_here ? peak_memory() : 0;
-  facts.weight = weight_per_length_ * length_;
   facts.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
   if (facts.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
     facts.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
@@ -249,7 +230,8 @@ MadeResults RunWriter::finish(const TestEnd& end, const Points& final_shape, con
 
 MadeResults make_results(const std::string& folder, const Method& method, const ResultsOptions& options) {
   SamplesReader samples(folder);
-  RunWriter writer(folder, method, options.further);
+  RunWriter writer(folder, method,
+                   specimen_centreline(method.specimen, method.material, method.machine, method.physics));
   Record record;
   while (samples.next(record)) writer.add(record);
   ResultsOptions more = options;

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class RowKind { kStep, kAnswer, kEnd };
+enum class RowKind { kStep, kAnswer, kAnsweredStep, kEnd };
 
 /// All that a row can have.
 struct Row {
@@ -39,7 +39,9 @@ struct Row {
 constexpr RowKind last_of(RowKind) { return RowKind::kEnd; }
 constexpr EndedBy last_of(EndedBy) { return EndedBy::kPlateau; }
 
-const char* name_of(RowKind kind) { return std::array{"step", "answer", "end"}[static_cast<std::size_t>(kind)]; }
+const char* name_of(RowKind kind) {
+  return std::array{"step", "answer", "answered step", "end"}[static_cast<std::size_t>(kind)];
+}
 const char* name_of(EndedBy end) { return ended_by_name(end); }
 const char* name_of(Phase phase) { return phase_name(phase); }
 const char* name_of(BreakPlace place) { return break_place_name(place); }
@@ -53,7 +55,7 @@ const char* name_of(BenchStatus status) {
 template <class Visitor>
 void visit_row(Row& row, Visitor& visit) {
   visit("row", "-", row.kind);
-  visit.fill(row.kind == RowKind::kAnswer);
+  visit.fill(row.kind == RowKind::kAnswer || row.kind == RowKind::kAnsweredStep);
   Command& command = row.command;
   visit("wall_time", "s", row.wall_time);
   visit("command_sequence", "-", command.sequence);
@@ -226,8 +228,6 @@ class RowReader {
   bool filled_ = true, at_end_ = false;
 };
 
-std::string shapes_file(const std::string& folder) { return (fs::path(folder) / "shapes.bin").string(); }
-
 }  // namespace
 
 void RodReadings::state(Archive& archive) {
@@ -266,6 +266,7 @@ void CellReadings::end(const Take& take) {
 }
 
 std::string samples_file(const std::string& folder) { return (fs::path(folder) / "samples.csv").string(); }
+std::string shapes_file(const std::string& folder) { return (fs::path(folder) / "shapes.bin").string(); }
 
 void SamplesReader::Shape::state(Archive& archive) {
   archive(sequence);
@@ -331,6 +332,7 @@ bool SamplesReader::next(Record& record) {
     }
     record.wall_time = row.wall_time;
     record.command = row.command;
+    if (row.kind == RowKind::kAnsweredStep) record.steps.push_back(row.sample);
     record.answer = std::move(row.sample);
     const bool shape = take_shape(record.command.sequence);
     record.shape = shape ? shape_.points : Points();
@@ -368,31 +370,41 @@ void SamplesWriter::File::cut(std::uint64_t bytes) {
   size = bytes;
 }
 
-SamplesWriter::SamplesWriter(const std::string& folder)
-    : rows_(samples_file(folder), "abxe"), shapes_(shapes_file(folder), "abxe") {
+SamplesWriter::SamplesWriter(const std::string& folder, bool shapes) : rows_(samples_file(folder), "abxe") {
+  if (shapes) shapes_.emplace(shapes_file(folder), "abxe");
   rows_.append(head());
 }
 
 void SamplesWriter::append(const SamplesReader::Shape& shape) {
+  if (!shapes_ || shape.points.cols() == 0) return;
   buffer_.assign(sizeof(std::uint64_t), '\0');
   Archive::to(buffer_).save(shape);
   const std::uint64_t length = htole64(buffer_.size() - sizeof(length));
   std::memcpy(buffer_.data(), &length, sizeof(length));
-  shapes_.append(buffer_);
+  shapes_->append(buffer_);
 }
 
 void SamplesWriter::append(const Record& record) {
   // Before its row: a row that is there has its shape.
-  if (record.shape.cols() > 0) append({record.command.sequence, record.shape, record.tension, record.readings});
+  append({record.command.sequence, record.shape, record.tension, record.readings});
   buffer_.clear();
-  for (const Sample& step : record.steps) append_row({RowKind::kStep, 0.0, {}, step, {}}, buffer_);
-  append_row({RowKind::kAnswer, record.wall_time, record.command, record.answer, {}}, buffer_);
+  std::size_t last = 0;  // where the last step begins
+  for (const Sample& step : record.steps) {
+    last = buffer_.size();
+    append_row({RowKind::kStep, 0.0, {}, step, {}}, buffer_);
+  }
+  std::string answer;
+  append_row({RowKind::kStep, 0.0, {}, record.answer, {}}, answer);
+  const bool again = !record.steps.empty() && buffer_.compare(last, std::string::npos, answer) == 0;
+  if (again) buffer_.resize(last);
+  append_row({again ? RowKind::kAnsweredStep : RowKind::kAnswer, record.wall_time, record.command, record.answer, {}},
+             buffer_);
   rows_.append(buffer_);
   last_ = record.answer;
 }
 
 void SamplesWriter::end(const TestEnd& end, const Points& final_shape) {
-  if (final_shape.cols() > 0) append({SamplesReader::kFinal, final_shape, {}, {}});
+  append({SamplesReader::kFinal, final_shape, {}, {}});
   buffer_.clear();
   append_row({RowKind::kEnd, 0.0, {}, last_, end}, buffer_);
   rows_.append(buffer_);

@@ -34,10 +34,10 @@ double shorter_where_tied_hard(const SpecimenOptions& specimen, const Material& 
   return std::clamp(std::pow(preload_group(specimen, material) / kTiedHard, 0.25), 1.0, kShortestForHard);
 }
 
-/// A knot of a solid rod that is sketched open, between clamps.
+/// A solid rod between clamps whose knot, or whatever shape a file gives it, is open.
 bool is_open(const SpecimenOptions& specimen, const Material& material) {
   const KnotDescription& knot = knot_of(specimen).about();
-  return knot.knots > 0 && !knot.loop && is_solid(material);
+  return knot.may_hold_a_knot() && !knot.tied_by_ends && !knot.loop && is_solid(material);
 }
 
 /// How a specimen takes a load, as far as its tolerances depend on it.

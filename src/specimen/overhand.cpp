@@ -95,22 +95,15 @@ struct Try {
   double loop_radius, excess;
 };
 
-/// The rod's length grows smoothly with the loop's radius: false position with a bracket (Illinois).
-double loop_of_right_length(const OverhandShape& shape, Try low, Try high, double spacing) {
-  double loop_radius = high.loop_radius;
-  for (int i = 0; i < 60 && high.excess > low.excess; ++i) {
-    loop_radius = (low.loop_radius * high.excess - high.loop_radius * low.excess) / (high.excess - low.excess);
-    const double excess = rod_length(shape, loop_radius, spacing) - shape.length;
-    if (std::abs(excess) < 1e-3 * spacing) break;
-    if (excess > 0.0) {
-      high = {loop_radius, excess};
-      low.excess *= 0.5;
-    } else {
-      low = {loop_radius, excess};
-      high.excess *= 0.5;
-    }
+/// The rod's length grows smoothly with the loop's radius: secants.
+double loop_of_right_length(const OverhandShape& shape, Try before, Try now, double spacing) {
+  for (int i = 0; i < 60 && std::abs(now.excess) > 1e-3 * spacing; ++i) {
+    const double loop_radius =
+        (before.loop_radius * now.excess - now.loop_radius * before.excess) / (now.excess - before.excess);
+    before = now;
+    now = {loop_radius, rod_length(shape, loop_radius, spacing) - shape.length};
   }
-  return loop_radius;
+  return now.loop_radius;
 }
 
 constexpr double kSmallestLoop = 2.5;  // its radius, in radii of the rod

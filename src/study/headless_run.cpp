@@ -118,8 +118,8 @@ void tell_warnings(const MadeResults& made, const HeadlessOptions& options) {
 
 HeadlessOutcome run_to_end(const Test& test) {
   const HeadlessOptions& options = test.options;
-  SamplesWriter samples(test.folder);
-  RunWriter files(test.folder, test.method, options.readings == Readings::kAll ? options.further : nullptr);
+  SamplesWriter samples(test.folder, options.keep_shapes || options.writes_shapes());
+  RunWriter files(test.folder, test.method, test.bench.drawn());
   EarlyEnd early(test.method, options.readings);
   const auto keep = [&](const Record& record) {
     samples.append(record);
@@ -322,9 +322,12 @@ HeadlessOutcome results_from_samples(const HeadlessOptions& options) {
   const ClaimedFolder claimed(folder);
   const Method method = load_method((fs::path(folder) / "method.yaml").string());
   ResultsOptions more;
-  if (options.readings == Readings::kAll) more.further = options.further;
   more.ran_here = false;
   more.without_end.reason = "the test was cut off";
+  if (!fs::exists(shapes_file(folder)))
+    more.warnings.emplace_back(
+        "there is no shapes.bin, which a test with --bag, --shapes or --report leaves: nothing was read from the rod's "
+        "shape");
   const MadeResults made = make_results(folder, method, more);
   tell_warnings(made, options);
   return {folder, std::nullopt, "", false, made.results, 0.0};

@@ -3,8 +3,8 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -23,9 +23,6 @@
 #include "knot_utm/verdict/result_keys.hpp"
 #include "knot_utm/verdict/run_warnings.hpp"
 #include "knot_utm/words/invalid_input.hpp"
-#ifdef KNOT_UTM_HAS_ROS
-#include "knot_utm/ros/run_bag.hpp"
-#endif
 #include "run_python.hpp"
 #include "tool.hpp"
 
@@ -82,6 +79,7 @@ struct Arguments {
   bool quiet = false;
   bool report = false;
   bool shapes = false;
+  bool bag = false;
   bool no_cache = false;
   bool check = false;      // no test
   bool list_keys = false;  // no test
@@ -89,17 +87,11 @@ struct Arguments {
   std::string command;     // the whole line
 };
 
-/// What makes the writer of the bag; nothing without ROS.
-decltype(HeadlessOptions::further) further() {
 #ifdef KNOT_UTM_HAS_ROS
-  return [](const std::string& folder, const Method& method) -> FurtherWriter {
-    const auto bag = std::make_shared<RunBag>(folder + "/test.bag", method);
-    return {[bag](const Record& record) { bag->add(record); }, [bag](const TestEnd& end) { bag->close(end); }};
-  };
+constexpr bool kHasBags = true;
 #else
-  return nullptr;
+constexpr bool kHasBags = false;
 #endif
-}
 
 std::string folder_of(const Arguments& arguments, const Method& method) {
   return arguments.out.empty() ? "out/" + method.name : arguments.out;
@@ -163,11 +155,19 @@ HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
   ProgressLine progress(arguments.quiet ? nullptr : stderr);
   auto options = options_in<HeadlessOptions>(folder_of(arguments, method), arguments, progress);
   options.shapes |= arguments.report;
-  options.further = further();
+  options.keep_shapes = arguments.bag;
   options.progress = [&](const Sample& sample, const ProgramRunner& program, double wall_time) {
     progress.show(sample, program, wall_time);
   };
   return run_headless(method, options);
+}
+
+/// Makes the bag of a test where one is asked for. Returns whether that, or nothing, was made. The libraries of ROS
+/// take longer to load than a short test takes, so that another program has them.
+bool write_bag(const Arguments& arguments, const std::string& folder) {
+  if (!arguments.bag && !(kHasBags && arguments.report && readings_of(arguments) == Readings::kAll)) return true;
+  const std::string writer = std::filesystem::absolute(program_beside("write_curve_bag")).string();
+  return std::system(command_line({writer, folder, folder + "/test.bag"}).c_str()) == 0;
 }
 
 /// Makes the report where one is asked for. Returns whether that, or nothing, was made.
@@ -232,10 +232,9 @@ int list_keys(const Method& method) {
 int make_anew(const Arguments& arguments) {
   ProgressLine progress(nullptr);
   auto options = options_in<HeadlessOptions>(arguments.from_samples, arguments, progress);
-  options.further = further();
   const HeadlessOutcome outcome = results_from_samples(options);
   if (!arguments.quiet) tell_summary(outcome.folder, "result.yaml", "");
-  return report(arguments, outcome.folder) ? kDone : kFailed;
+  return write_bag(arguments, outcome.folder) && report(arguments, outcome.folder) ? kDone : kFailed;
 }
 
 /// Refuses `--resume` for a single test: only a batch goes on where it stopped.
@@ -245,6 +244,12 @@ void require_batch(const Arguments& arguments, const Method& method) {
                                "--resume goes on with a batch, but " + shown(arguments.resume) +
                                    " holds a single test: run it anew, or make the results of what was measured by "
                                    "--from-samples");
+}
+
+/// Refuses `--bag` for a batch.
+void require_single(const Arguments& arguments, const Method& method) {
+  if (arguments.bag && method.specimens.count > 1)
+    throw InvalidInput::sentence("--bag", "--bag is for a single test, and the method has several specimens");
 }
 
 int run(const Arguments& arguments) {
@@ -259,13 +264,15 @@ int run(const Arguments& arguments) {
     if (!arguments.quiet) tell(line);
   });
   require_batch(arguments, method);
+  require_single(arguments, method);
   if (arguments.check) return check(method, readings_of(arguments));
   if (arguments.list_keys) return list_keys(method);
   if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);
   tell_end(outcome, method, point_latest_to(outcome.folder), arguments.quiet);
-  const bool done = report(arguments, outcome.folder) && outcome.ended && !outcome.failed;
+  const bool done =
+      write_bag(arguments, outcome.folder) && report(arguments, outcome.folder) && outcome.ended && !outcome.failed;
   return done ? kDone : kFailed;
 }
 
@@ -328,7 +335,9 @@ const CLI::Option* add_draw(CLI::App& app, Arguments& arguments, const std::vect
 
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
-  CLI::App app("Runs the whole test that a method describes, as fast as the computer can.");
+  CLI::App app(
+      "Runs the whole test that a method describes, as fast as the computer can. Writes the curves, the result, the "
+      "final shape, the samples and the method; more with --shapes, --bag and --report.");
   CLI::Option* method = app.add_option("METHOD", arguments.method,
                                        "the method: a YAML file, or the name of one that comes with the package");
   // One value each, so that --set may stand before METHOD too.
@@ -351,9 +360,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   app.add_flag("--no-cache", arguments.no_cache,
                "tie the specimen even where an earlier test in the same folder has tied the same one, and keep none")
       ->envname("KNOT_UTM_NO_CACHE");
-  CLI::Option* readings = app.add_option(
-      "--readings", arguments.readings,
-      "plateau: end the test of a tied loop as soon as its sliding force is known, and write no test.bag");
+  CLI::Option* readings = app.add_option("--readings", arguments.readings,
+                                         "plateau: end the test of a tied loop as soon as its sliding force is known");
   resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite)->excludes(specimens)->excludes(readings);
   CLI::Option* from_samples = app.add_option(
       "--from-samples", arguments.from_samples,
@@ -364,6 +372,9 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
          "--shapes", arguments.shapes,
          "also write shapes.csv, the rod at 60 to 120 readings of the load cell; a single test with --report does")
       ->excludes(readings);
+  if (kHasBags)
+    app.add_flag("--bag", arguments.bag, "also write test.bag, the topics of a single test; --report does")
+        ->excludes(readings);
   CLI::Option* check = app.add_flag("--check", arguments.check,
                                     "only say whether the test could be made, and print the method with every value");
   CLI::Option* list_keys = app.add_flag("--list-keys", arguments.list_keys,

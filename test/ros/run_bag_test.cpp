@@ -9,8 +9,11 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <csignal>
+#include <filesystem>
 #include <set>
+#include <tuple>
 
+#include "run/command.hpp"
 #include "run/own_folder.hpp"
 
 namespace knot_utm {
@@ -133,6 +136,16 @@ TEST_F(TestBagTest, WithoutRoomItNamesTheFileAndTheReason) {
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(why, "cannot write " + in("a.bag") + ": file too large");
+}
+
+TEST_F(TestBagTest, IsWrittenOfASingleTestWhereItIsAskedFor) {
+  const std::string test = "straight --quiet --overwrite --out '" + in("run") + "' ";
+  for (const auto& [options, code, written] :
+       {std::tuple("", 0, false), std::tuple("--bag --specimens 2", 2, false), std::tuple("--bag", 0, true)}) {
+    EXPECT_EQ(answer_of(tool("tensile_test", test + options)).code, code) << options;
+    EXPECT_EQ(std::filesystem::exists(in("run/test.bag")), written) << options;
+  }
+  EXPECT_EQ(count(in("run/test.bag"), "/utm/method"), 1u);
 }
 
 }  // namespace

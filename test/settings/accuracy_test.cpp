@@ -93,6 +93,17 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
     EXPECT_EQ(refinement(loop, 50.0), refinement(loop, 4.0));
 }
 
+TEST(Tolerances, OfASolidRodOfAnyShapeAreThoseOfAnOpenKnot) {
+  const auto residual = [](const std::string& name, const char* material) {
+    const Method method = load_method(KNOT_UTM_SOURCE_DIR "/config/" + name, {std::string("material=") + material});
+    return tolerances(method.physics, method.specimen, method.material).residual;
+  };
+  EXPECT_EQ(residual("from_file.yaml", "pink_vps"), residual("overhand.yaml", "pink_vps"));
+  EXPECT_EQ(residual("from_file.yaml", "nylon"), residual("tighten.yaml", "nylon"));
+  EXPECT_GT(residual("from_file.yaml", "pink_vps"), 10.0 * residual("tighten.yaml", "pink_vps"));
+  EXPECT_GE(residual("tighten.yaml", "pink_vps"), 10.0 * residual("tighten.yaml", "nylon"));
+}
+
 /// With the whole couple of friction and fibres that rub, and not with one of them.
 TEST(RelativeErrors, AreGivenForStrandsThatRollAsTheStudyHadThem) {
   const auto errors = [](const std::string& change) {

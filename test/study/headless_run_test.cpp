@@ -38,22 +38,25 @@ class HeadlessRun : public OwnFolder {
   HeadlessOptions options;
 };
 
-TEST_F(HeadlessRun, HandsEveryRecordToTheFurtherWriterAndClosesItOnce) {
-  int records = 0, shown = 0, closed = 0;
-  std::string place;
-  options.further = [&](const std::string& into, const Method&) {
-    place = into;
-    return FurtherWriter{[&](const Record&) { ++records; }, [&](const TestEnd&) { ++closed; }};
-  };
-  options.progress = [&](const Sample&, const ProgramRunner&, double) { ++shown; };
-  const HeadlessOutcome outcome = run_headless(method, options);
-  EXPECT_TRUE(outcome.ended.has_value());
-  EXPECT_FALSE(outcome.failed);
-  EXPECT_EQ(place, options.folder);
-  EXPECT_EQ(outcome.folder, options.folder);
-  EXPECT_GT(records, 3);
-  EXPECT_EQ(records, shown);
-  EXPECT_EQ(closed, 1);
+TEST_F(HeadlessRun, ShowsEveryRecordAndKeepsShapesOnlyWhereTheyAreAskedFor) {
+  for (const bool asked : {false, true}) {
+    int shown = 0;
+    options.overwrite = true;
+    options.keep_shapes = asked;
+    options.progress = [&](const Sample&, const ProgramRunner&, double) { ++shown; };
+    const HeadlessOutcome outcome = run_headless(method, options);
+    EXPECT_TRUE(outcome.ended.has_value());
+    EXPECT_FALSE(outcome.failed);
+    EXPECT_EQ(outcome.folder, options.folder);
+    EXPECT_EQ(fs::exists(shapes_file(options.folder)), asked);
+    EXPECT_TRUE(fs::exists(options.folder + "/final_shape.csv"));
+    SamplesReader samples(options.folder);
+    Record record;
+    while (samples.next(record)) continue;
+    EXPECT_GT(shown, 3);
+    EXPECT_EQ(samples.records(), static_cast<std::uint64_t>(shown));
+    EXPECT_EQ(samples.final_shape().cols() > 0, asked);
+  }
 }
 
 TEST_F(HeadlessRun, InterruptedItLeavesWhatWasMeasured) {

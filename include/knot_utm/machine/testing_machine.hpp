@@ -12,6 +12,7 @@
 namespace knot_utm {
 
 class Archive;
+struct Centreline;
 struct Command;
 struct Material;
 struct RodProperties;
@@ -38,6 +39,7 @@ class TestingMachine {
   /// One sample for every accepted time step of the last command, the last of them what `respond` returned.
   const std::vector<Sample>& substeps() const;
 
+  const Centreline& drawn() const;  ///< the specimen before the test
   const RodProperties& rod() const;
   const RodState& state() const;
   Vec3 lower_grip() const;      ///< centre of roller, node or clamp [m]

@@ -131,4 +131,7 @@ class RunBag {
   MotionPatternTracker motion_;
 };
 
+/// Writes the bag of the test whose samples a folder has, and returns the number of its messages.
+std::uint64_t write_run_bag(const std::string& file, const std::string& folder, const Method& method);
+
 }  // namespace knot_utm

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,16 +53,8 @@ class ShapeSeries {
 
 struct Centreline;
 
-/// Writes a further file of a run's folder, such as a bag, which MakeFurther begins.
-struct FurtherWriter {
-  std::function<void(const Record&)> add;
-  std::function<void(const TestEnd&)> close;  ///< called after the last record
-};
-using MakeFurther = std::function<FurtherWriter(const std::string& folder, const Method& method)>;
-
 /// What the samples of a run do not say.
 struct ResultsOptions {
-  MakeFurther further;                ///< may be empty
   TestEnd without_end;                ///< how the test ended where its samples do not say so
   std::vector<std::string> warnings;  ///< further ones, one line each
   bool ran_here = true;               ///< whether this process ran the test, so that its memory is the test's
@@ -80,10 +71,11 @@ struct MadeResults {
 ///   curve_full.csv   one row for each accepted time step
 ///   result.yaml, and final_shape.csv where the last shape is known
 ///   shapes.csv       where records have readings of the rod (ShapeSeries)
-/// and a further one. All functions throw std::runtime_error where a file cannot be written.
+/// All functions throw std::runtime_error where a file cannot be written.
 class RunWriter {
  public:
-  RunWriter(const std::string& folder, const Method& method, const MakeFurther& further = nullptr);
+  /// `drawn`: the specimen before the test (specimen_centreline).
+  RunWriter(const std::string& folder, const Method& method, const Centreline& drawn);
 
   /// Adds one record. If the simulation failed, only the time steps that it still made are added.
   void add(const Record& record);
@@ -91,22 +83,17 @@ class RunWriter {
   MadeResults finish(const TestEnd& end, const Points& final_shape, const ResultsOptions& options = {});
 
  private:
-  RunWriter(const std::string& folder, const Method& method, const Centreline& drawn);
-  void add_to_files(const Record& record);
   void add_reading(const Sample& reading);
   std::vector<std::string> warnings_of_turn(double weight) const;  // one, where the loop turned far
   void follow_stop(const Command& command, const Sample& step);
 
   std::string folder_;
-  FurtherWriter further_;
   std::vector<int> cuts_;  // edges between one rope and the next
   RunFacts known_;
   double wall_time_ = 0.0;                   // of the last record [s]
   std::vector<Sample> samples_;              // all accepted time steps; the last one of a command is its answer
   std::vector<int> program_steps_;           // the step of the program of each of them
   std::vector<Sample> readings_;             // readings of the load cell: the rows of curve.csv
-  double weight_per_length_ = 0.0;           // weight of the rod per length [N/m]
-  double length_ = 0.0;                      // length of all ropes in the last known shape [m]
   LoopTurn turn_;                            // turning of a loop on rollers since it was mounted
   double passed_stop_ = 0.0, stop_ = 0.0;    // largest share by which a load passed a stop of the crosshead, that stop
   std::optional<double> radius_on_rollers_;  // radius of the rod [m]; empty: the specimen is not a loop on rollers

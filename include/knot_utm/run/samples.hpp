@@ -71,15 +71,17 @@ struct TestEnd {
 /// The samples of a run, from which all its other files are made (run_writer.hpp):
 ///
 ///   samples.csv   row 1 has the names of the columns and row 2 their units. A row of the kind `step` is a time step, a
-///                 row `answer` is a command with its answer, and the row `end`, which repeats the last answer, says
-///                 how the test ended. A cell is empty where its row has no such value. Every number reads back to the
-///                 same bits.
-///   shapes.bin    the rod at each reading of the load cell, which fits no row: for each shape the length of what
-///                 follows [8 bytes, little-endian], then the shape as a bare Archive saves it.
+///                 row `answer` is a command with its answer, a row `answered step` is both, and the row `end`, which
+///                 repeats the last answer, says how the test ended. A cell is empty where its row has no such
+///                 value. Every number reads back to the same bits.
+///   shapes.bin    the rod at each reading of the load cell, which fits no row, where a file is to be made of it: for
+///                 each shape the length of what follows [8 bytes, little-endian], then the shape as a bare Archive
+///                 saves it.
 ///
 /// The rows of a command are passed to the operating system, by one write, before the command counts as answered. They
 /// therefore outlive the process, but what is not on the disk yet may not outlive a power failure.
 std::string samples_file(const std::string& folder);
+std::string shapes_file(const std::string& folder);
 
 /// Reads the records in order, up to the last command that is whole.
 class SamplesReader {
@@ -126,8 +128,8 @@ class SamplesReader {
 /// then leave the file as it was, so that it ends with a whole command.
 class SamplesWriter {
  public:
-  /// Begins the files of a new run, of which none may be there.
-  explicit SamplesWriter(const std::string& folder);
+  /// Begins the files of a new run, of which none may be there. `shapes`: writes shapes.bin, too.
+  explicit SamplesWriter(const std::string& folder, bool shapes = true);
 
   void append(const Record& record);
   /// Says how the test ended. `final_shape`: the rod then; no columns: it is not known.
@@ -146,7 +148,8 @@ class SamplesWriter {
   };
   void append(const SamplesReader::Shape& shape);
 
-  File rows_, shapes_;
+  File rows_;
+  std::optional<File> shapes_;
   Sample last_;         ///< the last answer
   std::string buffer_;  ///< a member so that its memory is reused
 };

@@ -48,9 +48,9 @@ class EarlyEnd {
 struct RunOptions {
   std::string folder;      ///< folder to write to
   bool overwrite = false;  ///< overwrites the contents of `folder`, instead of using the next free folder
-  bool shapes = false;     ///< also writes shapes.csv
+  bool shapes = false;     ///< also writes shapes.csv, and shapes.bin
   bool cache = false;      ///< keeps and restores tied specimens (TiedSpecimen); else each test ties its own
-  /// Other readings than all end the test early, and leave neither shapes.csv nor a further file.
+  /// Other readings than all end the test early, and leave no shapes.csv.
   Readings readings = Readings::kAll;
 
   std::function<bool()> interrupted;  ///< whether to stop; called between commands, and of a batch by several threads
@@ -68,7 +68,7 @@ struct RunOptions {
 };
 
 struct HeadlessOptions : RunOptions {
-  MakeFurther further;
+  bool keep_shapes = false;  ///< also writes shapes.bin
   /// Receives each answer of the simulated machine; `wall_time` since the test began [s].
   std::function<void(const Sample& answer, const ProgramRunner& program, double wall_time)> progress;
 };

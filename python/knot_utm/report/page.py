@@ -1,4 +1,5 @@
 """The one layout of all pages, into which each kind of report puts its readings, figures, tables and notes; the page as HTML and PDF."""
+import ctypes.util
 import logging
 import os
 from collections import namedtuple
@@ -109,8 +110,11 @@ def write(folder, html):
 def as_pdf(html):
     # Fonts are cut to what is used; the time of the cut would stand in them.
     os.environ["SOURCE_DATE_EPOCH"] = "0"
+    # Of each library cffi would ask ldconfig, gcc and ld for the names that it has elsewhere, before it takes Debian's.
+    find, ctypes.util.find_library = ctypes.util.find_library, lambda name: None
     import weasyprint
 
+    ctypes.util.find_library = find
     for name in ("weasyprint", "fontTools"):
         logging.getLogger(name).setLevel(logging.ERROR)
     head, _, rest = html.partition("<!-- to turn -->")

@@ -34,7 +34,7 @@ def shapes_of(run):
     if os.path.exists(file):
         *shapes, last = shapes_in(file)
         return shapes if shapes and last.tension is None else [*shapes, last], ""  # of a rod that has just parted no tension is known
-    return [final_shape(run)], "There is no shapes.csv, so only the final shape is shown, without tensions."
+    return [final_shape(run)], "There is no shapes.csv (tensile_test --shapes), so only the final shape is shown, without tensions."
 
 
 def shapes_in(file):
