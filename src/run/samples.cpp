@@ -395,10 +395,10 @@ void SamplesWriter::append(const Record& record) {
   }
   std::string answer;
   append_row({RowKind::kStep, 0.0, {}, record.answer, {}}, answer);
-  const bool again = !record.steps.empty() && buffer_.compare(last, std::string::npos, answer) == 0;
+  const bool again = buffer_.compare(last, std::string::npos, answer) == 0;
   if (again) buffer_.resize(last);
-  append_row({again ? RowKind::kAnsweredStep : RowKind::kAnswer, record.wall_time, record.command, record.answer, {}},
-             buffer_);
+  const RowKind kind = again ? RowKind::kAnsweredStep : RowKind::kAnswer;
+  append_row({kind, record.wall_time, record.command, record.answer, {}}, buffer_);
   rows_.append(buffer_);
   last_ = record.answer;
 }

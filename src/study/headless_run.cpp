@@ -325,9 +325,7 @@ HeadlessOutcome results_from_samples(const HeadlessOptions& options) {
   more.ran_here = false;
   more.without_end.reason = "the test was cut off";
   if (!fs::exists(shapes_file(folder)))
-    more.warnings.emplace_back(
-        "there is no shapes.bin, which a test with --bag, --shapes or --report leaves: nothing was read from the rod's "
-        "shape");
+    more.warnings.emplace_back("without shapes.bin (--bag, --shapes, --report) nothing is read from the rod's shape");
   const MadeResults made = make_results(folder, method, more);
   tell_warnings(made, options);
   return {folder, std::nullopt, "", false, made.results, 0.0};

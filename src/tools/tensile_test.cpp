@@ -237,19 +237,16 @@ int make_anew(const Arguments& arguments) {
   return write_bag(arguments, outcome.folder) && report(arguments, outcome.folder) ? kDone : kFailed;
 }
 
-/// Refuses `--resume` for a single test: only a batch goes on where it stopped.
-void require_batch(const Arguments& arguments, const Method& method) {
-  if (arguments.resume.empty() || method.specimens.count > 1) return;
+/// Refuses `--resume` for a single test, as only a batch goes on where it stopped, and `--bag` for a batch.
+void require_options_of(const Arguments& arguments, const Method& method) {
+  const bool batch = method.specimens.count > 1;
+  if (arguments.bag && batch)
+    throw InvalidInput::sentence("--bag", "--bag is for one specimen, and the method has more");
+  if (arguments.resume.empty() || batch) return;
   throw InvalidInput::sentence("--resume",
                                "--resume goes on with a batch, but " + shown(arguments.resume) +
                                    " holds a single test: run it anew, or make the results of what was measured by "
                                    "--from-samples");
-}
-
-/// Refuses `--bag` for a batch.
-void require_single(const Arguments& arguments, const Method& method) {
-  if (arguments.bag && method.specimens.count > 1)
-    throw InvalidInput::sentence("--bag", "--bag is for a single test, and the method has several specimens");
 }
 
 int run(const Arguments& arguments) {
@@ -263,8 +260,7 @@ int run(const Arguments& arguments) {
   const Method method = load_test(arguments.method, arguments.overrides, [&](const std::string& line) {
     if (!arguments.quiet) tell(line);
   });
-  require_batch(arguments, method);
-  require_single(arguments, method);
+  require_options_of(arguments, method);
   if (arguments.check) return check(method, readings_of(arguments));
   if (arguments.list_keys) return list_keys(method);
   if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
