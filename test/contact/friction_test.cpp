@@ -10,7 +10,6 @@
 #include "knot_utm/contact/power_friction.hpp"
 #include "knot_utm/contact/rate_friction.hpp"
 #include "reference.hpp"
-#include "sim/capstan.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -185,18 +184,6 @@ TEST(PowerFriction, GoesOnInAStraightLineBelowZero) {
   constexpr double kChange = 1e-7;
   const double slope = (traction(law, kChange) - traction(law, -kChange)) / (2.0 * kChange);
   EXPECT_NEAR(slope, at_zero.by_pressure.norm(), 1e-5 * slope);
-}
-
-/// With dT/dphi = mu p_r rho (T/(p_r rho))^n around a shaft of radius rho,
-///     T2^(1-n) = T1^(1-n) + (1 - n) mu (p_r rho)^(1-n) phi.
-TEST(PowerFriction, HowellsCapstan) {
-  constexpr double kTension = 1000.0, kExponent = 0.8;  // of a rod that the tension bends as if it were a thread
-  Capstan::Options options;
-  options.roller_friction = PowerFriction{Capstan::kMu, options.presliding, kExponent, kTension};
-  Capstan scene(kTension, options);
-  const double expected = std::pow(1.0 + (1.0 - kExponent) * Capstan::kMu * 2.0 * M_PI, 1.0 / (1.0 - kExponent));
-  EXPECT_LT(expected, 0.8 * std::exp(Capstan::kMu * 2.0 * M_PI)) << "Coulomb's law must be told from it";
-  hold_against("Howell's capstan, n = 0.8: T2/T1", expected, scene.ratio(), 0.01);
 }
 
 constexpr double kRopeMu = 0.46, kRate = 0.05, kSpeed = 1e-4;

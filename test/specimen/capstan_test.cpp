@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/contact/friction.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
@@ -76,14 +77,16 @@ struct Ratios {
   double upper = 0.0, lower = 0.0;
 };
 
-Ratios pulled(const SpecimenOptions& specimen, double friction_couple = 0.0) {
+Ratios pulled(const SpecimenOptions& specimen, double friction_couple = 0.0, const FrictionOptions& friction = {}) {
   constexpr int kCommands = 100;
   MachineOptions machine;
   machine.grips = GripKind::kNodes;
   machine.roller_friction = kMu;
   Material material = nylon();
   material.friction_couple = friction_couple;
-  TestingMachine bench(specimen, material, machine, PhysicsOptions());
+  PhysicsOptions physics;
+  physics.friction = friction;
+  TestingMachine bench(specimen, material, machine, physics);
   Command command;
   command.phase = Phase::kHold;
   command.time = 2.0;
@@ -136,6 +139,19 @@ INSTANTIATE_TEST_SUITE_P(Loads, R8OnTheMachine,
 TEST(R8ElasticLaw, IsSolvedAsItIsListed) {
   for (const auto& [t1, ratio] : {std::pair{2.0, 5.319}, {10.0, 6.305}, {50.0, 6.527}, {1000.0, 6.583}})
     EXPECT_NEAR(elastic_capstan(t1, kMu, kTurn), ratio, 5e-4);
+}
+
+/// With dT/dphi = mu p_r rho (T/(p_r rho))^n around a post,
+///     T2^(1-n) = T1^(1-n) + (1 - n) mu (p_r rho)^(1-n) phi.
+TEST(PowerFriction, HowellsCapstan) {
+  constexpr double kExponent = 0.8, kThread = 1000.0;  // of a rod that its tension bends as if it were a thread
+  const double rho = bend_radius(strand(kTurn, 1.0)), t1 = kThread * nylon().bending_stiffness / (rho * rho);
+  FrictionOptions friction;
+  friction.law = static_cast<FrictionLaw>(FrictionLaws(PowerFriction()).index());
+  friction.values = {{"exponent", kExponent}, {"reference_pressure", t1 / rho}};
+  const double expected = std::pow(1.0 + (1.0 - kExponent) * kMu * kTurn, 1.0 / (1.0 - kExponent));
+  EXPECT_LT(expected, 0.8 * std::exp(kMu * kTurn)) << "Coulomb's law must be told from it";
+  hold_against("Howell's capstan, n = 0.8: T2/T1", expected, pulled(strand(kTurn, t1), 0.0, friction).upper, 0.01);
 }
 
 TEST(R15OnTheMachine, SlidesAtTheRatioOfFrictionAtTheSurface) {
