@@ -189,16 +189,16 @@ Scene drawn(std::mt19937& random) {
   return out;
 }
 
-Sample begun(const Scene& scene) {
+Sample begun(const Scene& scene, double seconds) {
   TestingMachine bench = scene.bench();
   Command command;
-  return through(bench, command, scene.specimen.to_be_tied ? Phase::kTie : Phase::kPull, 1.5);
+  return through(bench, command, scene.specimen.to_be_tied ? Phase::kTie : Phase::kPull, seconds);
 }
 
 TEST(HalfRod, IsSolvedWhereTheSpecimenIsSymmetric) {
   std::mt19937 random(7);
   for (int i = 0; i < 20; ++i) {
-    const Sample sample = begun(drawn(random));
+    const Sample sample = begun(drawn(random), 1.5);
     EXPECT_GT(sample.newton_iterations, 20U);
     EXPECT_EQ(sample.half_iterations, sample.newton_iterations) << "method " << i;
   }
@@ -208,13 +208,11 @@ TEST(HalfRod, IsNotSolvedWhereItIsNot) {
   std::mt19937 random(8);
   for (int i = 0; i < 20; ++i) {
     Scene scene = drawn(random);
-    if (i % 3 == 0)
-      scene.specimen.natural_curvature = 5.0;
-    else if (scene.specimen.to_be_tied)
+    if (scene.specimen.to_be_tied)
       scene.specimen.handedness = Handedness::kOpposite;
     else
       scene.physics.gravity = Vec3(0.0, 3.0, -9.0);
-    const Sample sample = begun(scene);
+    const Sample sample = begun(scene, 0.2);
     EXPECT_GT(sample.newton_iterations, 20U);
     EXPECT_EQ(sample.half_iterations, 0U) << "method " << i;
   }
@@ -240,7 +238,7 @@ TEST(HalfRod, IsGivenUpWhereTheWholeRodIsNotSolvedWithIt) {
     EXPECT_EQ(of_whole.by_half, 0);
   };
   step(1);
-  boundary.forces.push_back({last / 3, Vec3(1e-6, 2e-6, 0.0)});
+  boundary.forces.push_back({last / 3, Vec3(1e-4, 2e-4, 0.0)});
   step(0);
   boundary.forces.clear();
   step(0);
@@ -248,7 +246,7 @@ TEST(HalfRod, IsGivenUpWhereTheWholeRodIsNotSolvedWithIt) {
   const auto loaded = [&](const StepSettings& of) {
     auto stepper = TimeStep::make(bench.rod(), bench.state(), of);
     Boundary one_sided = boundary;
-    one_sided.forces.push_back({last / 3, Vec3(1e-6, 2e-6, 0.0)});
+    one_sided.forces.push_back({last / 3, Vec3(1e-4, 2e-4, 0.0)});
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(stepper->step(one_sided, 2e-4).accepted());
     return stepper->state().position;
   };
