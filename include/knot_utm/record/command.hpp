@@ -23,8 +23,8 @@ struct Command {
   double turn = 0.0;           ///< of the upper clamp about the load axis at `time`, turning evenly since then [rad]
   int step = 0;                ///< index of the program's step; -1 before the first
   Phase phase = Phase::kIdle;
-  double speed = 0.0;      ///< of the step: tie: speed of the tail grips [m/s]
-  double duration = 0.0;   ///< of the step: release [s]
+  double speed = 0.0;     ///< of the step: tie: speed of the tail grips [m/s]
+  double duration = 0.0;  ///< of the step: release [s]
   /// Balanced load at which the crosshead stops, and stands until `time`: moving outwards where the load rises to it,
   /// moving inwards where it falls to it; NaN: none [N]
   double stop_load = std::numeric_limits<double>::quiet_NaN();
