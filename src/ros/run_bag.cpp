@@ -49,8 +49,8 @@ void RunBag::add(const Record& record) {
   const Command& command = record.command;
   const Sample& sample = record.answer;
   const ros::Time stamp = test_stamp(0.0, command.time);
-  const auto step = static_cast<std::size_t>(command.step);
-  const auto* follow = command.step > command_.step ? method_.program.at(step).as<FollowStep>() : nullptr;
+  const bool begins = command.phase == Phase::kFollow && command.step > command_.step;  // a move is in no program
+  const auto* follow = begins ? method_.program.at(static_cast<std::size_t>(command.step)).as<FollowStep>() : nullptr;
   if (follow && std::filesystem::exists(follow->record))  // it may have been removed since the test
     write_readings(bag_, read_course(follow->record), command_.time, "experiment/crosshead", "experiment/load_cell");
   cell_readings_.add(record, [this](const Sample& reading) { add_reading(reading); });

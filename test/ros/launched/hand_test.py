@@ -27,6 +27,7 @@ class HandTest(unittest.TestCase):
         from std_srvs.srv import Trigger
         rospy.init_node('hand_test', disable_signals=True)
         cls.status = client.Latest('utm/status', msg.TestStatus)
+        cls.recorder = client.Latest('recorder/status', msg.RecorderStatus)
 
     def run_example(self, name, program):
         """As its head says; returns the loads at which the crosshead stood."""
@@ -41,6 +42,7 @@ class HandTest(unittest.TestCase):
         self.assertEqual(done.stdout.count('the crosshead stands at its load'), 2, done.stdout)
         run = self.status.last.run
         self.status.wait('ended', lambda s: s.run == run and s.state == s.ENDED and s.ended_by == 'operator')
+        self.assertEqual(self.recorder.wait('complete', lambda r: r.run == run and (r.complete or r.error)).error, '')
         return [float(load) for load in re.findall(r'(-?[0-9.]+) N', done.stdout)]
 
     def test_examples(self):
