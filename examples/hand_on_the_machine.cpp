@@ -1,7 +1,7 @@
 // A hand on the machine, as hand_on_the_machine.py, in C++: pulls a knot until it bears 100 N, and unloads it.
 //
-// Run:    g++ examples/hand_on_the_machine.cpp -I build/devel/include -o hand $(pkg-config --cflags --libs roscpp
-// actionlib) Test:   test/ros/launched/hand_test.py
+// Run: g++ examples/hand_on_the_machine.cpp -Ibuild/devel/include -o hand `pkg-config --cflags --libs roscpp actionlib`
+// Test: test/ros/launched/hand_test.py
 #include <actionlib/client/simple_action_client.h>
 #include <knot_utm/MoveAction.h>
 #include <knot_utm/StartTest.h>
