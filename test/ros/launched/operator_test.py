@@ -151,6 +151,7 @@ class OperatorTest(unittest.TestCase):
         out = self.start()
         self.assertEqual(out, self.launch.out + '-2')
         self.state.wait('holds', lambda s: s.run == 2 and s.phase == 'hold' and s.load > 1.0)
+        self.status.wait_for_more(15)
         paces = [s.real_time_factor for s in self.status.messages if s.run == 2 and s.real_time_factor > 0.0]
         changes = sorted(abs(b / a - 1.0) for a, b in zip(paces, paces[1:]))
         self.assertLess(changes[len(changes) // 2], 0.1, paces)  # statuses and commands come at unlike periods
