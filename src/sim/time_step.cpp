@@ -133,6 +133,8 @@ class ImplicitStep final : public TimeStep {
   }
 
   const StepReadings& readings() const override { return readings_; }
+  void solve_whole() override { half_.reset(); }
+
   Vec3 tried_reaction(int node) const override { return -to_vec3(equation_.force[static_cast<std::size_t>(node)]); }
   Vec3 tried_roller_force(int roller) const override { return readings_.tried_roller_force(roller); }
 
