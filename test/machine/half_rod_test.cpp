@@ -154,12 +154,12 @@ TEST(HalfRod, ReadsWhatTheWholeRodReads) {
   TestingMachine by_half = scene.bench();
   scene.physics.symmetry = Symmetry::kOff;
   TestingMachine as_a_whole = scene.bench();
-  const auto tied_and_released = [](TestingMachine& bench) {
-    Command command;
-    through(bench, command, Phase::kTie, 100.0);
-    return through(bench, command, Phase::kRelease, 200.0);
+  Command command_of_half, command;
+  const auto tied_and_released = [](TestingMachine& bench, Command& to) {
+    through(bench, to, Phase::kTie, 100.0);
+    return through(bench, to, Phase::kRelease, 200.0);
   };
-  const Sample half = tied_and_released(by_half), whole = tied_and_released(as_a_whole);
+  const Sample half = tied_and_released(by_half, command_of_half), whole = tied_and_released(as_a_whole, command);
   ASSERT_EQ(half.status, BenchStatus::kPhaseDone) << half.message;
   EXPECT_EQ(half.half_iterations, half.newton_iterations);
   EXPECT_EQ(whole.half_iterations, 0U);
@@ -173,6 +173,10 @@ TEST(HalfRod, ReadsWhatTheWholeRodReads) {
   expect_same(half.knot_distance, whole.knot_distance);
   expect_same(half.max_penetration, whole.max_penetration);
   for (std::size_t k = 0; k < 2; ++k) expect_same(half.excess_length[k], whole.excess_length[k]);
+  // A loop that is pulled is solved whole.
+  const Sample pulled = through(by_half, command_of_half, Phase::kPull, command_of_half.time);
+  EXPECT_GT(pulled.newton_iterations, half.newton_iterations);
+  EXPECT_EQ(pulled.half_iterations, half.half_iterations);
 }
 
 /// A symmetric method with values drawn at random.

@@ -81,7 +81,7 @@ class TimeStep {
   void set_drag(double per_length) { settings_.drag = per_length; }       ///< c [N s/m^2]
 
   /// From now on the whole rod is solved, also where one half has stood for both (StepSettings::half_turn).
-  virtual void solve_whole() = 0;
+  virtual void solve_whole() {}
 
   /// From now on a step that was solved is refused, and changes nothing, where `judge` returns a reason for the
   /// positions and the length [s] that it would have.
