@@ -10,11 +10,14 @@
 int main(int argc, char** argv) {
   ros::init(argc, argv, "hand");
   ros::NodeHandle node;
+  actionlib::SimpleActionClient<knot_utm::MoveAction> machine("utm/move", true);
+  machine.waitForServer();  // before the test is started: it pulls as its method says until the first goal comes
   ros::service::waitForService("utm/start_test");
   knot_utm::StartTest start;
-  ros::service::call("utm/start_test", start);
-  actionlib::SimpleActionClient<knot_utm::MoveAction> machine("utm/move", true);
-  machine.waitForServer();
+  while (ros::service::call("utm/start_test", start) && !start.response.accepted) {  // it may not be ready yet
+    ROS_INFO("%s", start.response.message.c_str());
+    ros::WallDuration(1.0).sleep();
+  }
   for (const double load : {100.0, 5.0}) {  // out, and back
     knot_utm::MoveGoal goal;
     goal.load = load;
