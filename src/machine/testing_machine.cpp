@@ -231,8 +231,6 @@ struct TestingMachine::Impl {
     step_index = command.step;
     phase = command.phase;
     pulled |= moves(phase) && phase != Phase::kMount;
-    // Two knots that slide do not do so alike: the symmetric motion is possible, but grows apart.
-    if (pulled && knot_of(specimen).about().loop) stepper->solve_whole();
     status = BenchStatus::kRunning;
     if (tying) tying->enter(command, place());
   }

@@ -58,6 +58,7 @@ constexpr double kSetTime = 1.0 / 3.0;  // of one setting, at least [s]
 constexpr double kSliding = 4.0;        // rate at which e is set over the crosshead's speed, at most
 constexpr double kEndOfSetting = 1e-9;  // a setting is over if less time is left [s]
 constexpr double kFarthest = 0.4;       // of e: a release moves knots that hold by less (tight silicone by 0.27)
+constexpr double kSlid = 0.5;      // by which knots have come nearer in the pull from which the whole rod is solved [h]
 constexpr double kOpenCoil = 3.0;  // radius from which a coil, 2 (R + h) wide, reaches into the straight strands [h]
 constexpr double kOpened = 0.05;   // of e: knots that came nearer by more have opened (as in motion_pattern.cpp)
 constexpr const char* kNoRoom =
@@ -150,7 +151,16 @@ void TiedLoop::follow(Phase phase, const Place& now, double dt) {
   // From here on weight, if there is any, would make the slack loop turn around the rollers.
   if (puts_on && rig_.guides()) grips_.hold_far_side(stepper_.state().position, now.grip);
   if (phase == Phase::kMount && rig_.guides()) follow_mounting(now, puts_on);
+  if (farthest_ > 0.0 || (moves(phase) && phase != Phase::kMount)) solve_whole_once_they_slide();
   touch_.follow(stepper_);
+}
+
+/// Two knots that slide do not do so alike: the symmetric motion is possible, but grows apart. Knots that hold move
+/// apart as the rod between them stretches.
+void TiedLoop::solve_whole_once_they_slide() {
+  const double distance = knot_distance();
+  farthest_ = std::max(farthest_, distance);
+  if (farthest_ - distance > kSlid * radius_) stepper_.solve_whole();
 }
 
 void TiedLoop::follow_mounting(const Place& now, bool puts_on) {
@@ -213,7 +223,8 @@ void TiedLoop::read(Sample& sample) const {
 
 void TiedLoop::state(Archive& archive) {
   archive.section("LOOP");
-  archive(rig_, touch_, slack_, set_end_, set_speed_, apart_, further_, speed_, tied_distance_, sets_, at_marks_);
+  archive(rig_, touch_, slack_, set_end_, set_speed_, apart_, further_, speed_, tied_distance_, sets_, farthest_,
+          at_marks_);
 }
 
 double marks_of(const SpecimenOptions& specimen, const Program& program) {

@@ -173,10 +173,23 @@ TEST(HalfRod, ReadsWhatTheWholeRodReads) {
   expect_same(half.knot_distance, whole.knot_distance);
   expect_same(half.max_penetration, whole.max_penetration);
   for (std::size_t k = 0; k < 2; ++k) expect_same(half.excess_length[k], whole.excess_length[k]);
-  // A loop that is pulled is solved whole.
-  const Sample pulled = through(by_half, command_of_half, Phase::kPull, command_of_half.time);
-  EXPECT_GT(pulled.newton_iterations, half.newton_iterations);
-  EXPECT_EQ(pulled.half_iterations, half.half_iterations);
+  const Sample pulled = through(by_half, command_of_half, Phase::kPull, command_of_half.time);  // the knots hold
+  EXPECT_GT(pulled.half_iterations, half.half_iterations);
+  EXPECT_EQ(pulled.half_iterations, pulled.newton_iterations);
+}
+
+TEST(HalfRod, OfALoopIsSolvedUntilItsKnotsSlide) {
+  const Scene scene = loop();
+  TestingMachine bench = scene.bench();
+  Command command;
+  Sample last, sample;
+  for (const Phase phase : {Phase::kTie, Phase::kRelease, Phase::kMount}) last = through(bench, command, phase, 200.0);
+  EXPECT_EQ(last.half_iterations, last.newton_iterations);
+  for (sample = last; sample.knot_distance > last.knot_distance - scene.material.radius;)
+    sample = through(bench, command, Phase::kPull, command.time);
+  const Sample later = through(bench, command, Phase::kPull, command.time);
+  EXPECT_GT(later.newton_iterations, sample.newton_iterations);
+  EXPECT_EQ(later.half_iterations, sample.half_iterations);
 }
 
 /// A symmetric method with values drawn at random.

@@ -84,6 +84,7 @@ class TiedLoop final : public Tying {
   bool set_to_marks(const Place& now);
   bool setting() const { return set_end_ > 0.0; }
   void follow_mounting(const Place& now, bool puts_on);
+  void solve_whole_once_they_slide();
   void begin_on_slack(const Place& now);
   double load_on_both() const;
   double knot_distance() const;
@@ -99,6 +100,7 @@ class TiedLoop final : public Tying {
   double speed_ = 0.0;                  // of the step that mounts [m/s]
   double tied_distance_ = 0.0;          // e as the loop is put on [m]
   int sets_ = 0;                        // number of settings so far
+  double farthest_ = 0.0;               // the largest e since the pull began; 0: it has not [m]
   bool at_marks_ = false;               // the loop is taut, and e and L are as near to the marks as they come
   TyingRig rig_;
   KnotTouch touch_;
