@@ -43,8 +43,8 @@ TESTS = {
     "nylon": loop("nylon", 6),
     "polypropylene": loop("polypropylene", 2),
     "pink_vps": loop("pink_vps", 3),
-    "green_vps": loop("green_vps", 2),
-    "open overhand": CountedTest("bench/open_overhand.yaml", {"program.2.pull.until": {"extension": 0.3}}, ("specimen.length", 1.0), 2),
+    "green_vps": loop("green_vps", 6),
+    "open overhand": CountedTest("bench/open_overhand.yaml", {"program.2.pull.until": {"extension": 0.3}}, ("specimen.length", 1.0), 6),
     "capstan": CountedTest("config/capstan.yaml", {}, ("specimen.wrap", 2.0 * math.pi), 1),
     "straight rod": CountedTest("config/straight.yaml", {}, ("specimen.length", 0.25), 1),
 }

@@ -351,7 +351,7 @@ std::optional<Pin> furthest_out(const Outline& loop, double sense, double radius
 
 std::optional<Pin> widest_pin(const Outline& loop, double sense, double widest, double clearance) {
   for (double radius = widest; radius > kNarrowestPin * widest; radius *= kNarrower)
-    if (const std::optional<Pin> pin = furthest_out(loop, sense, radius, clearance)) return pin;
+    if (std::optional<Pin> pin = furthest_out(loop, sense, radius, clearance)) return pin;
   return std::nullopt;
 }
 

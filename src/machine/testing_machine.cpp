@@ -57,8 +57,8 @@ BreakPlace place_of_break(const TimeStep& stepper, const Grips& grips, double gr
 }  // namespace
 
 struct TestingMachine::Impl {
-  SpecimenOptions specimen;
   Centreline centreline;
+  SpecimenOptions specimen;
   Material scaled;  // the material with the density of the mass that is accelerated (with_scaled_inertia)
   MachineOptions machine;
   PhysicsOptions physics;
@@ -90,21 +90,21 @@ struct TestingMachine::Impl {
     std::optional<double> place;               // displacement at which the crosshead stands since [m]
   } stop;                                      // of the crosshead within a command (Command::stop_load)
   double extension_zero = 0.0, raw_extension_zero = 0.0;
-  int parted_edge = -1;  // -1: none
-  BreakPlace break_place = BreakPlace::kNone;
-  int step_index = -1;
-  Phase phase = Phase::kIdle;
-  Vec3 gravity;         // that gives the accelerated mass its true weight [m/s^2]
-  bool pulled = false;  // the program has had a step that moves the crosshead, other than mounting
-  StepWork work;        // of all accepted steps
+  Vec3 gravity;   // that gives the accelerated mass its true weight [m/s^2]
+  StepWork work;  // of all accepted steps
   std::vector<Sample> substeps;
-  BenchStatus status = BenchStatus::kRunning;
   std::string message;
+  int parted_edge = -1;  // -1: none
+  int step_index = -1;
+  BreakPlace break_place = BreakPlace::kNone;
+  Phase phase = Phase::kIdle;
+  BenchStatus status = BenchStatus::kRunning;
+  bool pulled = false;  // the program has had a step that moves the crosshead, other than mounting
 
   Impl(const SpecimenOptions& specimen_, const Material& material, const MachineOptions& machine_,
        const PhysicsOptions& physics_)
-      : specimen(specimen_),
-        centreline(specimen_centreline(specimen_, material, machine_, physics_)),
+      : centreline(specimen_centreline(specimen_, material, machine_, physics_)),
+        specimen(specimen_),
         scaled(with_scaled_inertia(material, physics_, slack_of(specimen_, centreline))),
         machine(machine_),
         physics(physics_),

@@ -118,17 +118,17 @@ class RunBag {
   void add_status(const TestEnd& end);
   void add_picture(const Record& record, const ros::Time& stamp);
 
+  Centreline centreline_;
   BagWriter bag_;
   Method method_;
-  Centreline centreline_;
   Grips grips_;
   Vec3 crosshead_;  ///< at the beginning of the test [m]
   ScenePicture picture_;
   CellReadings cell_readings_;
   Command command_;  ///< the last one
   Sample answer_;    ///< to it
-  bool begun_ = false;
   MotionPatternTracker motion_;
+  bool begun_ = false;
 };
 
 /// Writes the bag of the test whose samples a folder has, and returns the number of its messages.
