@@ -59,16 +59,11 @@ def report(runner, materials):
     scenes = {}
     tables = [*overhand(runner, scenes), capstan(runner, scenes), *(loop(runner, material, scenes) for material in materials)]
     return Report("Run time against error",
-                  "Cost is the CPU time of the whole process over the simulated time, the least of two runs. "
-                  "The overhand's error is the mean of |F - F_fine|/F_fine over the twelfths of the pull, F the mean over "
-                  "one, F_fine that of a run of our own with half the edges, a residual of a twentieth and steps of "
-                  "10 ms; the table has what another halving changes. A twelfth takes 5 s: in that time the loose loop, "
-                  "which nothing damps, swings to and fro once, so that point by point the force differs by how much the "
-                  "time steps damp and when it swings. The fine run solves for twist, so that what `twist: off` leaves "
-                  "out is part of its "
-                  "error. The other simulators are an independent look's, at several steps each, on one machine where this program ran, "
-                  "too; `bench/front.py` says how they were built. The capstan's error is against the elastic capstan law. The loop's error is against a fine run, tying "
-                  "included.",
+                  "Cost is the CPU time of the whole process over the simulated time, the least of two runs. The overhand's error is the mean "
+                  "of |F - F_fine|/F_fine over the twelfths of the pull, F the mean over one, F_fine that of a run of our own with half the "
+                  "edges, a residual of a twentieth and steps of 10 ms, which solves for twist. A twelfth takes 5 s: in that time the loose "
+                  "loop, which nothing damps, swings to and fro once. `bench/front.py` says who measured the other simulators, and how they "
+                  "were built. The capstan's error is against the elastic capstan law, the loop's against a fine run, tying included.",
                   tables, lambda file: plots.work_precision(file, scenes))
 
 
@@ -105,7 +100,6 @@ def difference(run, reference):
 
 
 def side_by_side():
-    """What an independent look measured of this program and others on one machine."""
     table = Table(f"Open overhand: side by side, all with twist; {MACHINE}", ["CPU time a simulated second [s/s]", "error", "over ours"])
     for name, (cost, error) in PEERS.items():
         table.add(name, "-", [cost, error, cost / PEERS[OURS][0]], None, ".3g")

@@ -57,8 +57,8 @@ BreakPlace place_of_break(const TimeStep& stepper, const Grips& grips, double gr
 }  // namespace
 
 struct TestingMachine::Impl {
-  Centreline centreline;
   SpecimenOptions specimen;
+  Centreline centreline;
   Material scaled;  // the material with the density of the mass that is accelerated (with_scaled_inertia)
   MachineOptions machine;
   PhysicsOptions physics;
@@ -103,8 +103,8 @@ struct TestingMachine::Impl {
 
   Impl(const SpecimenOptions& specimen_, const Material& material, const MachineOptions& machine_,
        const PhysicsOptions& physics_)
-      : centreline(specimen_centreline(specimen_, material, machine_, physics_)),
-        specimen(specimen_),
+      : specimen(specimen_),
+        centreline(specimen_centreline(specimen_, material, machine_, physics_)),
         scaled(with_scaled_inertia(material, physics_, slack_of(specimen_, centreline))),
         machine(machine_),
         physics(physics_),

@@ -37,9 +37,9 @@ void write_readings(BagWriter& bag, const std::vector<CurveRow>& rows, double be
 }
 
 RunBag::RunBag(const std::string& file, const Method& method)
-    : centreline_(specimen_centreline(method.specimen, method.material, method.machine, method.physics)),
-      bag_(file),
+    : bag_(file),
       method_(method),
+      centreline_(specimen_centreline(method.specimen, method.material, method.machine, method.physics)),
       grips_(method.specimen, method.machine, centreline_, method.material),
       crosshead_(grips_.lower() + Vec3(0.0, 0.0, method.specimen.end_to_end)),
       picture_(method.specimen, method.machine, method.material),

@@ -21,7 +21,9 @@ std::string fault_of(const MoveGoal& goal) {
 }  // namespace
 
 void UtmNode::on_move(Moves::GoalHandle goal) {
-  const MoveGoal& asked = *goal.getGoal();
+  const boost::shared_ptr<const MoveGoal> got = goal.getGoal();
+  if (!got) return;
+  const MoveGoal& asked = *got;
   const std::string why_not = active() ? fault_of(asked) : "no test is running: utm/start_test starts one";
   if (!why_not.empty()) return goal.setRejected(MoveResult(), why_not);
   if (move_) move_->setCanceled(MoveResult(), "another goal came");

@@ -86,11 +86,10 @@ bool clamp_turns(const SpecimenOptions& specimen, const MachineOptions& machine)
   return clamps_hold(specimen, machine) && !knot_of(specimen).about().loop && !holds_none;
 }
 
-// Each is defined in a file of this folder.
+// Each of the others is defined in a file of this folder.
 std::unique_ptr<const Knot> fisherman_knot();
 std::unique_ptr<const Knot> multiple_fisherman_knot();
 std::unique_ptr<const Knot> overhand_knot();
-std::unique_ptr<const Knot> straight_rod();
 std::unique_ptr<const Knot> sketched_rod();
 std::unique_ptr<const Knot> capstan();
 std::unique_ptr<const Knot> sketched_knot();

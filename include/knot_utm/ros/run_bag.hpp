@@ -118,9 +118,9 @@ class RunBag {
   void add_status(const TestEnd& end);
   void add_picture(const Record& record, const ros::Time& stamp);
 
-  Centreline centreline_;
   BagWriter bag_;
   Method method_;
+  Centreline centreline_;
   Grips grips_;
   Vec3 crosshead_;  ///< at the beginning of the test [m]
   ScenePicture picture_;
