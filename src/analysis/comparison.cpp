@@ -317,18 +317,13 @@ class Side {
   std::optional<RawZero> given_;
 };
 
-bool has_travel(const CurveOfFile& curve) {
-  const std::vector<CurveRow> rows = pulled(curve.rows);
-  return rows.empty() || std::isfinite(rows.front().extension);
-}
-
 OverTime read_over_time(const CurveOfFile& curve, CurveReadings& readings, const Tell& tell) {
   const std::vector<CurveRow> rows = pulled(curve.rows);
   const auto less = [](const CurveRow& a, const CurveRow& b) { return a.load < b.load; };
   const auto peak = std::max_element(rows.begin(), rows.end(), less);
   if (peak == rows.end() || !std::isfinite(peak->load))
     throw InvalidInput::sentence("load", "nothing is pulled, or the first reading has no load").in_file(curve.file);
-  if (!has_travel(curve)) tell(curve.file + ": it has no travel: loads are read over time alone, as recorded");
+  if (!has_travel(curve.rows)) tell(curve.file + ": it has no travel: loads are read over time alone, as recorded");
   OverTime out{peak->time - rows.front().time};
   double high = rows.front().load, low = high, largest = 0.0;  // of a rise, and of the fall behind it
   for (auto row = rows.begin(); row <= peak; ++row) {
@@ -354,7 +349,7 @@ ComparedCurves compared_over_time(const CurveOfFile& a, const CurveOfFile& b, co
 }  // namespace
 
 ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, bool balances_raw_data, const Tell& tell) {
-  if (!has_travel(a) || !has_travel(b)) return compared_over_time(a, b, tell);
+  if (!has_travel(a.rows) || !has_travel(b.rows)) return compared_over_time(a, b, tell);
   Side side_a(std::move(a), tell), side_b(std::move(b), tell);
   const bool balances = balances_raw_data && !(side_a.has_zero() && side_b.has_zero());
   if (balances) {

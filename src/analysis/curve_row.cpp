@@ -1,5 +1,6 @@
 #include "knot_utm/analysis/curve_row.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -66,6 +67,11 @@ CurveRow curve_row(const Sample& sample) {
 
 double travel_of(const CurveRow& row) {
   return std::isfinite(row.crosshead_travel) ? row.crosshead_travel : row.extension;
+}
+
+bool has_travel(const std::vector<CurveRow>& rows) {
+  const auto first = std::find_if(rows.begin(), rows.end(), [](const CurveRow& row) { return pulls(row.phase); });
+  return first == rows.end() || std::isfinite(first->extension);
 }
 
 bool balanced_between(const CurveRow& before, const CurveRow& after) {

@@ -4,6 +4,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "knot_utm/program/phases.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/run_bag.hpp"
@@ -54,10 +56,19 @@ void for_each(const rosbag::Bag& bag, const std::string& topic, Take take) {
   }
 }
 
+CurveRow measured(double time, double extension, Phase phase) {
+  CurveRow row;
+  row.time = time;
+  row.extension = extension;
+  row.phase = phase;
+  row.end_to_end = Sample::kNone;
+  return row;
+}
+
 /// The readings of each test, one after the other. Tests of one number differ in that their time begins anew.
 std::vector<std::vector<CurveRow>> tests_in(const rosbag::Bag& bag) {
   const std::string load_cell = topic_named(bag, names::kLoadCell, true);
-  const std::string crosshead = topic_named(bag, names::kCrosshead, true);
+  const std::string crosshead = topic_named(bag, names::kCrosshead, false);
   struct Place {
     CurveRow row;
     std::uint32_t run = 0;
@@ -65,12 +76,7 @@ std::vector<std::vector<CurveRow>> tests_in(const rosbag::Bag& bag) {
   std::map<ros::Time, Place> at;
   for_each<Crosshead>(bag, crosshead, [&](const Crosshead& message) {
     const Command command = from_message(message);
-    CurveRow row;
-    row.time = command.time;
-    row.extension = command.displacement;
-    row.phase = command.phase;
-    row.end_to_end = row.load_lower = Sample::kNone;
-    at[message.header.stamp] = {row, message.run};
+    at[message.header.stamp] = {measured(command.time, command.displacement, command.phase), message.run};
   });
   for_each<KnotState>(bag, topic_named(bag, names::kKnotState, false), [&](const KnotState& message) {
     at[message.header.stamp] = {curve_row(from_message(message)), message.run};
@@ -78,7 +84,9 @@ std::vector<std::vector<CurveRow>> tests_in(const rosbag::Bag& bag) {
   std::vector<std::vector<CurveRow>> tests;
   std::uint32_t run = 0;
   for_each<geometry_msgs::WrenchStamped>(bag, load_cell, [&](const geometry_msgs::WrenchStamped& message) {
-    const auto found = at.find(message.header.stamp);
+    const ros::Time& stamp = message.header.stamp;
+    if (crosshead.empty()) at.try_emplace(stamp, Place{measured(stamp.toSec(), Sample::kNone, Phase::kPull), 0});
+    const auto found = at.find(stamp);
     if (found == at.end())
       throw InvalidInput::sentence(
           "topic " + load_cell, "a reading on topic " + shown(load_cell) + " has no command with the same time stamp");
@@ -120,6 +128,11 @@ std::vector<CurveRow> read_curve_bag(const std::string& file, int test) {
   } catch (const std::invalid_argument& error) {
     throw InvalidInput::sentence("message", "a message is not that of a test: " + shown(error.what())).in_file(file);
   }
+}
+
+std::vector<CurveRow> read_record(const std::string& file) {
+  const std::vector<CurveRow> rows = is_curve_file(file) ? read_curve(file) : read_curve_bag(file, 1);
+  return {std::find_if(rows.begin(), rows.end(), [](const CurveRow& row) { return pulls(row.phase); }), rows.end()};
 }
 
 void write_curve_bag(const std::string& file, const std::vector<CurveRow>& rows) {

@@ -9,6 +9,7 @@
 
 #include "knot_utm/method/shipped.hpp"
 #include "knot_utm/program/loading_steps.hpp"
+#include "knot_utm/ros/curve_bag.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/process.hpp"
 #include "knot_utm/run/load_test.hpp"
@@ -49,6 +50,7 @@ TestWords read_words(const std::function<std::string(const std::string& name)>& 
           word("preload"),
           word("working_directory"),
           word("data"),
+          word("bag"),
           word("out"),
           list_of_overrides(word("overrides"))};
 }
@@ -74,9 +76,18 @@ MethodSetup set_up(const TestWords& words) {
   };
   load();
   if (!words.data.empty()) {
-    overrides.push_back(following((base / words.data).lexically_normal().string(), setup.method.program));
-    load();
+    const std::string data = (base / words.data).lexically_normal().string(), curve = curve_file_of(data);
+    if (is_curve_file(curve) && !has_travel(read_curve(curve))) {
+      setup.beside = curve;
+      setup.notices.push_back(curve + ": it has no travel to follow, and is beside the method's own pull");
+    } else {
+      overrides.push_back(following(data, setup.method.program));
+      load();
+    }
+  } else if (!words.bag.empty()) {
+    setup.beside = (base / words.bag).lexically_normal().string();
   }
+  if (!setup.beside.empty()) read_record(setup.beside);
   try {  // refused now, and not once the test has begun
     const int count = setup.method.specimens.count;
     if (count > 1)
@@ -127,6 +138,7 @@ bool give_order(const ros::NodeHandle& node, const TestOrder& order) {
   value["name"] = order.method.name;
   value["method"] = method_yaml(order.method);
   value["out"] = order.out;
+  value["beside"] = order.beside;
   return set_parameter(node.resolveName(names::kTestOrder), value);
 }
 
@@ -135,7 +147,7 @@ TestOrder given_order(const ros::NodeHandle& node) {
   try {
     if (std::optional<XmlRpc::XmlRpcValue> value = ask_master("getParam", {XmlRpc::XmlRpcValue(name)})) {
       const auto text = [&](const char* key) { return static_cast<std::string&>((*value)[key]); };
-      return {parse_method(text("method"), text("name") + ".yaml"), text("out")};
+      return {parse_method(text("method"), text("name") + ".yaml"), text("out"), text("beside")};
     }
   } catch (const XmlRpc::XmlRpcException&) {
     // It is no map of texts.

@@ -80,6 +80,7 @@ class RecorderNode {
   struct Run {
     ClaimedFolder folder;
     Method method;
+    std::string beside;  ///< (TestOrder)
     std::optional<SamplesWriter> samples{};
     std::size_t rows = 0, full_rows = 0;  ///< of the curves
     std::uint64_t bag_messages = 0;       ///< of the bag, once it is written
@@ -143,7 +144,7 @@ class RecorderNode {
     ClaimedFolder folder = ClaimedFolder::first_free(order.out);
     if (folder.path() != order.out) ROS_WARN("%s", moved_notice(order.out, folder.path()).c_str());
     begin_run_folder(folder.path(), order.method);
-    run_ = Run{std::move(folder), order.method};
+    run_ = Run{std::move(folder), order.method, order.beside};
     run_->samples.emplace(run_->folder.path());
   }
 
@@ -201,7 +202,7 @@ class RecorderNode {
   void make_files(const std::string& bag_name, const ResultsOptions& options) {
     Run& run = *run_;
     const std::string folder = run.folder.path();
-    run.bag_messages = write_run_bag(folder + "/" + bag_name, folder, run.method);
+    run.bag_messages = write_run_bag(folder + "/" + bag_name, folder, run.method, run.beside);
     const MadeResults made = make_results(folder, run.method, options);
     run.rows = made.rows;
     run.full_rows = made.full_rows;

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "knot_utm/program/loading_steps.hpp"
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/curve_bag.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/tying/tied_loop.hpp"
 
@@ -21,6 +23,7 @@ void write_readings(BagWriter& bag, const std::vector<CurveRow>& rows, double be
   Command command;
   Sample sample;
   ros::Time stamp;
+  const bool has_crosshead = has_travel(rows);
   for (const CurveRow& row : rows) {
     stamp = std::max(test_stamp(begin - rows.front().time, row.time), stamp + ros::Duration(0, 1));
     const double passed = row.time - command.time;
@@ -30,15 +33,16 @@ void write_readings(BagWriter& bag, const std::vector<CurveRow>& rows, double be
     command.phase = row.phase;
     command.read_cell = true;
     sample.load = row.load;
-    bag.write(crosshead, stamp, to_message(command, 1, stamp));
+    if (has_crosshead) bag.write(crosshead, stamp, to_message(command, 1, stamp));
     bag.write(load_cell, stamp, to_wrench(sample, stamp));
     ++command.sequence;
   }
 }
 
-RunBag::RunBag(const std::string& file, const Method& method)
+RunBag::RunBag(const std::string& file, const Method& method, std::string beside)
     : bag_(file),
       method_(method),
+      beside_(std::move(beside)),
       centreline_(specimen_centreline(method.specimen, method.material, method.machine, method.physics)),
       grips_(method.specimen, method.machine, centreline_, method.material),
       crosshead_(grips_.lower() + Vec3(0.0, 0.0, method.specimen.end_to_end)),
@@ -49,10 +53,17 @@ void RunBag::add(const Record& record) {
   const Command& command = record.command;
   const Sample& sample = record.answer;
   const ros::Time stamp = test_stamp(0.0, command.time);
-  const bool begins = command.phase == Phase::kFollow && command.step > command_.step;  // a move is in no program
-  const auto* follow = begins ? method_.program.at(static_cast<std::size_t>(command.step)).as<FollowStep>() : nullptr;
-  if (follow && std::filesystem::exists(follow->record))  // it may have been removed since the test
-    write_readings(bag_, read_course(follow->record), command_.time, "experiment/crosshead", "experiment/load_cell");
+  const auto left = static_cast<std::ptrdiff_t>(method_.program.size()) - command.step;
+  if (command.step > command_.step && left > 0) {  // a move is in no program
+    const auto step = method_.program.end() - left;
+    const auto pulling = [](const ProgramStep& other) { return pulls(other->phase()); };
+    const auto* follow = step->as<FollowStep>();
+    const bool is_last = pulling(*step) && std::none_of(step + 1, method_.program.end(), pulling);
+    const std::string file = follow ? follow->record : is_last ? beside_ : "";
+    if (std::filesystem::exists(file))  // it may have been removed since the test
+      write_readings(bag_, follow ? read_course(file) : read_record(file), command_.time, "experiment/crosshead",
+                     "experiment/load_cell");
+  }
   cell_readings_.add(record, [this](const Sample& reading) { add_reading(reading); });
   command_ = command;
   answer_ = sample;
@@ -139,9 +150,10 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   bag_.write(names::kMarkers, stamp, picture_.draw({record.shape, record.tension, {}, upper_grip, sample, stamp}));
 }
 
-std::uint64_t write_run_bag(const std::string& file, const std::string& folder, const Method& method) {
+std::uint64_t write_run_bag(const std::string& file, const std::string& folder, const Method& method,
+                            const std::string& beside) {
   SamplesReader samples(folder);
-  RunBag bag(file, method);
+  RunBag bag(file, method, beside);
   Record record;
   while (samples.next(record)) bag.add(record);
   bag.close(samples.end().value_or(TestEnd()));

@@ -185,7 +185,7 @@ std::string UtmNode::start(const StartTest::Request& request) {
     ProgramRunner program = make_program(method, longest_step);
     if (options_.record) require_no_record_in(setup.out, method);
     const std::string folder = options_.record ? free_folder(setup.out) : "";
-    if (!give_order(node_, {method, setup.out})) return "the ROS master does not answer";
+    if (!give_order(node_, {method, setup.out, setup.beside})) return "the ROS master does not answer";
     for (const std::string& line : setup.notices) ROS_INFO("%s", line.c_str());
     folder_ = folder;
     method_ = method;

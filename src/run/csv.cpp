@@ -197,6 +197,8 @@ std::vector<CurveRow> read_course(const std::string& file, const Tell& tell) {
   const auto pulled = [](const CurveRow& row) { return pulls(row.phase); };
   const auto first = std::find_if(rows.begin(), rows.end(), pulled);
   if (first == rows.end()) return {};
+  const std::string why = "there is no extension to follow: pull instead, and compare the test with ";
+  if (!has_travel(rows)) throw InvalidInput::sentence("extension", why + shown(file)).in_file(file);
   const auto begin = first == rows.begin() ? first : first - 1;
   if (begin != first && balanced_between(*begin, *first))
     begin->extension = begin->crosshead_travel = 0.0;  // zero is where it stood

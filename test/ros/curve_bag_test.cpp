@@ -54,6 +54,13 @@ TEST_F(CurveBag, GivesBackAMeasuredCurve) {
     EXPECT_EQ(back[i].phase, rows[i].phase);
     EXPECT_TRUE(std::isnan(back[i].knot_distance));
   }
+  for (CurveRow& row : rows) row.extension = Sample::kNone;  // of a load cell in a line
+  write_curve_bag(in("loads.bag"), rows);
+  const std::vector<CurveRow> loads = read_record(in("loads.bag"));
+  ASSERT_EQ(loads.size(), rows.size());
+  EXPECT_FALSE(has_travel(loads));
+  EXPECT_EQ(loads[5].load, rows[5].load);
+  EXPECT_NEAR(loads[5].time - loads[0].time, rows[5].time - rows[0].time, 1e-8);
   EXPECT_THROW(write_curve_bag(in("no/such/folder.bag"), rows), CannotWrite);
 }
 

@@ -108,6 +108,8 @@ TEST_F(Follow, ARecordWithTwoZerosOrATimeThatGoesBackIsRefused) {
   // Between two readings of the cell: L grows on, s begins anew.
   EXPECT_THAT(refusal(start + "2,0.001,1,nan,0.252,1,pull\n"),
               HasSubstr("record.csv: the test was balanced at reading 3"));
+  EXPECT_THAT(refusal("0,nan,0,nan,nan,nan,pull\n1,nan,1,nan,nan,nan,pull\n"),
+              HasSubstr("record.csv: there is no extension to follow: pull instead, and compare the test with "));
   EXPECT_EQ(refusal(start + "2,0.002,2,nan,0.252,2,pull\n3,0,0,nan,0.252,0,balance\n"), "") << "behind the last pull";
 }
 

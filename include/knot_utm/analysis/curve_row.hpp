@@ -36,6 +36,9 @@ CurveRow curve_row(const Sample& sample);
 /// Travel of the crosshead since balance [m].
 double travel_of(const CurveRow& row);
 
+/// False: loads over time alone, as the record of a load cell in a line.
+bool has_travel(const std::vector<CurveRow>& rows);
+
 /// Whether load and extension were zeroed between two rows. They were if L - s differs, since nothing else changes that
 /// difference. Raw data have no L; they count as having one zero throughout.
 bool balanced_between(const CurveRow& before, const CurveRow& after);

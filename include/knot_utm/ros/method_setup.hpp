@@ -20,10 +20,12 @@ namespace knot_utm {
 ///   test/overrides          'dotted.key=YAML', 'dotted.key=YAML'; applied after test/material and test/preload where
 ///                           keys have equally many parts
 ///   test/working_directory  folder from which relative paths begin; empty: the node's own
-///   test/data               record of an experiment, which is followed instead of the last pull; empty: none
+///   test/data               record of an experiment, which is followed instead of the last pull, or without travel is
+///                           beside it; empty: none
+///   test/bag                a record that is beside the test where there is no test/data; empty: none
 ///   test/out                folder of the files [out/NAME of the method]
 struct TestWords {
-  std::string method, shipped_methods, material, preload, working_directory, data, out;
+  std::string method, shipped_methods, material, preload, working_directory, data, bag, out;
   std::vector<std::string> overrides;
 };
 
@@ -32,6 +34,7 @@ struct MethodSetup {
   TestWords words;
   Method method;
   std::string out;                   ///< absolute path
+  std::string beside;                ///< a record for test.bag that is not followed; empty: none
   std::vector<std::string> notices;  ///< what was read of a record, as a user should see
 };
 
@@ -49,12 +52,12 @@ TestWords asked_for(TestWords launched, const StartTest::Request& request);
 /// Reads the setup from the parameters of the launch. Throws InvalidInput.
 MethodSetup read_test_setup(const ros::NodeHandle& node);
 
-/// What a test is, and the folder that was asked for, an absolute path. utm_node sets it as one parameter before the
-/// first command of each test, and the other nodes read it when that command arrives. All of them thus test by the same
-/// method, whatever has become of its files meanwhile.
+/// What a test is, the folder that was asked for, an absolute path, and the record beside it. utm_node sets it as one
+/// parameter before the first command of each test, and the other nodes read it when that command arrives. All of them
+/// thus test by the same method, whatever has become of its files meanwhile.
 struct TestOrder {
   Method method;
-  std::string out;
+  std::string out, beside;
 };
 bool give_order(const ros::NodeHandle& node, const TestOrder& order);  ///< false: the ROS master does not answer
 TestOrder given_order(const ros::NodeHandle& node);                    ///< throws InvalidInput where there is none

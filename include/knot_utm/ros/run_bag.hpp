@@ -100,12 +100,13 @@ void write_readings(BagWriter& bag, const std::vector<CurveRow>& rows, double be
 /// `rosbag play`, rviz and panel_node can show the bag while nothing else runs. For this it contains utm/method,
 /// knot/specimen, knot/colors, knot/bodies, robot_description and all frames, and at every reading knot/markers.
 /// utm/status and /diagnostics are included without what depends on wall time; the last ones say how the test ended. A
-/// record that is followed is on experiment/..., and begins where the crosshead follows it.
+/// record that is followed is on experiment/..., and begins where the crosshead follows it; one that is beside the
+/// test, where its last pull begins.
 class RunBag {
  public:
-  /// Throws InvalidInput where the specimen does not fit the machine. All functions throw std::runtime_error where the
-  /// file cannot be written.
-  RunBag(const std::string& file, const Method& method);
+  /// `beside`: a record (read_record) beside the test; empty: none. Throws InvalidInput where the specimen does not fit
+  /// the machine. All functions throw std::runtime_error where the file cannot be written.
+  RunBag(const std::string& file, const Method& method, std::string beside = "");
   void add(const Record& record);
   void close(const TestEnd& end = {});
 
@@ -120,6 +121,7 @@ class RunBag {
 
   BagWriter bag_;
   Method method_;
+  std::string beside_;
   Centreline centreline_;
   Grips grips_;
   Vec3 crosshead_;  ///< at the beginning of the test [m]
@@ -132,6 +134,7 @@ class RunBag {
 };
 
 /// Writes the bag of the test whose samples a folder has, and returns the number of its messages.
-std::uint64_t write_run_bag(const std::string& file, const std::string& folder, const Method& method);
+std::uint64_t write_run_bag(const std::string& file, const std::string& folder, const Method& method,
+                            const std::string& beside = "");
 
 }  // namespace knot_utm

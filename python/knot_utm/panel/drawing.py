@@ -1,5 +1,5 @@
-"""The picture of the panel: readings as a table, the force-extension curve, and the colour bar of the rod. Where large
-loads hide those of sliding, the curve is drawn once more with these alone."""
+"""The picture of the panel: readings as a table, the force-extension curve, or beside a record without travel the loads over time, and the
+colour bar of the rod. Where large loads hide those of sliding, the curve is drawn once more with these alone."""
 import math
 
 import numpy
@@ -7,9 +7,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-UNPULLED = 0.01, 1.0  # ends of the axes before anything is pulled [m, N]
+UNPULLED = 10.0, 1.0  # ends of the axes before anything is pulled [mm or s, N]
 WIDTH, HEIGHT, DPI = 430, 786, 100  # of the picture [px, px, px/in]
 BACKGROUND, FAINT, NAME, VALUE = '#26282e', '#4a4d55', '#a9adb7', '#f4f4f6'
+EXTENSION, TIME = 'extension [mm]', 'time since the pull began [s]'
 OURS, MEASURED = '#ffc531', '#59d5f2'
 NOT_KNOWN = 'grey: of a rod that has parted no tension is known'
 ROWS = 10  # of the table, at most
@@ -31,14 +32,14 @@ ALONE, UPPER, LOWER = ([0.165, low, 0.785, high] for low, high in ((0.235, 0.365
 
 
 class Chart:
-    """Loads over the extension, of this test and of those beside it."""
+    """Loads over the extension or the time, of this test and of those beside it."""
 
     def __init__(self, figure, name):
         self.axes = figure.add_axes(ALONE, facecolor=BACKGROUND)
         self.measured, = self.axes.plot([], [], color=MEASURED, linewidth=1.4, animated=True, zorder=2)
         self.curve, = self.axes.plot([], [], color=OURS, linewidth=1.8, animated=True, zorder=3)
         self.now, = self.axes.plot([], [], 'o', color=OURS, markersize=6, animated=True, zorder=4)
-        self.axes.set_xlabel('extension [mm]', color=NAME, fontsize=10)
+        self.axes.set_xlabel(EXTENSION, color=NAME, fontsize=10)
         self.axes.set_ylabel(name, color=NAME, fontsize=10)
         self.axes.yaxis.set_label_coords(-0.15, 0.5)
         self.axes.ticklabel_format(axis='y', scilimits=(-2, 5))
@@ -46,7 +47,8 @@ class Chart:
         self.axes.xaxis.set_major_locator(MaxNLocator(6))
         in_grey(self.axes)
 
-    def place(self, box, ticks, is_lowest):
+    def place(self, box, ticks, is_lowest, along):
+        self.axes.xaxis.label.set_text(along)
         self.axes.set_position(box)
         self.axes.yaxis.set_major_locator(MaxNLocator(ticks))
         self.axes.xaxis.label.set_visible(is_lowest)
@@ -54,7 +56,7 @@ class Chart:
 
     def draw(self, curve, measured):
         for line, points in ((self.measured, measured), (self.curve, curve), (self.now, curve[-1:])):
-            line.set_data(1e3 * points[:, 0], points[:, 1])
+            line.set_data(points.T)
             self.axes.draw_artist(line)
 
 
@@ -87,11 +89,12 @@ class Drawing:
 
     def draw(self, readings):
         """The picture as an array of bytes: height, width, red green blue."""
-        curve = numpy.array(readings.curve).reshape(-1, 2)
-        measured = numpy.array(readings.measured).reshape(-1, 2)
+        over_time = readings.over_time()
+        curve, measured = (numpy.array(points).reshape(-1, 2) * (1.0 if over_time else 1e3, 1.0)
+                           for points in over_time or (readings.curve, readings.measured))
         small = readings.small_load()
         self._draw_background(numpy.vstack([curve, measured]), None if small is None else limit(small), len(measured) > 0,
-                              (readings.bar, readings.colours_are_known()))
+                              TIME if over_time else EXTENSION, (readings.bar, readings.colours_are_known()))
         self.canvas.restore_region(self._background)
         self._fill_table(readings.table())
         self._all.draw(curve, measured)
@@ -107,22 +110,22 @@ class Drawing:
                 cell.set_text(text)
             cells[1].set_x(RIGHT if texts[2] else 0.95)
 
-    def _draw_background(self, points, small, beside, bar):
-        """small: where the axes of the small loads end [N]; None: there are none. beside: whether a measured
-        curve is drawn beside that of this test. bar: the colour bar, and whether the colours mean anything."""
+    def _draw_background(self, points, small, beside, along, bar):
+        """small: where the axes of the small loads end [N]; None: there are none. beside: whether a measured curve is drawn beside
+        that of this test. along: what the loads are drawn over. bar: the colour bar, and whether the colours mean anything."""
         points = points[~numpy.isnan(points).any(axis=1)]
         low, high = points.min(axis=0, initial=0.0), points.max(axis=0, initial=0.0)
         limits = [(-limit(-low[i]) if low[i] < -1e-3 * high[i] else 0.0, limit(high[i], UNPULLED[i]))
                   for i in (0, 1)]
-        keep = (limits, small, beside, bar)
+        keep = (limits, small, beside, along, bar)
         if keep == self._kept:
             return
         self._kept = keep
-        self._all.place(ALONE if small is None else UPPER, 7 if small is None else 4, small is None)
-        self._small.place(LOWER, 4, True)
+        self._all.place(ALONE if small is None else UPPER, 7 if small is None else 4, small is None, along)
+        self._small.place(LOWER, 4, True, along)
         self._small.axes.set_visible(small is not None)
         for chart in (self._all, self._small):
-            chart.axes.set_xlim(1e3 * limits[0][0], 1e3 * limits[0][1])
+            chart.axes.set_xlim(*limits[0])
         self._all.axes.set_ylim(*limits[1])
         if small is not None:
             self._small.axes.set_ylim(max(limits[1][0], -0.3 * small), small)

@@ -55,10 +55,12 @@ class Readings:
         self.parted = False
         self._shown = None  # the last state with the load that was read at its stamp
         self.curve = []  # extension and load at each reading of the load cell
+        self.loads = []  # time and load at each of them
         self._zero = None  # balance offset of the curve
         self._sliding = []  # loads while the knots slid
         self.measured = []  # the same of the experiment, as its topics have it
         self.measured_pairs = Pairs(self.measured.append)
+        self.measured_loads = []  # time and load
 
     def take_method(self, method):
         """method: the method of the test as a map."""
@@ -86,6 +88,16 @@ class Readings:
     def take_load(self, stamp, load):
         self._pairs.add(1, stamp, load)
 
+    def take_measured_load(self, stamp, load):
+        self.measured_loads.append((stamp, load))
+        self.measured_pairs.add(1, stamp, load)
+
+    def over_time(self):
+        """This test and a record without travel as loads over the time since each began to pull; None: it has travel, or there is none."""
+        if self.measured or not self.measured_loads:
+            return None
+        return [[(time - loads[0][0], load) for time, load in loads] for loads in (self.loads, self.measured_loads)]
+
     def _take_break(self, state):
         """The largest load of the command in which the rod parts is that of the break; it has none behind that."""
         if not self.parted:
@@ -101,11 +113,12 @@ class Readings:
         if state.phase in PREPARATION:
             return
         if state.balance_offset != self._zero:
-            self.curve, self._sliding = [], []
+            self.curve, self.loads, self._sliding = [], [], []
         self._zero = state.balance_offset
         if state.motion_pattern == 'sliding' and not state.locked:
             self._sliding.append(load)
         self.curve.append((state.extension, load))
+        self.loads.append((state.time, load))
 
     def small_load(self):
         """A load [N] up to which the loads are to be shown once more, because larger ones hide those of sliding; else

@@ -12,7 +12,7 @@ import unittest
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), '../../..'))
 
 from knot_utm import tool
-from knot_utm.panel.drawing import HEIGHT, WIDTH, Drawing
+from knot_utm.panel.drawing import EXTENSION, HEIGHT, TIME, WIDTH, Drawing
 from knot_utm.panel.readings import BROKEN, CROSSED, ENDED, FAILED, MOST_WAITING, PAUSED, PREPARATION, Readings
 
 
@@ -230,6 +230,17 @@ class DrawingTest(unittest.TestCase):
             readings.measured_pairs.add(0, stamp, 0.001 * stamp)
             readings.measured_pairs.add(1, stamp, 30.0)
         self.assertLessEqual({'simulated', 'measured', '30'}, set(self.texts(readings)))
+
+    def test_beside_a_record_without_travel_loads_are_over_time(self):
+        readings = pull(Readings(), [2.0, 10.0], begin=5.0)
+        readings.bar = color_bar()
+        for stamp in (20.0, 30.0):
+            readings.take_measured_load(stamp, 40.0)
+        self.assertEqual(readings.over_time(), [[(0.0, 2.0), (1.0 / 3.0, 10.0)], [(0.0, 40.0), (10.0, 40.0)]])
+        self.assertLessEqual({'simulated', 'measured', '40', '15.0', TIME}, set(self.texts(readings)))
+        readings.measured_pairs.add(0, 30.0, 0.02)
+        self.assertIsNone(readings.over_time())
+        self.assertIn(EXTENSION, self.texts(readings))
 
     def test_what_changes_is_drawn_anew_without_the_rest(self):
         readings = pull(Readings(), [0.0, 3.0, 5.0])

@@ -152,6 +152,7 @@ class ArgumentsTest(unittest.TestCase):
                 ('tighten', "overrides:='specimen.length=[1'", 'utm_node: overrides: '),
                 ('tighten', 'record:=perhaps', 'record is "perhaps", but must be true or false'),
                 ('tighten', 'network:=perhaps', 'network is "perhaps", but must be true or false'),
+                ('experiment', 'bag:=nowhere.bag', 'utm_node: .*nowhere.bag'),
                 ('experiment', 'data:=nowhere.csv', 'utm_node: .*nowhere.csv')):
             console = self.said(2, *CHECK, '--values', file + '.launch', '--', word)
             self.assertRegex(console, '^%s.*\n$' % said)
