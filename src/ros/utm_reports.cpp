@@ -12,6 +12,7 @@ namespace knot_utm {
 
 void UtmNode::publish_status() {
   status_published_ = Clock::now();
+  if (test_.waiting) measure_pace();  // also while knot_node stands still
   TestStatus status;
   status.header.stamp = now_;
   status.state = static_cast<std::uint8_t>(state_);
