@@ -4,19 +4,19 @@ import os
 import runs
 from runs import deviation, divide, mean, median, standard_error
 from table import Report, Table, is_
+from tighten import KNOT_DISTANCE, MATERIALS, SHIFT, SLIDES
 
-MATERIALS = ["nylon", "polypropylene", "pink_vps", "green_vps"]
-KNOT_DISTANCE, SHIFT = 0.15, 0.00037  # as shipped, and from one start to the next [m]
 READINGS = ["true_plateau_force", "lock_extension", "locked_stiffness", "true_peak_force"]
-ROUNDS = 3                            # of a test of which one start is as good as another
+ROUNDS = 3  # of a test of which one start is as good as another
 OTHERS = {"open overhand": "bench/open_overhand.yaml", "capstan": "config/capstan.yaml", "straight rod": "config/straight.yaml"}
 
 
 def report(runner, materials, seeds=8, before=None):
-    starts = [{"specimen.knot_distance": round(KNOT_DISTANCE + SHIFT * k, 9)} for k in range(seeds)]
-    todo = {material: (runs.METHOD, [{"material": material, **start} for start in starts], ()) for material in materials}
-    todo |= {f"{material}, plateau": (runs.METHOD, [{"material": material, **start} for start in starts], ("--readings", "plateau"))
-             for material in materials if "vps" not in material}
+    starts = {material: [{"material": material, "specimen.knot_distance": round(KNOT_DISTANCE + SHIFT * k, 9)} for k in range(seeds)]
+              for material in materials}
+    todo = {material: (runs.METHOD, each, ()) for material, each in starts.items()}
+    todo |= {f"{material}, plateau": (runs.METHOD, each, ("--readings", "plateau"))
+             for material, each in starts.items() if SLIDES.get(material, True)}
     todo |= {name: (method, [{}] * ROUNDS, ()) for name, method in OTHERS.items()}
     old = runs.Runner(runner.root, before, runner.core, os.path.join(runner.folder, "before"), runner.overrides)
     pairs = {name: [(old.run(f"{name}/{k}", start, method, more), runner.run(f"{name}/{k}", start, method, more))

@@ -184,6 +184,7 @@ struct TestingMachine::Impl {
   };
 
   const Boundary& boundary_at(const Command& command, double from, double to, const Start& start) {
+    if (tying) tying->prepare({from, displacement, grip});
     const double whole = command.time - start.time;
     const double fraction = whole > 0.0 ? std::min(1.0, (to - start.time) / whole) : 1.0;
     const double travel = mounts()     ? displacement + tying->mounting_velocity(command.speed) * (to - from)
@@ -411,11 +412,11 @@ struct TestingMachine::Impl {
             frame.follow(moved, grips.force_upper(*stepper) - tried.borne_before, held_length(to - dt, to));
           work += stepper->readings().work();
           const double apart = grips.end_to_end(grip);
-          judge_break(dt);  // before a loop that is set to its marks has edges that no step has solved
-          if (tying && !parted()) tying->follow(phase, {to, displacement, grip}, dt);
+          if (tying) tying->follow(phase, {to, displacement, grip}, dt);
           grips.follow_weights(weight_borne(to));
           if (free_ends) free_ends->follow(stepper->readings().contact().normal_force > 0.0);
           extension_zero += grips.end_to_end(grip) - apart;  // rod that slips through the upper grip is no extension
+          judge_break(dt);
           substeps.push_back(read(command, to));
           judge_stop(to, dt);
         });

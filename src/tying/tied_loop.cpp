@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "knot_utm/program/phases.hpp"
 #include "knot_utm/program/preparing_steps.hpp"
@@ -136,21 +137,28 @@ void TiedLoop::leave(Phase phase, const Place& now) {
   if (rig_.guides() && phase != Phase::kMount) rig_.take_guides_off(stepper_, now.time);
 }
 
+/// Edges are laid longer or shorter just before the step that solves them: whatever is read between two steps, and the
+/// judgement of a break, is of a rod that has been solved.
+void TiedLoop::prepare(const Place& now) {
+  if (unlaid_ == 0.0) return;
+  const double dt = std::exchange(unlaid_, 0.0), left = set_end_ - now.time;
+  const double part = left > kEndOfSetting ? dt / (left + dt) : 1.0;
+  const TyingRig::Laid laid =
+      rig_.longer(part * apart_, part * (2.0 * further_ - apart_), stepper_.rod(), stepper_.state());
+  stepper_.lay(laid.rest_length, laid.position);
+  apart_ -= part * apart_;
+  further_ -= part * further_;
+  if (part == 1.0) set_end_ = 0.0;
+  if (rig_.guides()) follow_mounting(now, false);
+}
+
 void TiedLoop::follow(Phase phase, const Place& now, double dt) {
   const bool puts_on = rig_.puts_on();
   rig_.follow(stepper_, now.time, dt);
-  if (setting()) {
-    const double left = set_end_ - now.time, part = left > kEndOfSetting ? dt / (left + dt) : 1.0;
-    const TyingRig::Laid laid =
-        rig_.longer(part * apart_, part * (2.0 * further_ - apart_), stepper_.rod(), stepper_.state());
-    stepper_.lay(laid.rest_length, laid.position);
-    apart_ -= part * apart_;
-    further_ -= part * further_;
-    if (part == 1.0) set_end_ = 0.0;
-  }
+  if (setting()) unlaid_ = dt;
   // From here on weight, if there is any, would make the slack loop turn around the rollers.
   if (puts_on && rig_.guides()) grips_.hold_far_side(stepper_.state().position, now.grip);
-  if (phase == Phase::kMount && rig_.guides()) follow_mounting(now, puts_on);
+  if (phase == Phase::kMount && rig_.guides() && unlaid_ == 0.0) follow_mounting(now, puts_on);
   if (farthest_ > 0.0 || (moves(phase) && phase != Phase::kMount)) solve_whole_once_they_slide();
   touch_.follow(stepper_);
 }
@@ -223,8 +231,8 @@ void TiedLoop::read(Sample& sample) const {
 
 void TiedLoop::state(Archive& archive) {
   archive.section("LOOP");
-  archive(rig_, touch_, slack_, set_end_, set_speed_, apart_, further_, speed_, tied_distance_, sets_, farthest_,
-          at_marks_);
+  archive(rig_, touch_, slack_, set_end_, set_speed_, apart_, further_, unlaid_, speed_, tied_distance_, sets_,
+          farthest_, at_marks_);
 }
 
 double marks_of(const SpecimenOptions& specimen, const Program& program) {

@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "run/command.hpp"
 #include "run/own_folder.hpp"
@@ -52,16 +56,29 @@ TEST_F(Mounting, SetsTheKnotsToTheirMarks) {
   EXPECT_TRUE(result["opened_when_mounted"].IsNull());
 }
 
-/// Edges are set longer before a step has brought them to rest: this rod parted between two steps, at 15.6 kN.
-TEST_F(Mounting, PartsNoRodThatIsSetToItsMarks) {
+/// Edges are laid longer, and the step that follows brings them to rest. Between these two this rod parted, and its
+/// tension was read as 1,463 N where it bears 0.2 N.
+TEST_F(Mounting, ReadsAndPartsNoEdgesThatAreLaidButNotSolved) {
   const Answer answer = answer_of(
-      tool("tensile_test", "tighten --quiet --out '" + folder() +
+      tool("tensile_test", "tighten --quiet --shapes --out '" + folder() +
                                "' --set physics.accuracy=draft --set specimen.preload=20 --set specimen.tail=0.038 "
                                "--set material.friction_coefficient=0.15 "
-                               "--set 'program=[{tie: {}}, {release: {duration: 3}}, {mount: {}}, {balance: {}}, "
-                               "{pull: {until: {extension: 0.001}}}]'"));
+                               "--set 'program=[{tie: {}}, {release: {duration: 3}}, {mount: {}}]'"));
   EXPECT_EQ(answer.code, 0) << answer.text;
-  EXPECT_LT(YAML::LoadFile(in("result.yaml"))["true_peak_force"].as<double>(), 0.2);
+  std::istringstream curve(read_whole(in("curve.csv"))), shapes(read_whole(in("shapes.csv")));
+  std::string line;
+  double mounted = 0.0;
+  while (mounted == 0.0 && std::getline(curve, line))
+    if (line.find(",mount") != std::string::npos) mounted = std::stod(line);
+  int seen = 0;
+  while (std::getline(shapes, line)) {
+    double time = 0.0, tension = 0.0;
+    if (std::sscanf(line.c_str(), "%lf,%*d,%*f,%*f,%*f,%lf", &time, &tension) < 2 || time <= mounted) continue;
+    if (std::isnan(tension)) continue;  // no edge begins at the last node
+    EXPECT_LT(std::abs(tension), 0.5) << "at " << time << " s";
+    ++seen;
+  }
+  EXPECT_GT(seen, 1000);
 }
 
 /// Coils of 3.5 radii reach into the strands that would become longer. The rod parted as it was mounted, at 6.7 kN.

@@ -61,6 +61,7 @@ class TiedLoop final : public Tying {
            TimeStep& stepper, Grips& grips);
 
   void enter(const Command& command, const Place& now) override;
+  void prepare(const Place& now) override;
   void follow(Phase phase, const Place& now, double dt) override;
   void leave(Phase phase, const Place& now) override;
   void hold(Boundary& boundary, double from, double to) const override;
@@ -97,11 +98,12 @@ class TiedLoop final : public Tying {
   double set_end_ = 0.0;                // time at which the present setting to the marks ends; 0: there is none [s]
   double set_speed_ = 0.0;              // of the crosshead until then [m/s]
   double apart_ = 0.0, further_ = 0.0;  // growth of e and L that is left until then [m]
-  double speed_ = 0.0;                  // of the step that mounts [m/s]
-  double tied_distance_ = 0.0;          // e as the loop is put on [m]
-  int sets_ = 0;                        // number of settings so far
-  double farthest_ = 0.0;               // the largest e since the pull began; 0: it has not [m]
-  bool at_marks_ = false;               // the loop is taut, and e and L are as near to the marks as they come
+  double unlaid_ = 0.0;         // length of the last step, whose part of the setting is not laid yet; 0: none [s]
+  double speed_ = 0.0;          // of the step that mounts [m/s]
+  double tied_distance_ = 0.0;  // e as the loop is put on [m]
+  int sets_ = 0;                // number of settings so far
+  double farthest_ = 0.0;       // the largest e since the pull began; 0: it has not [m]
+  bool at_marks_ = false;       // the loop is taut, and e and L are as near to the marks as they come
   TyingRig rig_;
   KnotTouch touch_;
   TakeUpSlack slack_;

@@ -32,6 +32,8 @@ class Tying {
 
   /// To be called before the first command of a step of the program.
   virtual void enter(const Command& command, const Place& now) = 0;
+  /// To be called before a time step, also before one that is tried again: makes the changes that it is to solve.
+  virtual void prepare(const Place& /*now*/) {}
   /// To be called after an accepted time step of length `dt` [s].
   virtual void follow(Phase phase, const Place& now, double dt) = 0;
   /// To be called after a command: lets go of what the program no longer holds.
